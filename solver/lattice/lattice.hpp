@@ -1,0 +1,86 @@
+#pragma once
+/// Geometry as rows: every body is a set of cells of a regular grid, kept as rows of fixed (y, z) (design.md section 4).
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace dss {
+
+/// One row of a body: the cells x_begin <= x < x_end at fixed (y, z), some of which may be empty.
+struct Row {
+  int body = 0;
+  int y = 0, z = 0;
+  int x_begin = 0, x_end = 0;      ///< first present cell, one past the last present cell
+  std::size_t first_element = 0;   ///< global number of the first present cell of the row
+  std::size_t first_cell = 0;      ///< place of cell x_begin in Lattice::present
+  int lower_y = -1, upper_y = -1;  ///< row at y - 1, y + 1 of the same body and z, or -1
+  int lower_z = -1, upper_z = -1;  ///< row at z - 1, z + 1 of the same body and y, or -1
+};
+
+/// All bodies' rows, body by body, in each body by z, then y. Rows without a present cell do not exist.
+/// Elements are the present cells, numbered in the order of rows, x fastest.
+struct Lattice {
+  std::vector<Row> rows;
+  std::vector<std::uint8_t> present; ///< 1 for each present cell, 0 for each hole between x_begin and x_end, row after row
+  std::size_t element_count = 0;
+
+  bool is_present(const Row& row, int x) const {
+    return x >= row.x_begin && x < row.x_end && present[row.first_cell + std::size_t(x - row.x_begin)] != 0;
+  }
+  /// Largest distance in rows of two linked elements (0 when no links leave a row); the depth of a one-stage halo.
+  int row_reach() const;
+  /// Number of face-to-face links inside the bodies (extra links not counted).
+  std::size_t link_count() const;
+  /// Calls visit(i, j, axis) for every link between element i and its neighbour j across the +axis face of i.
+  template <class Visit>
+  void for_each_link(Visit&& visit) const;
+  /// Calls visit(element, row, x) for every element in order.
+  template <class Visit>
+  void for_each_element(Visit&& visit) const;
+};
+
+/// Dense occupancy of one body: nx * ny * nz flags, x fastest, then y, then z.
+struct VoxelGrid {
+  int nx = 0, ny = 0, nz = 0;
+  std::vector<std::uint8_t> occupied;
+};
+
+/// Appends the body's rows and elements to the lattice; `body` is its number.
+void append_body(Lattice& lattice, const VoxelGrid& grid, int body);
+
+template <class Visit>
+void Lattice::for_each_element(Visit&& visit) const {
+  for (const Row& row : rows) {
+    std::size_t element = row.first_element;
+    for (int x = row.x_begin; x < row.x_end; ++x)
+      if (is_present(row, x)) visit(element++, row, x);
+  }
+}
+
+template <class Visit>
+void Lattice::for_each_link(Visit&& visit) const {
+  const auto across = [&](const Row& row, int upper, int axis) {
+    if (upper < 0) return;
+    const Row& other = rows[std::size_t(upper)];
+    std::size_t i = row.first_element, j = other.first_element;
+    for (int x = other.x_begin; x < row.x_begin; ++x) j += is_present(other, x);
+    for (int x = row.x_begin; x < row.x_end; ++x) {
+      const bool here = is_present(row, x), there = is_present(other, x);
+      if (here && there) visit(i, j, axis);
+      i += here;
+      j += there;
+    }
+  };
+  for (const Row& row : rows) {
+    std::size_t i = row.first_element;
+    for (int x = row.x_begin; x < row.x_end; ++x) {
+      if (!is_present(row, x)) continue;
+      if (is_present(row, x + 1)) visit(i, i + 1, 0);
+      ++i;
+    }
+    across(row, row.upper_y, 1);
+    across(row, row.upper_z, 2);
+  }
+}
+
+} // namespace dss

@@ -1,0 +1,62 @@
+#pragma once
+/// The whole interface between the program and an execution target. A variant is one MODULE library that exports dss_plugin().
+#include "solver/model/model.hpp"
+#include "solver/model/problem.hpp"
+#include "solver/numerics/method.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace dss {
+
+/// What to compute and how. `problem` and `method` outlive the executor.
+struct Setup {
+  const Problem& problem;
+  const Method& method;
+  Model model = Model::spatial;
+  Precision precision = Precision::f64;
+  double dt = 0;
+  int threads = 1;
+};
+
+/// Result of advance(): finite, or where the state first was not.
+struct Outcome {
+  bool is_finite = true;
+  long step = 0;           ///< steps completed in this call; the failing step (counted from 0) when not finite
+  std::size_t element = 0; ///< first element that is not finite
+};
+
+/// One scene on one target. Fields are as in solver/model/fields.hpp, whatever the model and the precision inside.
+class Executor {
+public:
+  virtual ~Executor() = default;
+  /// Sets or gets the fields of elements [first, first + fields.size() / 13); a write restarts the method.
+  virtual void write(std::size_t first, std::span<const double> fields) = 0;
+  virtual void read(std::size_t first, std::span<double> fields) = 0;
+  /// Time derivative of all fields of all elements at the present state. `signals`: one row, see solver/numerics/signal_rows.hpp.
+  virtual void derivative(std::span<const double> signals, std::span<double> rates) = 0;
+  /// Advances by `steps` steps; stops at the first step that leaves a non-finite state.
+  /// `signals`: steps * method.stages + 1 rows, see solver/numerics/signal_rows.hpp.
+  virtual Outcome advance(long steps, std::span<const double> signals) = 0;
+  /// One line for the record: "wavefront, reach 1" or "stage by stage: extra links".
+  virtual std::string schedule() const = 0;
+  /// Bytes held for state, halos, rings and masks.
+  virtual std::size_t bytes() const = 0;
+};
+
+struct Plugin {
+  int abi;
+  const char* name;
+  const char* isa;   ///< of the code that runs, reported by that code: "avx512", "avx2", "x86-64-v2", ...
+  bool has_fma;      ///< results are bitwise equal to every other variant that says so
+  bool is_threaded;
+  std::unique_ptr<Executor> (*create)(const Setup& setup);
+};
+
+constexpr int plugin_abi = 1;
+using PluginEntry = const Plugin* (*)();
+constexpr const char* plugin_symbol = "dss_plugin";
+
+} // namespace dss
