@@ -18,7 +18,7 @@ enum class LinkLaw { paper, material };
 
 /// Constants of a link across the faces normal to one body axis.
 /// Rotational constants are about the body's x, y, z axes: for a link along x, k_rot[0] is the twist, the others bend.
-/// The paper's law is isotropic: k_normal == k_shear, d_normal == d_shear, all k_rot equal, all d_rot equal.
+/// The paper's law is isotropic: k_normal == k_shear > 0, d_normal == d_shear, all k_rot equal, all d_rot equal, and the same on all axes.
 struct AxisConstants {
   double k_normal = 0, k_shear = 0; ///< [N/m]
   double d_normal = 0, d_shear = 0; ///< [N s/m]

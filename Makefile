@@ -1,0 +1,31 @@
+# Clone, then `make reproduce` or `make test`: each installs what is missing, configures, builds and runs.
+PRESET ?= release
+BUILD := build/$(PRESET)
+SCALE ?= host
+OUT ?= results
+
+.PHONY: all build test reproduce bench clean dependencies
+
+all: build
+
+dependencies:
+	@./cmake/install_packages.sh
+
+build: dependencies
+	@cmake --preset $(PRESET) >$(PRESET).configure.log 2>&1 || { cat $(PRESET).configure.log; exit 1; }
+	@rm -f $(PRESET).configure.log
+	@cmake --build --preset $(PRESET)
+
+test: build
+	@ctest --preset $(PRESET)
+
+reproduce: build
+	@$(BUILD)/dssbench verify
+	@for study in table1_host table3_cpu; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
+	@/usr/bin/python3 plots/make_plots.py --results $(OUT) --program $(BUILD)/dssbench
+
+bench: build
+	@$(BUILD)/kernel_benchmark
+
+clean:
+	@rm -rf build

@@ -1,0 +1,21 @@
+#!/bin/sh
+# Installs the Debian packages that dssbench needs and this machine lacks; without the right to, prints the one line to run.
+set -eu
+packages="g++ cmake ninja-build pkg-config binutils libeigen3-dev libxsimd-dev libcli11-dev libfmt-dev nlohmann-json3-dev libmuparser-dev
+libgtest-dev libbenchmark-dev ocl-icd-opencl-dev pocl-opencl-icd python3-matplotlib python3-pandas python3-jsonschema ${DSS_EXTRA_PACKAGES:-}"
+missing=""
+for package in $packages; do
+  dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+if [ "$(id -u)" = 0 ]; then
+  as_root=""
+elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+  as_root="sudo"
+else
+  echo "dssbench needs these packages; run, then try again:  sudo apt-get install -y --no-install-recommends$missing" >&2
+  exit 1
+fi
+echo "installing:$missing"
+$as_root apt-get update -qq
+DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null

@@ -1,0 +1,119 @@
+#include "experiments/runner/child.hpp"
+#include "solver/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace dss {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Two pipes and the actions that make them a child's standard output and error.
+class Pipes {
+public:
+  Pipes() {
+    if (::pipe2(output_.data(), O_CLOEXEC) != 0 || ::pipe2(error_.data(), O_CLOEXEC) != 0)
+      throw InputError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
+  }
+  Pipes(const Pipes&) = delete;
+  Pipes& operator=(const Pipes&) = delete;
+  ~Pipes() {
+    for (const int end : {output_[0], output_[1], error_[0], error_[1]})
+      if (end >= 0) ::close(end);
+  }
+  void close_writing_ends() {
+    ::close(output_[1]);
+    ::close(error_[1]);
+    output_[1] = error_[1] = -1;
+  }
+  std::array<int, 2> output_{-1, -1}, error_{-1, -1};
+};
+
+pid_t spawn(const std::string& program, const std::vector<std::string>& arguments, const Pipes& pipes) {
+  std::vector<char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, pipes.output_[1], 1);
+  posix_spawn_file_actions_adddup2(&actions, pipes.error_[1], 2);
+  pid_t pid = -1;
+  const int failed = ::posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) throw InputError(fmt::format("{}: cannot start: {}", program, std::strerror(failed)));
+  return pid;
+}
+
+/// Reads both pipes to their ends or to the deadline; true at the ends.
+bool drain(const Pipes& pipes, Clock::time_point start, double limit_s, ChildResult& result) {
+  std::array<pollfd, 2> ends = {{{pipes.output_[0], POLLIN, 0}, {pipes.error_[0], POLLIN, 0}}};
+  const std::array<std::string*, 2> texts = {&result.output, &result.error};
+  while (ends[0].fd >= 0 || ends[1].fd >= 0) {
+    const double left_s = limit_s - seconds_since(start);
+    if (left_s <= 0) return false;
+    if (::poll(ends.data(), ends.size(), int(std::min(left_s * 1000 + 1, 1e9))) < 0 && errno != EINTR) return false;
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+      if (ends[e].fd < 0 || ends[e].revents == 0) continue;
+      char bytes[65536];
+      const ssize_t count = ::read(ends[e].fd, bytes, sizeof bytes);
+      if (count > 0) texts[e]->append(bytes, std::size_t(count));
+      else if (count == 0 || errno != EINTR) ends[e].fd = -1; // poll skips negative descriptors
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+std::string ChildResult::failure(double time_limit_s) const {
+  if (timed_out) return fmt::format("time limit of {:g} s", time_limit_s);
+  if (signal != 0) return fmt::format("signal {} ({})", signal, ::strsignal(signal));
+  if (exit_code == 0) return {};
+  const std::string line = error.substr(0, error.find('\n'));
+  return line.empty() ? fmt::format("exit code {}", exit_code) : fmt::format("exit code {}: {}", exit_code, line);
+}
+
+ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments, double time_limit_s) {
+  ChildResult result;
+  const Clock::time_point start = Clock::now();
+  Pipes pipes;
+  const pid_t pid = spawn(program, arguments, pipes);
+  pipes.close_writing_ends();
+  result.timed_out = !drain(pipes, start, time_limit_s, result);
+  int status = 0;
+  if (!result.timed_out) { // a child may close its outputs and go on: the limit holds for its whole life
+    while (::waitpid(pid, &status, WNOHANG) == 0) {
+      if (seconds_since(start) > time_limit_s) {
+        result.timed_out = true;
+        break;
+      }
+      ::usleep(500);
+    }
+  }
+  if (result.timed_out) {
+    ::kill(pid, SIGKILL);
+    while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {}
+  }
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status) && !result.timed_out) result.signal = WTERMSIG(status);
+  result.wall_s = seconds_since(start);
+  return result;
+}
+
+} // namespace dss

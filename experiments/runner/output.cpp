@@ -1,0 +1,26 @@
+#include "experiments/runner/output.hpp"
+#include "solver/model/stress.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace dss {
+
+void write_state(const std::string& path, const Problem& problem, const std::vector<double>& state) {
+  write_state_csv(path, problem, state, element_stress(problem, state));
+}
+
+void FrameSeries::add(const Problem& problem, const std::vector<double>& state, double time) {
+  if (output_.empty()) return;
+  std::filesystem::path path(output_);
+  if (is_series_) path.replace_filename(fmt::format("{}_{:04}.vtu", path.stem().string(), frames_.size()));
+  write_vtu(path.string(), problem, state, element_stress(problem, state));
+  frames_.push_back({path.filename().string(), time});
+}
+
+void FrameSeries::finish() const {
+  if (!is_series_) return;
+  write_pvd(std::filesystem::path(output_).replace_extension(".pvd").string(), frames_);
+}
+
+} // namespace dss

@@ -1,0 +1,205 @@
+#include "experiments/runner/run.hpp"
+#include "experiments/runner/context.hpp"
+#include "experiments/runner/output.hpp"
+#include "experiments/runner/run_plan.hpp"
+#include "experiments/runner/state_access.hpp"
+#include "solver/model/energy.hpp"
+#include "solver/numerics/signal_rows.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+constexpr long batch_steps = 256;                     ///< signals are made for so many steps at once
+constexpr std::size_t energy_elements = 2'000'000;    ///< a second copy of a larger state would count in the memory
+
+/// Advances an executor by pieces between the steps at which somebody looks, and times nothing but advance().
+class TimedRun {
+public:
+  TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result)
+      : plan_(plan), problem_(plan.scene.problem), result_(result),
+        executor_(plan.plugin->create({problem_, *plan.method, plan.model, plan.precision, plan.dt, request.threads})),
+        series_(request.output, plan.frame_steps.size() > 1) {}
+
+  void run(long warmup_steps) {
+    result_.schedule = executor_->schedule();
+    result_.bytes = executor_->bytes();
+    if (warmup_steps > 0) {
+      RunResult discarded;
+      write_initial_state(*executor_, problem_);
+      advance_to(0, warmup_steps, discarded);
+    }
+    write_initial_state(*executor_, problem_);
+    long step = 0;
+    look(step);
+    for (const long stop : stops()) {
+      if (!advance_to(step, stop, result_)) return;
+      step = stop;
+      look(step);
+    }
+    series_.finish();
+  }
+
+  Executor& executor() { return *executor_; }
+
+private:
+  /// Steps at which the run pauses, ascending, the last step among them.
+  std::vector<long> stops() const {
+    std::vector<long> steps = plan_.frame_steps;
+    if (plan_.expected) steps.push_back(plan_.expected->steps);
+    if (has_tail()) steps.push_back(tail_start());
+    steps.push_back(plan_.steps);
+    std::sort(steps.begin(), steps.end());
+    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    std::erase(steps, 0);
+    return steps;
+  }
+
+  /// A leapfrog cannot start anew from a state without its half-step velocities, so only Runge-Kutta runs have their ends checked.
+  bool has_tail() const {
+    return plan_.expected && plan_.expected->steps < plan_.steps && plan_.method->family == Method::Family::runge_kutta;
+  }
+  long tail_start() const { return std::max(plan_.expected->steps, plan_.steps - tail_steps); }
+
+  bool advance_to(long step, long stop, RunResult& result) {
+    const Usage before = usage_now();
+    bool is_finite = true;
+    while (step < stop && is_finite) {
+      const long count = std::min(batch_steps, stop - step);
+      const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
+      const auto start = std::chrono::steady_clock::now();
+      const Outcome outcome = executor_->advance(count, signals);
+      result.wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      is_finite = outcome.is_finite;
+      if (!is_finite) report_breakdown(step + outcome.step, outcome.element, result);
+      step += count;
+    }
+    result.usage += usage_now() - before;
+    return is_finite;
+  }
+
+  void report_breakdown(long step, std::size_t element, RunResult& result) const {
+    result.status = "unstable";
+    result.reason = fmt::format("{}: the state is not finite at step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s", problem_.name,
+                                step, double(step + 1) * plan_.dt, element, std::min(plan_.stability_limit, 0.5 * plan_.dt));
+  }
+
+  void look(long step) {
+    const std::size_t count = problem_.lattice.element_count;
+    if (plan_.expected && step == plan_.expected->steps) {
+      CheckResult& check = result_.check;
+      check.is_done = true;
+      check.how = fmt::format("oracle after {} steps", step);
+      check.tolerance = plan_.tolerance().run;
+      check.error = state_error(problem_, plan_.expected->state, whole_state(*executor_, count));
+    }
+    if (has_tail() && step == tail_start()) tail_state_ = whole_state(*executor_, count);
+    if (has_tail() && step == plan_.steps) check_tail();
+    if (std::binary_search(plan_.frame_steps.begin(), plan_.frame_steps.end(), step))
+      series_.add(problem_, whole_state(*executor_, count), double(step) * plan_.dt);
+  }
+
+  void check_tail() {
+    const long steps = plan_.steps - tail_start();
+    const auto expected = continue_by_oracle(problem_, *plan_.method, plan_.dt, tail_start(), steps, tail_state_);
+    result_.check.tail_error = state_error(problem_, expected, whole_state(*executor_, problem_.lattice.element_count));
+    result_.check.how += fmt::format(", and over the last {}", steps);
+  }
+
+  const RunPlan& plan_;
+  const Problem& problem_;
+  RunResult& result_;
+  std::unique_ptr<Executor> executor_;
+  FrameSeries series_;
+  std::vector<double> tail_state_;
+};
+
+RunResult described(const RunPlan& plan, const RunRequest& request) {
+  RunResult result;
+  result.scene = plan.scene.name;
+  result.variant = plan.plugin->name;
+  result.isa = plan.plugin->isa;
+  result.model = name(plan.model);
+  result.precision = name(plan.precision);
+  result.integrator = plan.method->name;
+  result.threads = request.threads;
+  result.elements = plan.scene.problem.lattice.element_count;
+  result.links = plan.scene.problem.link_count();
+  result.steps = plan.steps;
+  result.warmup_steps = request.warmup_steps;
+  result.dt_s = plan.dt;
+  result.stability_limit_s = plan.stability_limit;
+  return result;
+}
+
+void judge(const CheckResult& check, RunResult& result) {
+  if (!check.is_done || check.is_passed()) return;
+  result.status = "wrong";
+  result.reason = check.tail_error && !(*check.tail_error <= check.tolerance)
+                      ? fmt::format("error {:.3g} over the last steps exceeds the tolerance {:.3g}", *check.tail_error, check.tolerance)
+                      : fmt::format("error {:.3g} ({}) exceeds the tolerance {:.3g}", check.error, check.how, check.tolerance);
+}
+
+} // namespace
+
+RunResult run_scene(const RunRequest& request) {
+  const RunPlan plan = plan_run(request);
+  const Problem& problem = plan.scene.problem;
+  const std::size_t count = problem.lattice.element_count;
+  flush_denormals();
+  RunResult result = described(plan, request);
+  TimedRun timed(plan, request, result);
+  timed.run(request.warmup_steps);
+  if (result.status != "ok") return result;
+  result.max_displacement_m = max_displacement(timed.executor(), count);
+  result.digest = state_digest(timed.executor(), count, plan.precision);
+  if (count <= energy_elements) result.energy_j = total_energy(problem, whole_state(timed.executor(), count));
+  if (!request.state_csv.empty()) write_state(request.state_csv, problem, whole_state(timed.executor(), count));
+  judge(result.check, result);
+  return result;
+}
+
+nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result) {
+  nlohmann::ordered_json json;
+  json["context"] = measurement_context();
+  json["scene"] = result.scene;
+  json["set"] = nlohmann::ordered_json::object();
+  for (const Override& item : request.overrides) json["set"][item.key] = item.value;
+  json["variant"] = result.variant;
+  json["isa"] = result.isa;
+  json["model"] = result.model;
+  json["precision"] = result.precision;
+  json["integrator"] = result.integrator;
+  json["threads"] = result.threads;
+  json["ranks"] = request.ranks;
+  json["elements"] = result.elements;
+  json["links"] = result.links;
+  json["steps"] = result.steps;
+  json["warmup_steps"] = result.warmup_steps;
+  json["dt_s"] = result.dt_s;
+  json["stability_limit_s"] = result.stability_limit_s;
+  json["wall_s"] = result.wall_s;
+  json["cpu_s"] = result.usage.cpu_s;
+  json["wait_s"] = result.usage.wait_s;
+  json["involuntary_switches"] = result.usage.involuntary_switches;
+  json["is_contaminated"] = is_contaminated(result.usage, result.wall_s, result.threads);
+  json["element_steps_per_s"] = result.element_steps_per_s();
+  json["energy_j"] = result.energy_j ? nlohmann::ordered_json(*result.energy_j) : nullptr;
+  json["max_displacement_m"] = result.max_displacement_m;
+  json["state_digest"] = fmt::format("{:016x}", result.digest);
+  json["schedule"] = result.schedule;
+  json["bytes"] = result.bytes;
+  json["check"] = result.check.is_done ? (result.check.is_passed() ? "passed" : "failed") : "none";
+  json["check_how"] = result.check.how;
+  json["check_tolerance"] = result.check.is_done ? nlohmann::ordered_json(result.check.tolerance) : nullptr;
+  json["check_error"] = result.check.is_done ? nlohmann::ordered_json(result.check.error) : nullptr;
+  json["check_tail_error"] = result.check.tail_error ? nlohmann::ordered_json(*result.check.tail_error) : nullptr;
+  json["status"] = result.status;
+  json["reason"] = result.reason;
+  return json;
+}
+
+} // namespace dss

@@ -1,0 +1,100 @@
+#include "experiments/runner/run_plan.hpp"
+#include "experiments/runner/nearest.hpp"
+#include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+#include "solver/numerics/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+Model chosen_model(const std::string& name) {
+  if (const auto model = find_model(name)) return *model;
+  throw InputError(fmt::format("--model {}: unknown model; {}", name, suggestion(name, {"spatial", "planar"})));
+}
+
+Precision chosen_precision(const std::string& name) {
+  if (const auto precision = find_precision(name)) return *precision;
+  throw InputError(fmt::format("--precision {}: unknown precision; {}", name, suggestion(name, {"f64", "f32"})));
+}
+
+void require_sensible(const RunRequest& request, const RunPlan& plan) {
+  const auto refuse = [](const std::string& what) { throw InputError(what); };
+  if (request.threads < 1 || request.threads > 1024) refuse(fmt::format("--threads {}: give 1 to 1024", request.threads));
+  if (request.threads > 1 && !plan.plugin->is_threaded)
+    refuse(fmt::format("--threads {}: variant \"{}\" runs on one thread; give --threads 1", request.threads, plan.plugin->name));
+  if (request.ranks != 1)
+    refuse(fmt::format("--ranks {}: no variant of this build has ranks; give --ranks 1", request.ranks));
+  if (!(plan.dt > 0) || !std::isfinite(plan.dt)) refuse(fmt::format("--dt {:g}: the step must be positive [s]", plan.dt));
+  if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));
+  if (request.warmup_steps < 0) refuse(fmt::format("--warmup {}: give 0 or more", request.warmup_steps));
+  if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
+  if (request.frames > 0 && request.output.empty()) refuse("--frames: needs --output F.vtu, which names the series");
+  if (!request.output.empty() && !request.output.ends_with(".vtu"))
+    refuse(fmt::format("--output {}: give a name that ends in .vtu", request.output));
+}
+
+void require_outputs_writable(const RunRequest& request) {
+  for (const std::string& path : {request.output, request.state_csv, request.json == "-" ? std::string() : request.json})
+    if (!path.empty()) require_writable(path);
+}
+
+OracleState expected_state(const RunRequest& request, const RunPlan& plan) {
+  OracleState expected = read_oracle_state(request.check_state);
+  if (request.check_step != 0 && request.check_step != expected.steps)
+    throw InputError(fmt::format("--check-step {}: {} has the state at step {}", request.check_step, request.check_state, expected.steps));
+  if (expected.state.size() != plan.scene.problem.lattice.element_count * field_count)
+    throw InputError(fmt::format("--check-state {}: has {} elements, the scene {}", request.check_state,
+                                 expected.state.size() / field_count, plan.scene.problem.lattice.element_count));
+  if (expected.steps < 1 || expected.steps > plan.steps)
+    throw InputError(fmt::format("--check-step {}: the run has {} steps; give 1 to that", expected.steps, plan.steps));
+  return expected;
+}
+
+} // namespace
+
+const Method& require_method(const std::string& name) {
+  if (const Method* method = find_method(name)) return *method;
+  std::vector<std::string> known;
+  for (const Method& method : methods()) known.emplace_back(method.name);
+  throw InputError(fmt::format("--integrator {}: unknown integrator; {}", name, suggestion(name, known)));
+}
+
+double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced) {
+  StabilityLimit limit = stable_step(problem, method);
+  if (dt > limit.dt && problem.lattice.element_count <= sharp_stability_elements) limit = stable_step(problem, method, true);
+  if (dt > limit.dt && !is_forced)
+    throw UnstableError(fmt::format("{}: dt = {:.6g} s is above the stability limit {:.6g} s of {} here ({}); take a smaller --dt, or "
+                                    "--force to run anyway",
+                                    problem.name, dt, limit.dt, method.name, limit.how));
+  return limit.dt;
+}
+
+RunPlan plan_run(const RunRequest& request) {
+  RunPlan plan;
+  plan.scene = load_scene(request.scene, request.overrides);
+  const Problem& problem = plan.scene.problem;
+  plan.plugin = &load_variant(request.variant);
+  plan.model = chosen_model(request.model.value_or(plan.scene.model));
+  plan.precision = chosen_precision(request.precision.value_or("f64"));
+  plan.method = &require_method(request.integrator.value_or(problem.integrator));
+  plan.dt = request.dt.value_or(problem.dt);
+  plan.steps = request.steps.value_or(problem.steps);
+  require_sensible(request, plan);
+  if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
+    throw InputError(fmt::format("--model planar: {} leaves the plane: {}; use --model spatial", plan.scene.name, why));
+  require_outputs_writable(request);
+  plan.stability_limit = require_stable(problem, *plan.method, plan.dt, request.is_forced);
+  if (!request.check_state.empty()) plan.expected = expected_state(request, plan);
+  for (int frame = 0; frame <= request.frames && !request.output.empty(); ++frame) {
+    const double share = request.frames == 0 ? 1 : double(frame) / request.frames;
+    plan.frame_steps.push_back(std::lround(share * double(plan.steps)));
+  }
+  plan.frame_steps.erase(std::unique(plan.frame_steps.begin(), plan.frame_steps.end()), plan.frame_steps.end());
+  return plan;
+}
+
+} // namespace dss

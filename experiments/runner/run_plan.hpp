@@ -1,0 +1,40 @@
+#pragma once
+/// A request made definite: everything that can be wrong with it is found before anything is computed.
+#include "experiments/runner/oracle_state.hpp"
+#include "experiments/runner/run.hpp"
+#include "variants/loader.hpp"
+
+#include <optional>
+
+namespace dss {
+
+/// Steps over which the end of a long run is compared with the oracle.
+constexpr long tail_steps = 2;
+
+struct RunPlan {
+  Scene scene;
+  const Plugin* plugin = nullptr;
+  const Method* method = nullptr;
+  Model model = Model::spatial;
+  Precision precision = Precision::f64;
+  double dt = 0;
+  long steps = 0;
+  double stability_limit = 0;
+  std::optional<OracleState> expected; ///< at step expected->steps
+  std::vector<long> frame_steps;       ///< ascending, the last is `steps`
+
+  const Tolerance& tolerance() const {
+    return precision == Precision::f64 ? scene.problem.tolerance_f64 : scene.problem.tolerance_f32;
+  }
+};
+
+/// @throws InputError, UnstableError as run_scene
+RunPlan plan_run(const RunRequest& request);
+
+/// Method by its name. @throws InputError for an unknown one, naming the nearest
+const Method& require_method(const std::string& name);
+
+/// @throws UnstableError if dt exceeds the predicted limit; both numbers are in the message. @return the limit [s]
+double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced);
+
+} // namespace dss

@@ -1,0 +1,106 @@
+#include "experiments/runner/state_access.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace dss {
+namespace {
+
+constexpr std::size_t piece_elements = 4096;
+constexpr double negligible = 1e-3;
+
+struct Group {
+  int first, end;
+};
+constexpr Group groups[4] = {{ux, vx}, {qs, wx}, {vx, qs}, {wx, field_count}}; // u, q, v, w
+
+double largest(std::span<const double> state, const Group& group) {
+  double most = 0;
+  for (std::size_t element = 0; element < state.size(); element += field_count)
+    for (int field = group.first; field < group.end; ++field)
+      most = std::max(most, std::abs(state[element + std::size_t(field)]));
+  return most;
+}
+
+double largest_difference(std::span<const double> a, std::span<const double> b, const Group& group) {
+  double most = 0;
+  for (std::size_t element = 0; element < a.size(); element += field_count)
+    for (int field = group.first; field < group.end; ++field) {
+      const double difference = std::abs(a[element + std::size_t(field)] - b[element + std::size_t(field)]);
+      if (!std::isfinite(difference)) return std::numeric_limits<double>::infinity();
+      most = std::max(most, difference);
+    }
+  return most;
+}
+
+} // namespace
+
+void write_initial_state(Executor& executor, const Problem& problem) {
+  std::vector<double> fields;
+  for (std::size_t first = 0; first < problem.lattice.element_count; first += piece_elements) {
+    const std::size_t count = std::min(piece_elements, problem.lattice.element_count - first);
+    fields.assign(count * field_count, std::numeric_limits<double>::quiet_NaN());
+    initial_state(problem, first, count, fields.data());
+    executor.write(first, fields);
+  }
+}
+
+void for_each_piece(Executor& executor, std::size_t element_count,
+                    const std::function<void(std::size_t, std::span<const double>)>& visit) {
+  std::vector<double> fields;
+  for (std::size_t first = 0; first < element_count; first += piece_elements) {
+    const std::size_t count = std::min(piece_elements, element_count - first);
+    fields.assign(count * field_count, std::numeric_limits<double>::quiet_NaN()); // what is not read must not look read
+    executor.read(first, fields);
+    visit(first, fields);
+  }
+}
+
+std::vector<double> whole_state(Executor& executor, std::size_t element_count) {
+  std::vector<double> state(element_count * field_count, std::numeric_limits<double>::quiet_NaN());
+  executor.read(0, state);
+  return state;
+}
+
+double max_displacement(Executor& executor, std::size_t element_count) {
+  double most = 0;
+  for_each_piece(executor, element_count, [&](std::size_t, std::span<const double> fields) {
+    for (std::size_t element = 0; element < fields.size(); element += field_count)
+      most = std::max(most, std::hypot(fields[element + ux], fields[element + uy], fields[element + uz]));
+  });
+  return most;
+}
+
+void StateDigest::add(std::span<const double> fields) {
+  for (const double field : fields) {
+    const std::uint64_t word = std::abs(field) < smallest_ ? 0 : std::bit_cast<std::uint64_t>(field);
+    // FNV-1a mixes upwards only; the rotation brings a double's high bits down to where the product spreads them.
+    hash_ = (hash_ ^ std::rotl(word, 32)) * 0x100000001b3u;
+    hash_ ^= hash_ >> 29;
+  }
+}
+
+std::uint64_t state_digest(Executor& executor, std::size_t element_count, Precision precision) {
+  StateDigest digest(precision);
+  for_each_piece(executor, element_count, [&](std::size_t, std::span<const double> fields) { digest.add(fields); });
+  return digest.value();
+}
+
+double state_error(const Problem& problem, std::span<const double> expected, std::span<const double> actual) {
+  double edge = std::numeric_limits<double>::infinity();
+  for (const Body& body : problem.bodies) edge = std::min({edge, body.edge[0], body.edge[1], body.edge[2]});
+  const double u = largest(expected, groups[0]), q = largest(expected, groups[1]), v = largest(expected, groups[2]),
+               w = largest(expected, groups[3]);
+  const double scales[4] = {std::max(u, negligible * q * edge), std::max(q, negligible * u / edge),
+                            std::max(v, negligible * w * edge), std::max(w, negligible * v / edge)};
+  double error = 0;
+  for (std::size_t g = 0; g < 4; ++g) {
+    const double difference = largest_difference(expected, actual, groups[g]);
+    if (difference > 0) error = std::max(error, difference / scales[g]); // a scale of zero gives infinity
+  }
+  return error;
+}
+
+} // namespace dss

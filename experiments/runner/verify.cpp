@@ -1,0 +1,160 @@
+#include "experiments/runner/verify.hpp"
+#include "experiments/runner/state_access.hpp"
+#include "solver/numerics/signal_rows.hpp"
+#include "solver/numerics/stability.hpp"
+#include "solver/reference/oracle.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+
+namespace dss {
+namespace {
+
+constexpr unsigned seed = 20220617;
+using Verdict = VerifyRow::Verdict;
+
+/// What the oracle says of a run, and with which step.
+struct ExpectedRun {
+  double dt = 0;
+  std::vector<double> state;
+};
+
+class SceneVerification {
+public:
+  SceneVerification(const Scene& scene, long steps) : scene_(scene), problem_(scene.problem), steps_(steps) {
+    for (const Method& method : methods()) expected_runs_[&method] = expected_run(method);
+  }
+
+  void verify(Model model, Precision precision, const std::vector<const Plugin*>& plugins) {
+    model_ = model;
+    precision_ = precision;
+    first_bits_.clear();
+    random_ = random_state(problem_, model, precision, seed);
+    expected_rates_.assign(random_.size(), std::numeric_limits<double>::quiet_NaN());
+    Oracle<long double> oracle(problem_, methods().front(), problem_.dt);
+    oracle.write(random_);
+    oracle.derivative(first_signals(), expected_rates_);
+    for (const Plugin* plugin : plugins) {
+      guarded(*plugin, "evaluation", [&] { evaluation(*plugin); });
+      for (const Method& method : methods()) guarded(*plugin, fmt::format("run {}", method.name), [&] { run(*plugin, method); });
+    }
+  }
+
+  std::vector<VerifyRow> rows;
+
+private:
+  std::vector<double> first_signals() const {
+    std::vector<double> signals = signal_rows(problem_, methods().front(), problem_.dt, 0, 1);
+    signals.resize(signal_count(problem_));
+    return signals;
+  }
+
+  ExpectedRun expected_run(const Method& method) const {
+    ExpectedRun run;
+    run.dt = std::min(problem_.dt, 0.9 * stable_step(problem_, method).dt);
+    run.state.resize(problem_.lattice.element_count * field_count);
+    initial_state(problem_, 0, problem_.lattice.element_count, run.state.data());
+    Oracle<long double> oracle(problem_, method, run.dt);
+    oracle.write(run.state);
+    oracle.advance(steps_);
+    oracle.read(run.state);
+    return run;
+  }
+
+  const Tolerance& tolerance() const {
+    return precision_ == Precision::f64 ? problem_.tolerance_f64 : problem_.tolerance_f32;
+  }
+
+  void add(const Plugin& plugin, const std::string& check, Verdict verdict, const std::string& reason,
+           std::optional<double> error = std::nullopt, std::optional<double> allowed = std::nullopt) {
+    rows.push_back({scene_.name, std::string(name(model_)), std::string(name(precision_)), plugin.name, check, error, allowed, verdict, reason});
+  }
+
+  template <class Check> void guarded(const Plugin& plugin, const std::string& check, Check&& body) {
+    try {
+      body();
+    } catch (const std::exception& error) {
+      add(plugin, check, Verdict::failed, error.what());
+    }
+  }
+
+  void judge_error(const Plugin& plugin, const std::string& check, double error, double allowed) {
+    const bool passes = error <= allowed; // false for NaN
+    add(plugin, check, passes ? Verdict::passed : Verdict::failed, passes ? "" : "error above the tolerance", error, allowed);
+  }
+
+  /// States of variants with FMA are equal to the last bit; the first of them is the model of the rest.
+  void judge_bits(const Plugin& plugin, const std::string& what, std::uint64_t digest) {
+    if (!plugin.has_fma) return;
+    const auto [first, is_first] = first_bits_.try_emplace(what, std::pair{std::string(plugin.name), digest});
+    if (is_first) return;
+    const bool equal = first->second.second == digest;
+    add(plugin, "bits " + what, equal ? Verdict::passed : Verdict::failed,
+        fmt::format("{} {}", equal ? "equal to" : "differ from", first->second.first));
+  }
+
+  void evaluation(const Plugin& plugin) {
+    const auto executor = plugin.create({problem_, methods().front(), model_, precision_, problem_.dt, 1});
+    executor->write(0, random_);
+    std::vector<double> rates(random_.size(), std::numeric_limits<double>::quiet_NaN());
+    executor->derivative(first_signals(), rates);
+    judge_error(plugin, "evaluation", state_error(problem_, expected_rates_, rates), tolerance().evaluation);
+    StateDigest digest(precision_);
+    digest.add(rates);
+    judge_bits(plugin, "evaluation", digest.value());
+  }
+
+  void run(const Plugin& plugin, const Method& method) {
+    const ExpectedRun& expected = expected_runs_.at(&method);
+    const std::vector<double> signals = signal_rows(problem_, method, expected.dt, 0, steps_);
+    const std::string run_name(method.name);
+    std::optional<std::uint64_t> digest;
+    std::string unequal;
+    for (const int threads : verified_threads) {
+      if (threads > 1 && !plugin.is_threaded) continue;
+      const auto executor = plugin.create({problem_, method, model_, precision_, expected.dt, threads});
+      write_initial_state(*executor, problem_);
+      const Outcome outcome = executor->advance(steps_, signals);
+      if (threads == 1)
+        judge_error(plugin, "run " + run_name,
+                    outcome.is_finite ? state_error(problem_, expected.state, whole_state(*executor, problem_.lattice.element_count))
+                                      : std::numeric_limits<double>::infinity(),
+                    tolerance().run);
+      const std::uint64_t bits = state_digest(*executor, problem_.lattice.element_count, precision_);
+      if (!digest) digest = bits;
+      if (bits != *digest) unequal += fmt::format("{}{}", unequal.empty() ? "" : ", ", threads);
+    }
+    if (plugin.is_threaded)
+      add(plugin, "threads " + run_name, unequal.empty() ? Verdict::passed : Verdict::failed,
+          unequal.empty() ? "equal bits on 1, 2, 3, 4, 7 threads" : fmt::format("other bits than on 1 thread on {} threads", unequal));
+    judge_bits(plugin, run_name, *digest);
+  }
+
+  const Scene& scene_;
+  const Problem& problem_;
+  long steps_;
+  Model model_ = Model::spatial;
+  Precision precision_ = Precision::f64;
+  std::map<const Method*, ExpectedRun> expected_runs_;
+  std::vector<double> random_, expected_rates_;
+  std::map<std::string, std::pair<std::string, std::uint64_t>> first_bits_;
+};
+
+} // namespace
+
+std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::vector<const Plugin*>& plugins) {
+  SceneVerification verification(scene, steps);
+  const std::string why = why_not_planar(scene.problem);
+  for (const Model model : {Model::spatial, Model::planar}) {
+    if (model == Model::planar && !why.empty()) {
+      verification.rows.push_back({scene.name, "planar", "", "", "all", {}, {}, Verdict::skipped, why});
+      continue;
+    }
+    for (const Precision precision : {Precision::f64, Precision::f32}) verification.verify(model, precision, plugins);
+  }
+  return std::move(verification.rows);
+}
+
+} // namespace dss

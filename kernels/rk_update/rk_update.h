@@ -1,0 +1,19 @@
+/* State updates in the shared subset (solver/numerics/method.hpp has the methods). */
+
+/* Runge-Kutta in increment form: y + sum alpha_m (Y_m - y) + h beta f. Increments are summed before they meet y, whose rounding then
+ * happens once, and a state at rest stays at rest to the last bit. */
+static inline REAL rk_increment(REAL alpha, REAL stage, REAL y, REAL sum) { return FMA(alpha, stage - y, sum); }
+static inline REAL rk_first(REAL y, REAL beta, REAL rate) { return FMA(beta, rate, y); }
+
+/* Leapfrog: v_{n+1/2} = v_{n-1/2} + h a, x_{n+1} = x_n + h v_{n+1/2}, prediction p_{n+1} = v_{n+1/2} + h/2 a. */
+typedef struct { vec u, v_half, v_next; rotor q; spin w_half, w_next; } leap;
+static inline leap leapfrog(vec u, rotor q, vec v_half, spin w_half, vec a, spin alpha, REAL h) {
+  leap r;
+  r.v_half = vec_axpy(h, a, v_half);
+  r.w_half = spin_axpy(h, alpha, w_half);
+  r.u = vec_axpy(h, r.v_half, u);
+  r.q = rotor_cayley(q, spin_scale(SPLAT(0.25) * h, r.w_half));
+  r.v_next = vec_axpy(SPLAT(0.5) * h, a, r.v_half);
+  r.w_next = spin_axpy(SPLAT(0.5) * h, alpha, r.w_half);
+  return r;
+}

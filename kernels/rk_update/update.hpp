@@ -1,0 +1,109 @@
+#pragma once
+/// What a stage does with the accelerations of a pack: the two families of methods. Passed to StageRow::run.
+#include "kernels/physics.hpp"
+#include "kernels/stage_row/row.hpp"
+
+DSS_INLINE_BEGIN
+namespace dss {
+
+/// Notices lanes that stop being finite at one multiply-add a component: 0 * x is 0 unless x is infinite or NaN.
+template <class R, class T>
+struct FiniteCheck {
+  R sum = R(T(0));
+  template <class Tuple>
+  void add(Tuple t) {
+    each_component(t, [&](R& c) { sum = simd::fma(c, R(T(0)), sum); });
+  }
+  bool passed() const { return simd::is_zero(sum); }
+};
+
+/// out = base + sum alpha_m (increment_m - base) + beta f(in).
+template <class P, class T>
+struct RungeKuttaUpdate {
+  using R = typename P::real;
+  static constexpr int W = simd::lanes<T>;
+  const T *const base, *const increment[3];
+  T* const out;
+  const R beta, alpha[3];
+  const int increments;
+  const bool is_last;
+  FiniteCheck<R, T> check{};
+
+  RungeKuttaUpdate(const RowTask<T>& task, bool last)
+      : base(task.base), increment{task.increment[0], task.increment[1], task.increment[2]}, out(task.out), beta(task.beta),
+        alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, increments(task.increments), is_last(last) {}
+
+  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a, const typename P::spin& angular) {
+    typename P::element rate{e.v, a, P::rotor_rate(e.q, e.w), angular};
+    switch (increments) {
+    case 0: finish<0>(place, rate); break;
+    case 1: finish<1>(place, rate); break;
+    case 2: finish<2>(place, rate); break;
+    default: finish<3>(place, rate); break;
+    }
+    if (is_last) check.add(rate.v), check.add(rate.w);
+  }
+
+  /// Stores the new fields of a pack and leaves them in `rate`.
+  template <int count>
+  void finish(std::ptrdiff_t place, typename P::element& rate) const {
+    std::ptrdiff_t at = place;
+    each_component(rate, [&](R& k) {
+      const R y = simd::load(base + at);
+      if constexpr (count == 0) {
+        k = P::rk_first(y, beta, k);
+      } else {
+        R sum = beta * k;
+        for (int m = 0; m < count; ++m)
+          sum = P::rk_increment(alpha[m], simd::load(increment[m] + at), y, sum);
+        k = y + sum;
+      }
+      simd::store(out + at, k);
+      at += W;
+    });
+  }
+};
+
+/// One leapfrog step in place. With velocity-dependent forces the fields v and w of a row hold the prediction p that the links see, and the
+/// half-step velocities follow the 13 (7) fields of the pack; without them v and w are the half-step velocities themselves.
+template <class P, class T, bool is_predicted>
+struct LeapfrogUpdate {
+  using R = typename P::real;
+  static constexpr int W = simd::lanes<T>;
+  const T* const half_velocities;
+  T* const out;
+  const R h;
+  FiniteCheck<R, T> check{};
+
+  explicit LeapfrogUpdate(const RowTask<T>& task) : half_velocities(task.base + P::fields * W), out(task.out), h(task.beta) {}
+
+  template <class Tuple>
+  static void store_all(T*& p, Tuple t) {
+    each_component(t, [&](R& c) { simd::store(p, c), p += W; });
+  }
+  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a, const typename P::spin& angular) {
+    T* p = out + place;
+    auto v_half = e.v;
+    auto w_half = e.w;
+    if constexpr (is_predicted) {
+      const T* half = half_velocities + place;
+      const auto load = [&](R& c) { c = simd::load(half), half += W; };
+      each_component(v_half, load);
+      each_component(w_half, load);
+    }
+    const auto next = P::leapfrog(e.u, e.q, v_half, w_half, a, angular, h);
+    store_all(p, next.u);
+    store_all(p, is_predicted ? next.v_next : next.v_half);
+    store_all(p, next.q);
+    store_all(p, is_predicted ? next.w_next : next.w_half);
+    if constexpr (is_predicted) {
+      store_all(p, next.v_half);
+      store_all(p, next.w_half);
+    }
+    check.add(next.v_half);
+    check.add(next.w_half);
+  }
+};
+
+} // namespace dss
+DSS_INLINE_END

@@ -1,0 +1,282 @@
+#pragma once
+/// The fused hot loop: one stage of one row of packs, from the stage's input to its output (README.md of this folder).
+/// Order of summation per element, whatever the threads and the lanes: x, y, z, each upper link before lower link; ties; wrenches.
+#include "kernels/physics.hpp"
+#include "kernels/rk_update/update.hpp"
+#include "kernels/stage_row/row.hpp"
+
+#include <array>
+
+DSS_INLINE_BEGIN
+namespace dss {
+
+/// P: a model's physics over packs of T. terms: what is compiled in. stride: fields a pack of the rows holds, the model's or more.
+template <class P, class T, Terms terms, int stride = P::fields>
+struct StageRow {
+  using R = typename P::real;
+  using element = typename P::element;
+  using vec = typename P::vec;
+  using spin = typename P::spin;
+  using rotor = typename P::rotor;
+  static constexpr int W = simd::lanes<T>;
+  static constexpr int wrench_components = component_count<vec>() + component_count<spin>();
+  /// Scalars a pack of link forces (and couples) takes in a carry buffer.
+  static constexpr int carry_size = (terms.has_couples() ? wrench_components : component_count<vec>()) * W;
+
+  /// What a link hands to the element behind it: the force on i, and the couple that is added there (paper's law: subtracted).
+  struct Carry {
+    vec force;
+    spin couple;
+  };
+  struct Wrench {
+    vec force;
+    spin moment, couple;
+  };
+  using Mass = typename P::mass_law;
+
+  const RowTask<T>& task;
+  const BodyConstants<T>& body = *task.body;
+  const std::array<typename P::paper_law, 3> laws{paper_law(0), paper_law(1), paper_law(2)};
+
+  static element load_element(const T* p) {
+    element e;
+    each_component(e, [&](R& c) { c = simd::load(p), p += W; });
+    return e;
+  }
+  template <class Tuple>
+  static void store_all(T*& p, Tuple t) {
+    each_component(t, [&](R& c) { simd::store(p, c), p += W; });
+  }
+  template <class Tuple>
+  static Tuple load_all(const T*& p) {
+    Tuple t;
+    each_component(t, [&](R& c) { c = simd::load(p), p += W; });
+    return t;
+  }
+  template <class Tuple>
+  static Tuple zero() {
+    Tuple t;
+    each_component(t, [](R& c) { c = R(T(0)); });
+    return t;
+  }
+  template <class Tuple>
+  static Tuple from_above(const Tuple& a, const Tuple& next) {
+    return each_pair(a, next, [](const R& x, const R& y) { return simd::shift_down(x, y); });
+  }
+  template <class Tuple>
+  static Tuple from_below(const Tuple& previous, const Tuple& a) {
+    return each_pair(previous, a, [](const R& x, const R& y) { return simd::shift_up(x, y); });
+  }
+  template <class Tuple>
+  static void keep(simd::LaneMask mask, Tuple& t) {
+    each_component(t, [&](R& c) { c = simd::keep(mask, c); });
+  }
+
+  typename P::paper_law paper_law(int axis) const { return {R(body.edge[axis]), R(body.tau), R(body.kt2), R(body.dt)}; }
+  typename P::material_law material(int axis) const {
+    const auto& a = body.axis[axis];
+    return {R(body.edge[axis]), R(body.edge[axis]), R(a.k_s),  R(a.k_ns), R(a.d_s), R(a.d_ns),
+            R(a.k_z),           R(a.k_xz),          R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
+  }
+
+  /// An element with what its links on the x axis share.
+  struct Prepared {
+    element e;
+    vec pull;
+    typename P::faces x;
+  };
+  Prepared prepare(const T* p) const {
+    Prepared r;
+    r.e = load_element(p);
+    if constexpr (!terms.is_material) {
+      r.pull = P::centre_pull(r.e, laws[0], terms.is_damped);
+      r.x = P::element_faces(r.e, r.pull, 0, laws[0], terms.is_damped);
+    }
+    return r;
+  }
+
+  /// Exchange over the link from i to j on `axis`; `lower` is j's lower face (paper's law), `upper` i's upper face.
+  typename P::exchange link(const element& i, const vec& upper, const element& j, const vec& lower, const int axis) const {
+    if constexpr (terms.is_material) return P::material_link(i, j, axis, material(axis), terms.is_damped);
+    typename P::exchange x;
+    x.force = P::vec_sub(lower, upper);
+    if constexpr (terms.has_couples())
+      x.couple_i = P::paper_couple(i.q, i.w, j.q, j.w, laws[std::size_t(axis)], terms.is_bending, terms.is_damped);
+    return x;
+  }
+  static Carry carry_of(const typename P::exchange& x) {
+    if constexpr (terms.is_material) return {x.force, x.couple_j};
+    return {x.force, x.couple_i};
+  }
+  static void mask_links(simd::LaneMask mask, typename P::exchange& x) {
+    if (mask == simd::all_lanes<T>) return;
+    keep(mask, x.force);
+    if constexpr (terms.has_couples()) keep(mask, x.couple_i);
+    if constexpr (terms.is_material) keep(mask, x.couple_j);
+  }
+  static void add_couples(const typename P::exchange& up, const Carry& low, spin& couple) {
+    if constexpr (terms.is_material)
+      couple = P::spin_add(P::spin_add(couple, up.couple_i), low.couple);
+    else if constexpr (terms.has_couples())
+      couple = P::spin_sub(P::spin_add(couple, up.couple_i), low.couple);
+  }
+  static void store_carry(T* p, const Carry& c) {
+    store_all(p, c.force);
+    if constexpr (terms.has_couples()) store_all(p, c.couple);
+  }
+  static Carry load_carry(const T* p) {
+    Carry c;
+    c.force = load_all<vec>(p);
+    if constexpr (terms.has_couples()) c.couple = load_all<spin>(p);
+    return c;
+  }
+
+  /// Link between element i and the element at `upper` across a y or z face, for rows and for the first rows of a block alike.
+  typename P::exchange link_across(const element& i, const vec& upper_face, const T* upper, const int axis) const {
+    const element j = load_element(upper);
+    vec lower_face;
+    if constexpr (!terms.is_material)
+      lower_face = P::element_faces(j, P::centre_pull(j, laws[std::size_t(axis)], terms.is_damped), axis, laws[std::size_t(axis)], terms.is_damped).lower;
+    return link(i, upper_face, j, lower_face, axis);
+  }
+
+  void add_across(const Prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper, T* carry,
+                  const T* from, Wrench& sum) const {
+    if ((above | below) == 0) return;
+    typename P::faces faces;
+    if constexpr (terms.is_material)
+      faces.arm = P::face_arm(i.e.q, axis, R(body.edge[axis]));
+    else
+      faces = P::element_faces(i.e, i.pull, axis, laws[std::size_t(axis)], terms.is_damped);
+    typename P::exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
+    if (above != 0) {
+      up = link_across(i.e, faces.upper, upper, axis);
+      mask_links(above, up);
+      store_carry(carry, carry_of(up));
+    }
+    Carry low{zero<vec>(), zero<spin>()};
+    if (below != 0) low = load_carry(from);
+    sum.force = P::vec_sub(P::vec_add(sum.force, up.force), low.force);
+    sum.moment = P::vec_moment(faces.arm, P::vec_add(up.force, low.force), sum.moment);
+    add_couples(up, low, sum.couple);
+  }
+
+  Wrench links_x(const Prepared& i, const Prepared& next, simd::LaneMask mask, Carry& previous) const {
+    element j;
+    vec lower;
+    if constexpr (terms.is_material) {
+      j = from_above(i.e, next.e);
+    } else {
+      lower = from_above(i.x.lower, next.x.lower);
+      if constexpr (terms.is_damped) j.w = from_above(i.e.w, next.e.w);
+      if constexpr (terms.is_bending) j.q = from_above(i.e.q, next.e.q);
+    }
+    typename P::exchange up = link(i.e, i.x.upper, j, lower, 0);
+    mask_links(mask, up);
+    const Carry carry = carry_of(up);
+    Carry low;
+    low.force = from_below(previous.force, carry.force);
+    if constexpr (terms.has_couples()) low.couple = from_below(previous.couple, carry.couple);
+    previous = carry;
+    vec arm;
+    if constexpr (terms.is_material)
+      arm = P::face_arm(i.e.q, 0, R(body.edge[0]));
+    else
+      arm = i.x.arm;
+    Wrench sum{P::vec_sub(up.force, low.force), P::vec_moment(arm, P::vec_add(up.force, low.force), zero<spin>()), zero<spin>()};
+    add_couples(up, low, sum.couple);
+    return sum;
+  }
+
+  void apply_wrenches(int pack, Wrench& sum) const {
+    for (int n = 0; n < task.applied->pattern_count; ++n) {
+      const auto& pattern = task.applied->patterns[n];
+      if (unsigned(pack - pattern.first) >= unsigned(pattern.packs)) continue;
+      const R value(task.signals[pattern.signal] * body.inverse_unit);
+      const T* p = pattern.values + std::ptrdiff_t(pack - pattern.first) * wrench_components * W;
+      const auto add = [&](R& c) { c = simd::fma(value, simd::load(p), c), p += W; };
+      each_component(sum.force, add);
+      each_component(sum.moment, add);
+    }
+  }
+  void hold_clamped(int pack, vec& acceleration, spin& angular) const {
+    if (task.applied->free_lanes == nullptr) return;
+    const simd::LaneMask* mask = task.applied->free_lanes + std::ptrdiff_t(pack - task.applied->first) * wrench_components;
+    const auto hold = [&](R& c) { c = simd::keep(*mask++, c); };
+    each_component(acceleration, hold);
+    each_component(angular, hold);
+  }
+  template <class Tuple>
+  static Tuple splat(const T* values) { // components x, y, z of which the model has some; a spin in the plane has z alone
+    Tuple t;
+    if constexpr (requires { t.x; }) t.x = R(values[0]), t.y = R(values[1]);
+    if constexpr (requires { t.z; }) t.z = R(values[2]);
+    return t;
+  }
+  Mass mass() const {
+    return {R(body.inverse_mass), splat<vec>(task.signals), splat<spin>(body.inertia), splat<spin>(body.inverse_inertia)};
+  }
+
+  /// Only the links across `axis` from this row to the upper one, into the carry buffer. `fields` a pack of the rows holds.
+  void prime(const int axis, int fields) const {
+    for (int pack = 0; pack < task.packs; ++pack) {
+      const simd::LaneMask above = axis == 1 ? task.masks[pack].link_y : task.masks[pack].link_z;
+      if (above == 0) continue;
+      const std::ptrdiff_t place = std::ptrdiff_t(pack) * (fields * W);
+      const element i = load_element(task.in + place);
+      vec upper;
+      if constexpr (!terms.is_material) {
+        const auto& law = laws[std::size_t(axis)];
+        upper = P::element_faces(i, P::centre_pull(i, law, terms.is_damped), axis, law, terms.is_damped).upper;
+      }
+      typename P::exchange up = link_across(i, upper, (axis == 1 ? task.upper_y : task.upper_z) + place, axis);
+      mask_links(above, up);
+      store_carry((axis == 1 ? task.carry_y : task.carry_z) + std::ptrdiff_t(pack) * carry_size, carry_of(up));
+    }
+  }
+
+  /// Runs update(pack, element, acceleration, angular acceleration) for every pack of the row.
+  template <class Update>
+  void run(Update&& update) const {
+    // Local copies: stores of packs may alias anything, and would force what is behind a reference to be read again for every pack.
+    const PackMasks* all_masks = task.masks;
+    const T *const in = task.in, *const upper_y = task.upper_y, *const upper_z = task.upper_z;
+    T *const carry_y = task.carry_y, *const carry_z = task.carry_z;
+    const T *const from_y = task.from_y, *const from_z = task.from_z;
+    const int applied_first = task.applied != nullptr ? task.applied->first : 0;
+    const int applied_packs = task.applied != nullptr ? task.applied->packs : 0;
+    const int packs = task.packs;
+    const Mass mass = this->mass();
+    const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot), R(body.tie_d_rot)};
+    Prepared next = prepare(in);
+    Carry previous{zero<vec>(), zero<spin>()};
+    for (int pack = 0; pack < packs; ++pack) {
+      const PackMasks& masks = all_masks[pack];
+      const std::ptrdiff_t place = std::ptrdiff_t(pack) * (stride * W), carry = std::ptrdiff_t(pack) * carry_size;
+      Prepared i = next;
+      i.e = load_element(in + place);
+      next = prepare(in + place + stride * W);
+      Wrench sum = links_x(i, next, masks.link_x, previous);
+      add_across(i, 1, masks.link_y, masks.below_y, upper_y + place, carry_y + carry, from_y + carry, sum);
+      if constexpr (component_count<vec>() == 3)
+        add_across(i, 2, masks.link_z, masks.below_z, upper_z + place, carry_z + carry, from_z + carry, sum);
+      if constexpr (terms.is_material)
+        sum.moment = P::spin_add(sum.moment, sum.couple);
+      else if constexpr (terms.has_couples())
+        sum.moment = P::couple_moment(sum.couple, laws[0], terms.is_bending, sum.moment);
+      if constexpr (terms.is_tied) {
+        sum.force = P::tie_force(i.e, tie, sum.force);
+        sum.moment = P::tie_moment(i.e, tie, sum.moment);
+      }
+      const bool is_applied = unsigned(pack - applied_first) < unsigned(applied_packs);
+      if (is_applied) apply_wrenches(pack, sum);
+      vec a = P::acceleration(sum.force, mass);
+      spin alpha = P::angular_acceleration(sum.moment, i.e, mass, terms.is_gyroscopic);
+      if (is_applied) hold_clamped(pack, a, alpha);
+      update(place, i.e, a, alpha);
+    }
+  }
+};
+
+} // namespace dss
+DSS_INLINE_END

@@ -1,0 +1,89 @@
+#include "solver/io/atomic_file.hpp"
+#include "solver/error.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace dss {
+namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t(1) << 16;
+
+bool is_written_in_place(const std::string& target) {
+  struct stat status {};
+  return ::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(std::string target) : target_(std::move(target)) {
+  struct stat status {};
+  if (::stat(target_.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) fail("write", EISDIR);
+  if (is_written_in_place(target_)) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+  } else {
+    temporary_ = fmt::format("{}.{}.part", target_, ::getpid());
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  }
+  if (descriptor_ < 0) {
+    temporary_.clear();
+    fail("write", errno);
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  buffer_.append(bytes);
+  if (buffer_.size() >= buffer_bytes) flush();
+}
+
+void AtomicFile::flush() {
+  std::size_t done = 0;
+  while (done < buffer_.size()) {
+    const ssize_t count = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("write", errno);
+    done += std::size_t(count);
+  }
+  buffer_.clear();
+}
+
+void AtomicFile::commit() {
+  flush();
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (::close(descriptor) != 0) fail("write", errno);
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0) fail("replace", errno);
+  temporary_.clear();
+}
+
+void AtomicFile::fail(const char* what, int reason) const {
+  throw InputError(fmt::format("{}: cannot {}: {}; give a path in a directory that exists, may be written and has space",
+                               target_, what, std::strerror(reason)));
+}
+
+void require_writable(const std::string& target) {
+  AtomicFile probe(target); // its destructor removes the temporary: nothing was committed
+}
+
+std::string read_text(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
+  if (S_ISDIR(status.st_mode)) throw InputError(fmt::format("{}: is a directory; give a file", path));
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+} // namespace dss

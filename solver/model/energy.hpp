@@ -1,0 +1,15 @@
+#pragma once
+/// Energy of a state, for audits.
+#include "solver/model/problem.hpp"
+
+#include <span>
+
+namespace dss {
+
+/// Kinetic energy, elastic energy of all links and energy of the stabilizing springs [J]. Loads and the frame's
+/// acceleration have no part in it: they do work. Potentials: solver/reference/link_law.hpp.
+/// @param state  field_count numbers for every element (solver/model/fields.hpp)
+/// @throws InputError if the state has another size
+double total_energy(const Problem& problem, std::span<const double> state);
+
+} // namespace dss

@@ -1,0 +1,71 @@
+#include "solver/model/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dss {
+namespace {
+
+bool is_zero_always(const Signal& signal) {
+  if (signal.kind == Signal::Kind::constant) return signal.amplitude + signal.offset == 0;
+  const bool has_no_values =
+      signal.kind == Signal::Kind::table &&
+      std::all_of(signal.values.begin(), signal.values.end(), [](double value) { return value == 0; });
+  return signal.offset == 0 && (signal.amplitude == 0 || has_no_values);
+}
+
+std::string geometry_leaves_plane(const Problem& problem) {
+  const std::vector<Row>& rows = problem.lattice.rows;
+  for (std::size_t r = 1; r < rows.size(); ++r)
+    if (rows[r].body == rows[r - 1].body && rows[r].z != rows[r - 1].z)
+      return fmt::format("body \"{}\" is more than one element thick in z",
+                         problem.bodies[std::size_t(rows[r].body)].name);
+  for (std::size_t l = 0; l < problem.extra_links.size(); ++l)
+    if (problem.extra_links[l].axis == 2)
+      return fmt::format("extra link {} between elements {} and {} is along z", l, problem.extra_links[l].i,
+                         problem.extra_links[l].j);
+  return {};
+}
+
+/// The first component that leaves the plane of a vector (z) or of an axial vector (x and y), or an empty text.
+std::string out_of_plane(const Vec3& v, const char* what, const char* unit, bool is_axial) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if ((axis == 2) != is_axial && v[axis] != 0) return fmt::format("{} {} = {} {}", what, "xyz"[axis], v[axis], unit);
+  return {};
+}
+
+std::string load_leaves_plane(const Problem& problem) {
+  for (std::size_t l = 0; l < problem.loads.size(); ++l) {
+    const Load& load = problem.loads[l];
+    if (is_zero_always(load.signal)) continue;
+    for (const std::string& item :
+         {out_of_plane(load.force, "force", "N", false), out_of_plane(load.torque, "torque", "N m", true)})
+      if (!item.empty()) return fmt::format("load {} leaves the plane: {}", l, item);
+  }
+  if (!is_zero_always(problem.frame_acceleration[2])) return "gravity or base acceleration acts along z";
+  return {};
+}
+
+std::string start_leaves_plane(const Problem& problem) {
+  for (std::size_t m = 0; m < problem.initial_motions.size(); ++m) {
+    const InitialMotion& motion = problem.initial_motions[m];
+    for (const std::string& item : {out_of_plane(motion.displacement, "displacement", "m", false),
+                                    out_of_plane(motion.rotation, "rotation", "rad", true),
+                                    out_of_plane(motion.velocity, "velocity", "m/s", false),
+                                    out_of_plane(motion.angular_velocity, "angular velocity", "rad/s", true)})
+      if (!item.empty()) return fmt::format("initial motion {} leaves the plane: {}", m, item);
+  }
+  return {};
+}
+
+} // namespace
+
+// Clamps need no check: a clamp out of the plane holds what does not move, one in the plane is the planar model's too.
+std::string why_not_planar(const Problem& problem) {
+  for (const auto& leaves : {geometry_leaves_plane, load_leaves_plane, start_leaves_plane})
+    if (std::string reason = leaves(problem); !reason.empty()) return reason;
+  return {};
+}
+
+} // namespace dss

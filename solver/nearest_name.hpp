@@ -1,0 +1,11 @@
+#pragma once
+/// Help for a name that does not exist.
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// "did you mean NAME? known: A, B, C": the known name with the smallest edit distance, if any is near.
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
+
+} // namespace dss

@@ -1,0 +1,185 @@
+#include "solver/reference/dynamics.hpp"
+
+#include <algorithm>
+
+namespace dss::reference {
+namespace {
+
+template <class T>
+Vector<T> vector_of(const Vec3& v) {
+  return {T(v[0]), T(v[1]), T(v[2])};
+}
+
+template <class T>
+LinkProperties<T> properties_of(LinkLaw law, int axis, const AxisConstants& c, const Vec3& edge_i, const Vec3& edge_j) {
+  const auto a = std::size_t(axis);
+  LinkProperties<T> link;
+  link.law = law;
+  link.axis = axis;
+  link.arm_i = Vector<T>::Unit(axis) * T(edge_i[a]) / T(2);
+  link.arm_j = Vector<T>::Unit(axis) * T(edge_j[a]) / T(2);
+  link.k_normal = T(c.k_normal);
+  link.k_shear = T(c.k_shear);
+  link.d_normal = T(c.d_normal);
+  link.d_shear = T(c.d_shear);
+  link.k_rot = vector_of<T>(c.k_rot);
+  link.d_rot = vector_of<T>(c.d_rot);
+  return link;
+}
+
+} // namespace
+
+template <class T>
+Motion<T> motion_of(const T* f) {
+  Motion<T> motion;
+  motion.u << f[ux], f[uy], f[uz];
+  motion.v << f[vx], f[vy], f[vz];
+  motion.w << f[wx], f[wy], f[wz];
+  motion.q.s = f[qs];
+  motion.q.v << f[qx], f[qy], f[qz];
+  motion.turned = turn(motion.q);
+  return motion;
+}
+
+template <class T>
+Dynamics<T>::Dynamics(const Problem& problem)
+    : elements_(problem.lattice.element_count), loads_(problem.loads), stabilization_(problem.stabilization),
+      motions_(problem.lattice.element_count), wrenches_(problem.lattice.element_count) {
+  for (const Body& body : problem.bodies)
+    bodies_.push_back({T(body.mass), vector_of<T>(body.inertia), body.has_tensor_inertia()});
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) { elements_[e].body = row.body; });
+  for (const Clamp& clamp : problem.clamps) elements_[clamp.element].clamped |= clamp.dofs;
+  add_links(problem);
+}
+
+template <class T>
+void Dynamics<T>::add_links(const Problem& problem) {
+  for (const Body& body : problem.bodies)
+    for (const int axis : {0, 1, 2})
+      properties_.push_back(properties_of<T>(body.law, axis, body.axis[std::size_t(axis)], body.edge, body.edge));
+  links_.reserve(problem.link_count());
+  problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
+    links_.push_back({i, j, std::size_t(3 * elements_[i].body + axis)});
+  });
+  for (const ExtraLink& extra : problem.extra_links) {
+    const Body& body_i = problem.bodies[std::size_t(elements_[extra.i].body)];
+    const Body& body_j = problem.bodies[std::size_t(elements_[extra.j].body)];
+    links_.push_back({extra.i, extra.j, properties_.size()});
+    properties_.push_back(properties_of<T>(extra.law, extra.axis, extra.constants, body_i.edge, body_j.edge));
+  }
+}
+
+template <class T>
+void Dynamics<T>::place(std::span<const T> state) {
+  for (std::size_t e = 0; e < elements_.size(); ++e) motions_[e] = motion_of(state.data() + e * field_count);
+}
+
+template <class T>
+void Dynamics<T>::add_link_reactions() {
+  for (const Link& link : links_) {
+    const Reaction<T> r = reaction(motions_[link.i], motions_[link.j], properties_[link.properties]);
+    wrenches_[link.i].force += r.force;
+    wrenches_[link.j].force -= r.force;
+    wrenches_[link.i].moment += r.moment_i;
+    wrenches_[link.j].moment += r.moment_j;
+  }
+}
+
+template <class T>
+void Dynamics<T>::add_loads(std::span<const double> signals) {
+  for (std::size_t l = 0; l < loads_.size(); ++l) {
+    const T scale = T(signals[3 + l]);
+    const Vector<T> force = scale * vector_of<T>(loads_[l].force);
+    const Vector<T> torque = scale * vector_of<T>(loads_[l].torque);
+    for (const std::size_t e : loads_[l].elements) {
+      wrenches_[e].force += force;
+      wrenches_[e].moment += torque;
+    }
+  }
+}
+
+template <class T>
+void Dynamics<T>::add_stabilization() {
+  if (!stabilization_.is_present()) return;
+  const T k = T(stabilization_.k), d = T(stabilization_.d);
+  const T k_rot = T(stabilization_.k_rot), d_rot = T(stabilization_.d_rot);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Motion<T>& m = motions_[e];
+    wrenches_[e].force -= k * m.u + d * m.v;
+    wrenches_[e].moment -= T(2) * k_rot * m.q.v + d_rot * m.w;
+  }
+}
+
+/// J^-1 (moment - w x J w) with J = A diag(inertia) A^T; a scalar inertia has no gyroscopic term.
+template <class T>
+Vector<T> Dynamics<T>::angular_acceleration(const BodyMass& body, const Motion<T>& motion,
+                                            const Vector<T>& moment) const {
+  if (!body.has_tensor_inertia) return moment / body.inertia.x();
+  const Matrix<T> a = motion.rotation();
+  const Vector<T> spin = a * body.inertia.cwiseProduct(a.transpose() * motion.w);
+  const Vector<T> net = moment - motion.w.cross(spin);
+  return a * Vector<T>(a.transpose() * net).cwiseQuotient(body.inertia);
+}
+
+template <class T>
+void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signals, std::span<T> rates) {
+  place(state);
+  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
+  add_link_reactions();
+  add_loads(signals);
+  add_stabilization();
+  const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
+    const Motion<T>& motion = motions_[e];
+    Vector<T> dv = wrenches_[e].force / body.mass + frame;
+    Vector<T> dw = angular_acceleration(body, motion, wrenches_[e].moment);
+    for (const int axis : {0, 1, 2}) {
+      if (elements_[e].clamped & (dof_ux << axis)) dv[axis] = 0;
+      if (elements_[e].clamped & (dof_rx << axis)) dw[axis] = 0;
+    }
+    const Orientation<T> dq = rate(motion.q, motion.w);
+    T* f = rates.data() + e * field_count;
+    for (const int axis : {0, 1, 2}) {
+      f[ux + axis] = motion.v[axis];
+      f[vx + axis] = dv[axis];
+      f[qx + axis] = dq.v[axis];
+      f[wx + axis] = dw[axis];
+    }
+    f[qs] = dq.s;
+  }
+}
+
+template <class T>
+T Dynamics<T>::energy(std::span<const T> state) {
+  place(state);
+  const T k = T(stabilization_.k), k_rot = T(stabilization_.k_rot);
+  T energy = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
+    const Motion<T>& m = motions_[e];
+    const Vector<T> body_spin = m.rotation().transpose() * m.w;
+    energy += body.mass * m.v.squaredNorm() / T(2) + body.inertia.dot(body_spin.cwiseAbs2()) / T(2);
+    // The moment -2 k_rot v of the stabilization derives from -4 k_rot s, because ds/dt = -w.v/2; |q| = 1 turns s into
+    // squares.
+    energy += k * m.u.squaredNorm() / T(2) + T(2) * k_rot * (m.q.s * m.q.s + m.q.v.squaredNorm());
+  }
+  for (const Link& link : links_)
+    energy += elastic_energy(motions_[link.i], motions_[link.j], properties_[link.properties]);
+  return energy;
+}
+
+template <class T>
+std::size_t Dynamics<T>::bytes() const {
+  return elements_.size() * (sizeof(Element) + sizeof(Motion<T>) + sizeof(Wrench)) + links_.size() * sizeof(Link) +
+         properties_.size() * sizeof(LinkProperties<T>);
+}
+
+template class Dynamics<float>;
+template class Dynamics<double>;
+template class Dynamics<long double>;
+template Motion<float> motion_of(const float*);
+template Motion<double> motion_of(const double*);
+template Motion<long double> motion_of(const long double*);
+
+} // namespace dss::reference

@@ -1,0 +1,73 @@
+#pragma once
+/// The right-hand side of a problem's equations of motion, term by term, and its energy: the physics of the oracle.
+#include "solver/model/problem.hpp"
+#include "solver/reference/link_law.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dss::reference {
+
+/// Element of a state: field_count numbers in the order of solver/model/fields.hpp.
+template <class T>
+Motion<T> motion_of(const T* fields);
+
+/// Every term of a problem but time: links, extra links, loads, frame acceleration, stabilization, inertia, clamps.
+template <class T>
+class Dynamics {
+public:
+  /// Copies what it needs; the problem may end before.
+  explicit Dynamics(const Problem& problem);
+
+  std::size_t element_count() const { return elements_.size(); }
+
+  /// Time derivative of every field of every element.
+  /// @param state, rates  element_count() * field_count numbers, SI units
+  /// @param signals       one row as in solver/numerics/signal_rows.hpp: frame acceleration x, y, z, then one value a
+  /// load
+  void rates(std::span<const T> state, std::span<const double> signals, std::span<T> rates);
+
+  /// Kinetic energy, plus elastic energy of all links, plus that of the stabilizing springs [J].
+  T energy(std::span<const T> state);
+
+  /// Bytes of the tables and scratch space held.
+  std::size_t bytes() const;
+
+private:
+  struct Element {
+    int body = 0;
+    std::uint8_t clamped = 0; ///< bits of Dof
+  };
+  struct BodyMass {
+    T mass;
+    Vector<T> inertia;
+    bool has_tensor_inertia;
+  };
+  struct Link {
+    std::size_t i, j;
+    std::size_t properties; ///< place in properties_
+  };
+  struct Wrench {
+    Vector<T> force = Vector<T>::Zero(), moment = Vector<T>::Zero();
+  };
+
+  void add_links(const Problem& problem);
+  void place(std::span<const T> state);
+  void add_link_reactions();
+  void add_loads(std::span<const double> signals);
+  void add_stabilization();
+  Vector<T> angular_acceleration(const BodyMass& body, const Motion<T>& motion, const Vector<T>& moment) const;
+
+  std::vector<Element> elements_;
+  std::vector<BodyMass> bodies_;
+  std::vector<LinkProperties<T>> properties_;
+  std::vector<Link> links_;
+  std::vector<Load> loads_;
+  Stabilization stabilization_;
+  std::vector<Motion<T>> motions_; ///< of the state being evaluated
+  std::vector<Wrench> wrenches_;   ///< on each element
+};
+
+} // namespace dss::reference

@@ -1,0 +1,187 @@
+#include "solver/reference/oracle.hpp"
+
+#include "solver/numerics/signal_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dss {
+namespace {
+
+/// The classical (Butcher) table of a Runge-Kutta method in increment form: substituting Y_m - y = h sum_j w[m][j] k_j
+/// into Y_{s+1} - y = sum_m alpha[s][m] (Y_m - y) + h beta[s] k_s.
+template <class T>
+std::vector<std::vector<T>> butcher_rows(const Method& method) {
+  const auto stages = std::size_t(method.stages);
+  std::vector<std::vector<T>> w(stages + 1, std::vector<T>(stages, T(0)));
+  for (std::size_t s = 0; s < stages; ++s) {
+    for (std::size_t m = 1; m <= s; ++m)
+      for (std::size_t j = 0; j < m; ++j) w[s + 1][j] += T(method.alpha[s][m]) * w[m][j];
+    w[s + 1][s] += T(method.beta[s]);
+  }
+  return w;
+}
+
+} // namespace
+
+template <class T>
+Oracle<T>::Oracle(const Problem& problem, const Method& method, double dt)
+    : problem_(problem), method_(method), dt_(dt), dynamics_(problem),
+      state_(problem.lattice.element_count * field_count, T(0)), signal_row_(signal_count(problem)),
+      slopes_(std::size_t(method.stages), std::vector<T>(state_.size())), trial_(state_.size()) {
+  if (method.family == Method::Family::runge_kutta)
+    weights_ = butcher_rows<T>(method);
+  else
+    half_step_.resize(6 * problem.lattice.element_count);
+}
+
+template <class T>
+void Oracle<T>::write(std::span<const double> fields, std::size_t first) {
+  std::transform(fields.begin(), fields.end(), state_.begin() + std::ptrdiff_t(first * field_count),
+                 [](double value) { return T(value); });
+  step_count_ = 0;
+  is_leapfrog_started_ = false;
+}
+
+template <class T>
+void Oracle<T>::read(std::span<double> fields, std::size_t first) const {
+  std::transform(state_.begin() + std::ptrdiff_t(first * field_count),
+                 state_.begin() + std::ptrdiff_t(first * field_count + fields.size()), fields.begin(),
+                 [](T value) { return double(value); });
+}
+
+template <class T>
+std::span<const double> Oracle<T>::signals_at(double t) {
+  for (std::size_t axis = 0; axis < 3; ++axis) signal_row_[axis] = problem_.frame_acceleration[axis](t);
+  for (std::size_t l = 0; l < problem_.loads.size(); ++l) signal_row_[3 + l] = problem_.loads[l].signal(t);
+  return signal_row_;
+}
+
+template <class T>
+void Oracle<T>::derivative(double t, std::span<double> rates) {
+  derivative(signals_at(t), rates);
+}
+
+template <class T>
+void Oracle<T>::derivative(std::span<const double> signals, std::span<double> rates) {
+  dynamics_.rates(state_, signals, slopes_[0]);
+  std::transform(slopes_[0].begin(), slopes_[0].end(), rates.begin(), [](T value) { return double(value); });
+}
+
+template <class T>
+std::optional<Breakdown> Oracle<T>::advance(long steps) {
+  const long begin = step_count_;
+  return advance(steps, [this, begin](long step, int stage) {
+    return signals_at((double(begin + step) + method_.node[std::size_t(stage)]) * dt_);
+  });
+}
+
+template <class T>
+std::optional<Breakdown> Oracle<T>::advance(long steps, const SignalSource& signals) {
+  const bool is_leapfrog = method_.family == Method::Family::leapfrog;
+  for (long step = 0; step < steps; ++step) {
+    if (is_leapfrog)
+      leapfrog_step(step, signals);
+    else
+      runge_kutta_step(step, signals);
+    ++step_count_;
+    if (const auto element = first_non_finite(is_leapfrog ? trial_ : state_)) {
+      if (is_leapfrog) state_ = trial_;
+      return Breakdown{step, *element};
+    }
+  }
+  if (is_leapfrog && steps > 0) finish_leapfrog(signals(steps, 0));
+  return std::nullopt;
+}
+
+template <class T>
+void Oracle<T>::runge_kutta_step(long step, const SignalSource& signals) {
+  const T h = T(dt_);
+  const auto moved = [&](std::size_t s, std::size_t n) {
+    T slope = 0;
+    for (std::size_t j = 0; j < s; ++j) slope += weights_[s][j] * slopes_[j][n];
+    return state_[n] + h * slope;
+  };
+  dynamics_.rates(state_, signals(step, 0), slopes_[0]);
+  for (std::size_t s = 1; s < slopes_.size(); ++s) {
+    for (std::size_t n = 0; n < state_.size(); ++n) trial_[n] = moved(s, n);
+    dynamics_.rates(trial_, signals(step, int(s)), slopes_[s]);
+  }
+  for (std::size_t n = 0; n < state_.size(); ++n) state_[n] = moved(slopes_.size(), n);
+}
+
+/// v_{-1/2} = v_0 - (h/2) a_0 and p_0 = v_0. Leaves a_0 in the slopes.
+template <class T>
+void Oracle<T>::start_leapfrog(std::span<const double> signals) {
+  trial_ = state_;
+  dynamics_.rates(trial_, signals, slopes_[0]);
+  const T half_dt = T(dt_) / T(2);
+  for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
+    const T *y = &trial_[e * field_count], *a = &slopes_[0][e * field_count];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      half_step_[6 * e + axis] = y[vx + axis] - half_dt * a[vx + axis];
+      half_step_[6 * e + 3 + axis] = y[wx + axis] - half_dt * a[wx + axis];
+    }
+  }
+  is_leapfrog_started_ = true;
+}
+
+template <class T>
+void Oracle<T>::leapfrog_step(long step, const SignalSource& signals) {
+  if (is_leapfrog_started_)
+    dynamics_.rates(trial_, signals(step, 0), slopes_[0]);
+  else
+    start_leapfrog(signals(step, 0));
+  const T h = T(dt_);
+  for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
+    T *y = &trial_[e * field_count], *half = &half_step_[6 * e];
+    const T* a = &slopes_[0][e * field_count];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      half[axis] += h * a[vx + axis];
+      half[3 + axis] += h * a[wx + axis];
+      y[ux + axis] += h * half[axis];
+      y[vx + axis] = half[axis] + h / T(2) * a[vx + axis];
+      y[wx + axis] = half[3 + axis] + h / T(2) * a[wx + axis];
+    }
+    const reference::Orientation<T> q = {y[qs], {y[qx], y[qy], y[qz]}};
+    const reference::Vector<T> w = {half[3], half[4], half[5]};
+    const reference::Orientation<T> turned = reference::cayley_turned<T>(q, h * w);
+    y[qs] = turned.s;
+    for (int axis = 0; axis < 3; ++axis) y[qx + axis] = turned.v[axis];
+  }
+}
+
+/// The readable state: positions as they are, velocities v_n = v_{n-1/2} + (h/2) a(x_n, p_n). The run itself goes on
+/// from p_n.
+template <class T>
+void Oracle<T>::finish_leapfrog(std::span<const double> signals) {
+  dynamics_.rates(trial_, signals, slopes_[0]);
+  state_ = trial_;
+  const T half_dt = T(dt_) / T(2);
+  for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
+    T* y = &state_[e * field_count];
+    const T* a = &slopes_[0][e * field_count];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      y[vx + axis] = half_step_[6 * e + axis] + half_dt * a[vx + axis];
+      y[wx + axis] = half_step_[6 * e + 3 + axis] + half_dt * a[wx + axis];
+    }
+  }
+}
+
+template <class T>
+std::optional<std::size_t> Oracle<T>::first_non_finite(const std::vector<T>& state) const {
+  const auto bad = std::find_if(state.begin(), state.end(), [](T value) { return !std::isfinite(value); });
+  if (bad == state.end()) return std::nullopt;
+  return std::size_t(bad - state.begin()) / field_count;
+}
+
+template <class T>
+std::size_t Oracle<T>::bytes() const {
+  return dynamics_.bytes() + (state_.size() * (2 + slopes_.size()) + half_step_.size()) * sizeof(T);
+}
+
+template class Oracle<float>;
+template class Oracle<double>;
+template class Oracle<long double>;
+
+} // namespace dss

@@ -1,0 +1,77 @@
+#pragma once
+/// The oracle: a plain solver of any problem by any method, against which every variant is checked (design.md sections
+/// 5 and 6). It shares no arithmetic with kernels/; its precision is that of T in every operation.
+#include "solver/numerics/method.hpp"
+#include "solver/reference/dynamics.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace dss {
+
+/// Where a run first left a state that is not finite.
+struct Breakdown {
+  long step = 0;           ///< counted from 0 at the call of advance
+  std::size_t element = 0; ///< the first such element
+};
+
+/// Runs a problem in T (float, double or long double). It starts at rest at t = 0, every field zero.
+template <class T>
+class Oracle {
+public:
+  /// Signal values (one row of solver/numerics/signal_rows.hpp) at a stage of a step; steps count from 0 at the call of
+  /// advance. A leapfrog asks once more, for stage 0 of the step after the last, to bring the velocities to the end of
+  /// the run.
+  using SignalSource = std::function<std::span<const double>(long step, int stage)>;
+
+  /// `problem` must outlive the oracle; `dt` is the step [s].
+  Oracle(const Problem& problem, const Method& method, double dt);
+
+  /// Sets the fields of elements from `first` on, 13 numbers each. Restarts the method at t = 0.
+  void write(std::span<const double> fields, std::size_t first = 0);
+  /// Gets them, rounded to double.
+  void read(std::span<double> fields, std::size_t first = 0) const;
+  /// All fields of all elements in full precision.
+  const std::vector<T>& state() const { return state_; }
+
+  /// Time derivative of every field at the present state, with the problem's signals at time t [s] or with given values
+  /// of them.
+  void derivative(double t, std::span<double> rates);
+  void derivative(std::span<const double> signals, std::span<double> rates);
+
+  /// Advances by `steps` steps of the method with the problem's own signals, or with those of `signals`.
+  /// Stops at the first step that leaves a non-finite state and says where that was.
+  std::optional<Breakdown> advance(long steps);
+  std::optional<Breakdown> advance(long steps, const SignalSource& signals);
+
+  /// Kinetic, elastic and stabilization energy of the present state [J].
+  T energy() { return dynamics_.energy(state_); }
+  /// Steps since the start or the last write.
+  long step_count() const { return step_count_; }
+  double time() const { return double(step_count_) * dt_; }
+  std::size_t bytes() const;
+
+private:
+  std::span<const double> signals_at(double t);
+  void runge_kutta_step(long step, const SignalSource& signals);
+  void start_leapfrog(std::span<const double> signals);
+  void leapfrog_step(long step, const SignalSource& signals);
+  void finish_leapfrog(std::span<const double> signals);
+  std::optional<std::size_t> first_non_finite(const std::vector<T>& state) const;
+
+  const Problem& problem_;
+  Method method_;
+  double dt_;
+  reference::Dynamics<T> dynamics_;
+  long step_count_ = 0;
+  std::vector<T> state_; ///< y_n
+  std::vector<double> signal_row_;
+  std::vector<std::vector<T>> slopes_; ///< k_1 .. of a Runge-Kutta method; the leapfrog's derivative
+  std::vector<T> trial_;               ///< state of a stage; the leapfrog's (x_n, p_n)
+  std::vector<T> half_step_;           ///< leapfrog: velocities at n - 1/2, six an element
+  bool is_leapfrog_started_ = false;
+  std::vector<std::vector<T>>
+      weights_; ///< Butcher table: row s gives Y_s = y + h sum_j weights[s][j] k_j; the last row the step
+};
+
+} // namespace dss

@@ -1,0 +1,15 @@
+#pragma once
+/// Expressions in scenes: "=floor(n/4)".
+#include <map>
+#include <string>
+
+namespace dss {
+
+using Parameters = std::map<std::string, double>;
+
+/// Value of an expression over named numbers, by muParser: + - * / ^, ?:, min, max, sqrt, sin, cos, ... and, added here,
+/// floor, ceil and pi.
+/// @throws InputError that says what is wrong with the expression, without the place where it stands
+double evaluate(const std::string& expression, const Parameters& parameters);
+
+} // namespace dss

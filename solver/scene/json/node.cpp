@@ -1,0 +1,200 @@
+#include "solver/scene/json/node.hpp"
+
+#include "solver/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace dss {
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t(0));
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j)
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])}));
+  }
+  return row.back();
+}
+
+/// What stands there, short enough for one line.
+std::string shown(const nlohmann::json& value) {
+  if (value.is_object() || value.is_array())
+    return fmt::format("an {} of {}", value.is_object() ? "object" : "array", value.size());
+  std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+}
+
+/// A key as it stands in a JSON pointer (RFC 6901).
+std::string escaped(const std::string& key) {
+  std::string text;
+  for (const char c : key) text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return text;
+}
+
+} // namespace
+
+std::string listed(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names) {
+  std::string nearest;
+  std::size_t least = wrong.size() / 3 + 2;
+  for (const std::string& name : names)
+    if (const std::size_t distance = edit_distance(wrong, name); distance < least && distance < name.size()) {
+      least = distance;
+      nearest = name;
+    }
+  return nearest;
+}
+
+void Node::fail(const std::string& message) const {
+  const auto set_by = text_->overrides.find(pointer_);
+  std::string line = fmt::format("{}: {}: {}", text_->path, pointer_.empty() ? "/" : pointer_, message);
+  if (set_by != text_->overrides.end()) line += fmt::format(" (from {})", set_by->second);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  throw InputError(line);
+}
+
+bool Node::is_number() const {
+  return value_->is_number() || (value_->is_string() && value_->get_ref<const std::string&>().starts_with('='));
+}
+
+double Node::number() const {
+  if (!is_number()) fail(fmt::format("{} is not a number; write a number or \"=expression\"", shown(*value_)));
+  if (value_->is_number()) return value_->get<double>();
+  try {
+    return evaluate(value_->get_ref<const std::string&>().substr(1), text_->parameters);
+  } catch (const InputError& error) {
+    const auto& names = text_->parameters;
+    std::vector<std::string> known;
+    for (const auto& item : names) known.push_back(item.first);
+    fail(fmt::format("{}; parameters are {}", error.what(), known.empty() ? "none" : listed(known)));
+  }
+}
+
+double Node::positive() const {
+  const double value = number();
+  if (!(value > 0)) fail(fmt::format("{} is not positive", value));
+  return value;
+}
+
+double Node::non_negative() const {
+  const double value = number();
+  if (!(value >= 0)) fail(fmt::format("{} is negative", value));
+  return value;
+}
+
+long Node::whole(long least, long most) const {
+  const double value = number();
+  if (value != std::floor(value)) fail(fmt::format("{} is not a whole number", value));
+  if (value < double(least) || value > double(most))
+    fail(fmt::format("{} is out of range; it must be from {} to {}", value, least, most));
+  return long(value);
+}
+
+std::string Node::string() const {
+  if (!value_->is_string()) fail(fmt::format("{} is not a text", shown(*value_)));
+  return value_->get<std::string>();
+}
+
+bool Node::boolean() const {
+  if (!value_->is_boolean()) fail(fmt::format("{} is neither true nor false", shown(*value_)));
+  return value_->get<bool>();
+}
+
+Vec3 Node::vector() const {
+  if (!value_->is_array() || value_->size() != 3) fail(fmt::format("{} is not [x, y, z]", shown(*value_)));
+  const std::vector<Node> parts = items();
+  return {parts[0].number(), parts[1].number(), parts[2].number()};
+}
+
+Vec3 Node::positive_vector() const {
+  vector(); // for its errors about the shape
+  const std::vector<Node> parts = items();
+  return {parts[0].positive(), parts[1].positive(), parts[2].positive()};
+}
+
+std::vector<Node> Node::items() const {
+  if (!value_->is_array()) fail(fmt::format("{} is not an array [...]", shown(*value_)));
+  std::vector<Node> nodes;
+  for (std::size_t k = 0; k < value_->size(); ++k)
+    nodes.emplace_back(*text_, (*value_)[k], fmt::format("{}/{}", pointer_, k));
+  return nodes;
+}
+
+std::size_t Node::choice(const char* what, const std::vector<std::string>& names) const {
+  const std::string text = string();
+  const auto place = std::find(names.begin(), names.end(), text);
+  if (place == names.end()) fail(fmt::format("\"{}\" is not a {}; known are {}", text, what, listed(names)));
+  return std::size_t(place - names.begin());
+}
+
+ObjectNode::ObjectNode(const Node& node) : node_(node) {
+  if (!node.json().is_object()) node.fail(fmt::format("{} is not an object {{...}}", shown(node.json())));
+}
+
+std::optional<Node> ObjectNode::find(const std::string& key) {
+  known_.insert(key);
+  const auto place = node_.json().find(key);
+  if (place == node_.json().end()) return std::nullopt;
+  return Node(*node_.text_, *place, node_.pointer_ + "/" + escaped(key));
+}
+
+Node ObjectNode::require(const std::string& key) {
+  const std::optional<Node> node = find(key);
+  if (!node) {
+    // A misspelt key is the likelier reason than a missing one.
+    for (const auto& item : node_.json().items())
+      if (!known_.contains(item.key()) && nearest_name(item.key(), {key}) == key)
+        Node(*node_.text_, item.value(), node_.pointer_ + "/" + escaped(item.key()))
+            .fail(fmt::format("unknown key; did you mean \"{}\"?", key));
+    fail(fmt::format("\"{}\" is missing", key));
+  }
+  return *node;
+}
+
+double ObjectNode::number_or(const std::string& key, double otherwise) {
+  const std::optional<Node> node = find(key);
+  return node ? node->number() : otherwise;
+}
+
+double ObjectNode::non_negative_or(const std::string& key, double otherwise) {
+  const std::optional<Node> node = find(key);
+  return node ? node->non_negative() : otherwise;
+}
+
+Vec3 ObjectNode::vector_or(const std::string& key, const Vec3& otherwise) {
+  const std::optional<Node> node = find(key);
+  return node ? node->vector() : otherwise;
+}
+
+std::string ObjectNode::require_one(const std::vector<std::string>& keys) {
+  std::vector<std::string> there;
+  for (const std::string& key : keys)
+    if (find(key)) there.push_back(key);
+  if (there.empty()) {
+    finish();
+    fail(fmt::format("one of {} is missing", listed(keys)));
+  }
+  if (there.size() > 1) fail(fmt::format("{} exclude each other; give one of them", listed(there)));
+  return there.front();
+}
+
+void ObjectNode::finish() const {
+  const std::vector<std::string> known(known_.begin(), known_.end());
+  for (const auto& item : node_.json().items()) {
+    if (known_.contains(item.key())) continue;
+    const std::string near = nearest_name(item.key(), known);
+    Node(*node_.text_, item.value(), node_.pointer_ + "/" + escaped(item.key()))
+        .fail(near.empty() ? fmt::format("unknown key; known are {}", listed(known))
+                           : fmt::format("unknown key; did you mean \"{}\"? Known are {}", near, listed(known)));
+  }
+}
+
+} // namespace dss

@@ -1,0 +1,114 @@
+#pragma once
+/// Runs a problem on a variant and compares states: by tolerance with the oracle, to the last bit among variants with FMA.
+#include "solver/numerics/signal_rows.hpp"
+#include "solver/reference/oracle.hpp"
+#include "variants/loader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dss::test {
+
+using State = std::vector<double>;
+
+inline State poisoned(const Problem& problem) {
+  return State(problem.lattice.element_count * field_count, std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Every number as the precision inside holds it, so that the oracle starts from what the variant sees.
+inline State rounded(State state, Precision precision) {
+  if (precision == Precision::f32)
+    for (double& x : state) x = double(float(x));
+  return state;
+}
+
+/// Motions that leave the plane z = const removed: what the planar model can hold.
+inline State flattened(State state) {
+  for (std::size_t at = 0; at < state.size(); at += field_count) {
+    for (const Field f : {uz, vz, wx, wy}) state[at + f] = 0;
+    const double norm = std::hypot(1 + state[at + qs], state[at + qz]);
+    state[at + qz] /= norm;
+    state[at + qs] = (1 + state[at + qs]) / norm - 1;
+    state[at + qx] = state[at + qy] = 0;
+  }
+  return state;
+}
+
+struct VariantRun {
+  const Plugin& plugin;
+  const Problem& problem;
+  const Method& method;
+  Model model = Model::spatial;
+  Precision precision = Precision::f64;
+  int threads = 1;
+  double dt = problem.dt;
+
+  std::unique_ptr<Executor> executor() const { return plugin.create({problem, method, model, precision, dt, threads}); }
+  State derivative(const State& state) const {
+    const auto run = executor();
+    run->write(0, state);
+    State rates = poisoned(problem);
+    const std::vector<double> signals = signal_rows(problem, method, dt, 0, 1);
+    run->derivative(std::span(signals).first(signal_count(problem)), rates);
+    return rates;
+  }
+  /// After `steps` steps, taken in two calls of advance so that a restart between them is always exercised.
+  State after(const State& state, long steps) const {
+    const auto run = executor();
+    run->write(0, state);
+    const long first = steps / 3;
+    run->advance(first, signal_rows(problem, method, dt, 0, first));
+    run->advance(steps - first, signal_rows(problem, method, dt, first, steps - first));
+    State result = poisoned(problem);
+    run->read(0, result);
+    return result;
+  }
+};
+
+inline State oracle_derivative(const Problem& problem, const Method& method, const State& state) {
+  Oracle<long double> oracle(problem, method, problem.dt);
+  oracle.write(state);
+  State rates = poisoned(problem);
+  oracle.derivative(0.0, rates);
+  return rates;
+}
+inline State oracle_after(const Problem& problem, const Method& method, const State& state, long steps) {
+  Oracle<long double> oracle(problem, method, problem.dt);
+  oracle.write(state);
+  oracle.advance(steps);
+  State result = poisoned(problem);
+  oracle.read(result);
+  return result;
+}
+
+/// Largest difference over a group of fields (u, v, q, w), relative to the group's largest magnitude in `expected`; the worst group.
+/// NaN anywhere gives infinity.
+inline double relative_error(const State& actual, const State& expected) {
+  constexpr int groups[][2] = {{ux, uz}, {vx, vz}, {qs, qz}, {wx, wz}};
+  double worst = 0;
+  for (const auto& [from, to] : groups) {
+    double difference = 0, scale = 0;
+    for (std::size_t at = 0; at < expected.size(); at += field_count)
+      for (int f = from; f <= to; ++f) {
+        const double d = std::abs(actual[at + std::size_t(f)] - expected[at + std::size_t(f)]);
+        difference = std::isnan(d) ? std::numeric_limits<double>::infinity() : std::max(difference, d);
+        scale = std::max(scale, std::abs(expected[at + std::size_t(f)]));
+      }
+    if (difference > 0) worst = std::max(worst, scale > 0 ? difference / scale : std::numeric_limits<double>::infinity());
+  }
+  return worst;
+}
+
+/// Numbers whose bits differ; -0 counts as 0, and so does what flushing denormals may remove (design.md section 6).
+inline std::size_t differing_bits(const State& a, const State& b, Precision precision) {
+  const double tiny = precision == Precision::f64 ? 0x1p-1000 : 0x1p-120;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    const double x = std::abs(a[n]) < tiny ? 0 : a[n], y = std::abs(b[n]) < tiny ? 0 : b[n];
+    count += x != y;
+  }
+  return count;
+}
+
+} // namespace dss::test

@@ -1,0 +1,138 @@
+/// Every variant against the oracle, and against each other: one parametrised test over the registry, so that a new variant is tested
+/// because it exists. Problems are built in code and cover every term; the shipped scenes are covered by `dssbench verify`.
+#include "tests/equivalence/comparison.hpp"
+#include "tests/fixtures/problems.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dss::test {
+namespace {
+
+struct Case {
+  std::string name;
+  Problem problem;
+  bool is_planar = false;
+  double gap = 0.02; ///< of random states, in the scale of the problem's elements [m]
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all{{"plate", fixture::make_plate(12), true, 1e-3},
+                        {"everything", fixture::make_everything()},
+                        {"pair", fixture::make_pair(LinkLaw::paper)},
+                        {"tumbling_box", fixture::make_tumbling_box(1)}};
+  for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material}) {
+    const std::string suffix = law == LinkLaw::paper ? "_paper" : "_material";
+    all.push_back({"undamped" + suffix, fixture::make_block(5, 4, 3, law, 0)});
+    all.push_back({"sheet" + suffix, fixture::make_block(19, 6, 1, law), true});
+    for (const int n : {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31}) // awkward sizes: around the lanes of every variant, and primes
+      all.push_back({"row_of_" + std::to_string(n) + suffix, fixture::make_block(n, 2, n < 6 ? n : 1, law)});
+  }
+  return all;
+}
+
+std::vector<std::string> usable_variants() {
+  std::vector<std::string> names;
+  for (const VariantStatus& variant : variants())
+    if (variant.is_usable()) names.push_back(variant.name);
+  return names;
+}
+
+class EveryVariant : public testing::TestWithParam<std::string> {
+protected:
+  const Plugin& plugin = load_variant(GetParam());
+  std::vector<Model> models(const Case& c) const { return c.is_planar ? std::vector{Model::spatial, Model::planar} : std::vector{Model::spatial}; }
+  State start(const Case& c, Model model, Precision precision, unsigned seed) const {
+    State state = fixture::random_state(c.problem, seed, c.gap);
+    return rounded(model == Model::planar ? flattened(state) : state, precision);
+  }
+};
+
+TEST_P(EveryVariant, agrees_with_the_oracle_after_one_evaluation_of_a_random_state) {
+  for (const Case& c : cases())
+    for (const Model model : models(c))
+      for (const Precision precision : {Precision::f64, Precision::f32})
+        for (const Method& method : methods()) {
+          const State state = start(c, model, precision, 1);
+          const double error = relative_error(VariantRun{plugin, c.problem, method, model, precision}.derivative(state),
+                                              oracle_derivative(c.problem, method, state));
+          EXPECT_LE(error, precision == Precision::f64 ? 1e-13 : 1e-5) << c.name << ' ' << name(model) << ' ' << name(precision);
+        }
+}
+
+TEST_P(EveryVariant, agrees_with_the_oracle_after_a_run_from_a_moderate_state) {
+  for (const Case& c : cases())
+    for (const Model model : models(c))
+      for (const Precision precision : {Precision::f64, Precision::f32})
+        for (const Method& method : methods()) {
+          State state = fixture::random_state(c.problem, 2, c.gap * 0.01, 0.02, 0.01);
+          state = rounded(model == Model::planar ? flattened(state) : state, precision);
+          const double error = relative_error(VariantRun{plugin, c.problem, method, model, precision}.after(state, 60),
+                                              oracle_after(c.problem, method, state, 60));
+          EXPECT_LE(error, precision == Precision::f64 ? 1e-10 : 2e-3) << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name;
+        }
+}
+
+TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
+  if (!plugin.is_threaded) GTEST_SKIP() << "not threaded";
+  for (const Case& c : cases())
+    for (const Precision precision : {Precision::f64, Precision::f32})
+      for (const Method& method : methods()) {
+        const State state = rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
+        const State one = VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
+        for (const int threads : {2, 3, 4, 7})
+          EXPECT_EQ(differing_bits(one, (VariantRun{plugin, c.problem, method, Model::spatial, precision, threads}).after(state, 20), precision), 0u)
+              << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << threads << " threads";
+      }
+}
+
+TEST_P(EveryVariant, keeps_a_state_at_rest_at_rest_to_the_last_bit) {
+  const Problem problem = fixture::make_block(9, 3, 2, LinkLaw::material);
+  for (const Method& method : methods()) {
+    const State rest(problem.lattice.element_count * field_count, 0.0);
+    EXPECT_EQ((VariantRun{plugin, problem, method}.after(rest, 50)), rest) << method.name;
+  }
+}
+
+TEST_P(EveryVariant, reports_the_step_and_element_of_the_first_non_finite_state) {
+  const Problem problem = fixture::make_block(9, 3, 1, LinkLaw::paper);
+  for (const Method& method : methods())
+    for (const int threads : {1, 3}) {
+      State state(problem.lattice.element_count * field_count, 0.0);
+      state[13 * field_count + uy] = std::numeric_limits<double>::infinity();
+      const auto run = plugin.create({problem, method, Model::spatial, Precision::f64, problem.dt, plugin.is_threaded ? threads : 1});
+      run->write(0, state);
+      const Outcome outcome = run->advance(10, signal_rows(problem, method, problem.dt, 0, 10));
+      EXPECT_FALSE(outcome.is_finite) << method.name;
+      EXPECT_EQ(outcome.step, 0) << method.name;
+      EXPECT_LE(outcome.element, 13u + 9u) << method.name; // the element itself or a neighbour that it reached within the step
+      EXPECT_GE(outcome.element, 13u - 9u - 4u) << method.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryVariant, testing::ValuesIn(usable_variants()), [](const auto& registered) {
+  std::string name = registered.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
+  std::vector<const Plugin*> fused;
+  for (const std::string& variant : usable_variants())
+    if (load_variant(variant).has_fma) fused.push_back(&load_variant(variant));
+  if (fused.size() < 2) GTEST_SKIP() << "this CPU runs " << fused.size() << " variant(s) with FMA";
+  for (const Case& c : cases())
+    for (const Model model : {Model::spatial, Model::planar})
+      for (const Precision precision : {Precision::f64, Precision::f32})
+        for (const Method& method : methods()) {
+          if (model == Model::planar && !c.is_planar) continue;
+          State state = fixture::random_state(c.problem, 4, c.gap * 0.01, 0.02, 0.01);
+          state = rounded(model == Model::planar ? flattened(state) : state, precision);
+          const State first = VariantRun{*fused[0], c.problem, method, model, precision}.after(state, 60);
+          for (const Plugin* other : fused)
+            EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60), precision), 0u)
+                << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name << ' ' << other->name;
+        }
+}
+
+} // namespace
+} // namespace dss::test

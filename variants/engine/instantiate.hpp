@@ -1,0 +1,80 @@
+#pragma once
+/// Compiles the table of kernel_set.hpp for one model and precision.
+#include "kernels/stage_row/stage_row.hpp"
+#include "variants/engine/kernel_set.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace dss {
+
+template <template <class> class Physics, class T, Terms terms>
+struct RowKernels {
+  using P = Physics<simd::Pack<T>>;
+  static constexpr int half_velocities =
+      terms.is_velocity_dependent() ? component_count<typename P::vec>() + component_count<typename P::spin>() : 0;
+  static constexpr int leapfrog_fields = P::fields + half_velocities;
+
+  [[gnu::flatten]] static bool stage(const RowTask<T>& task, bool is_last) {
+    const StageRow<P, T, terms> row{task};
+    RungeKuttaUpdate<P, T> update(task, is_last);
+    row.run(update);
+    return !is_last || update.check.passed();
+  }
+  [[gnu::flatten]] static bool leapfrog(const RowTask<T>& task) {
+    const StageRow<P, T, terms, leapfrog_fields> row{task};
+    LeapfrogUpdate<P, T, (half_velocities > 0)> update(task);
+    row.run(update);
+    return update.check.passed();
+  }
+  [[gnu::flatten]] static void prime(const RowTask<T>& task, int axis, int fields) {
+    const StageRow<P, T, terms> row{task};
+    if (axis == 1) row.prime(1, fields);
+    if constexpr (component_count<typename P::vec>() == 3)
+      if (axis == 2) row.prime(2, fields);
+  }
+
+  using S = Physics<T>;
+  static void extra_link(const ExtraLinkConstants<T>& link, const T* fields_i, const T* fields_j, T* wrench_i, T* wrench_j) {
+    typename S::element i, j;
+    each_component(i, [&](T& c) { c = *fields_i++; });
+    each_component(j, [&](T& c) { c = *fields_j++; });
+    const auto along = [&](auto axis) {
+      const auto& b = link.body;
+      const auto& a = b.axis[axis];
+      typename S::exchange x;
+      if (link.is_material)
+        x = S::material_link(i, j, axis,
+                             {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns, a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz}, true);
+      else
+        x = S::paper_link(i, j, axis, {link.edge_i, b.tau, b.kt2, b.dt}, {link.edge_j, b.tau, b.kt2, b.dt}, true, true);
+      const auto add = [&](T* wrench, T sign, typename S::spin moment) {
+        each_component(x.force, [&](T& c) { *wrench = simd::fma(sign * link.unit, c, *wrench), ++wrench; });
+        each_component(moment, [&](T& c) { *wrench = simd::fma(link.unit, c, *wrench), ++wrench; });
+      };
+      add(wrench_i, T(1), S::vec_moment(S::face_arm(i.q, axis, link.edge_i), x.force, x.couple_i));
+      add(wrench_j, T(-1), S::vec_moment(S::face_arm(j.q, axis, link.edge_j), x.force, x.couple_j));
+    };
+    if (link.axis == 0) along(std::integral_constant<int, 0>{});
+    if (link.axis == 1) along(std::integral_constant<int, 1>{});
+    if constexpr (component_count<typename S::vec>() == 3)
+      if (link.axis == 2) along(std::integral_constant<int, 2>{});
+  }
+
+  static constexpr KernelSet<T> set{
+      terms, StageRow<P, T, terms>::carry_size, leapfrog_fields, stage, leapfrog, prime, extra_link};
+};
+
+template <template <class> class Physics, class T, std::size_t... index>
+const KernelSet<T>& first_that_covers(const Terms& need, std::index_sequence<index...>) {
+  static constexpr const KernelSet<T>* sets[] = {&RowKernels<Physics, T, compiled_terms[index]>::set...};
+  for (const KernelSet<T>* set : sets)
+    if (set->terms.covers(need)) return *set;
+  throw std::logic_error("kernel_set.hpp: no compiled combination covers the terms of the problem");
+}
+template <template <class> class Physics, class T>
+const KernelSet<T>& find_compiled(const Terms& need) {
+  return first_that_covers<Physics, T>(need, std::make_index_sequence<compiled_terms.size()>{});
+}
+
+} // namespace dss

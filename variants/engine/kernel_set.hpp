@@ -1,0 +1,58 @@
+#pragma once
+/// The compiled row kernels of one (model, precision, terms), behind function pointers: the engine around them is compiled once a precision.
+#include "kernels/physics.hpp"
+#include "kernels/stage_row/row.hpp"
+#include "solver/model/model.hpp"
+
+#include <array>
+
+namespace dss {
+
+/// Combinations that are compiled, per law from lean to full; a problem takes the first that covers what it needs.
+/// One more row costs about 5 s of compile time a module.
+inline constexpr std::array compiled_terms{
+    // material, damped, bending, gyroscopic, tied
+    Terms{false, false, false, false, false}, Terms{false, true, false, false, false}, Terms{false, true, true, true, true},
+    Terms{true, false, false, false, false},  Terms{true, true, false, false, false},  Terms{true, true, true, true, true},
+};
+
+/// Constants of one link outside the grid; T-valued, both laws.
+template <class T>
+struct ExtraLinkConstants {
+  bool is_material;
+  int axis;
+  T edge_i, edge_j, unit; ///< unit: as in BodyConstants
+  BodyConstants<T> body;  ///< link constants only, on `axis`
+};
+
+template <class T>
+struct KernelSet {
+  Terms terms;
+  int carry_size;      ///< scalars a pack in a carry buffer
+  int leapfrog_fields; ///< fields a pack of a leapfrog row holds
+  /// One Runge-Kutta stage of a row; false if it `is_last` and left a non-finite velocity.
+  bool (*stage)(const RowTask<T>& task, bool is_last);
+  /// One leapfrog step of a row in place; false if it left a non-finite velocity.
+  bool (*leapfrog)(const RowTask<T>& task);
+  /// Only the links from a row (its `in`, `upper_*`, `carry_*`) across an axis (1 or 2): what a block of rows needs from the row before it.
+  /// `fields`: fields a pack of the rows holds.
+  void (*prime)(const RowTask<T>& task, int axis, int fields);
+  /// A link outside the grid: fields of both elements in, wrenches (force then moment) added to both.
+  void (*extra_link)(const ExtraLinkConstants<T>& link, const T* i, const T* j, T* wrench_i, T* wrench_j);
+};
+
+/// The kernels for a model and what a body needs. One definition a (model, precision): variants/engine/kernels_*.cpp.
+const KernelSet<double>& spatial_f64_kernels(const Terms& need);
+const KernelSet<float>& spatial_f32_kernels(const Terms& need);
+const KernelSet<double>& planar_f64_kernels(const Terms& need);
+const KernelSet<float>& planar_f32_kernels(const Terms& need);
+
+template <class T>
+const KernelSet<T>& find_kernels(Model model, const Terms& need) {
+  if constexpr (sizeof(T) == sizeof(double))
+    return model == Model::planar ? planar_f64_kernels(need) : spatial_f64_kernels(need);
+  else
+    return model == Model::planar ? planar_f32_kernels(need) : spatial_f32_kernels(need);
+}
+
+} // namespace dss

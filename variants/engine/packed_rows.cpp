@@ -1,0 +1,249 @@
+#include "variants/engine/packed_rows.hpp"
+
+#include <algorithm>
+
+namespace dss {
+
+std::size_t row_of(const Lattice& lattice, std::size_t element) {
+  const auto after = std::upper_bound(lattice.rows.begin(), lattice.rows.end(), element,
+                                      [](std::size_t e, const Row& row) { return e < row.first_element; });
+  return std::size_t(after - lattice.rows.begin()) - 1;
+}
+
+template <class T>
+Place place_of(const PackedRows<T>& packed, std::size_t element) {
+  constexpr int W = PackedRows<T>::W;
+  const std::size_t r = row_of(packed.lattice, element);
+  Place place{r, 0, 0};
+  const Row& row = packed.lattice.rows[r];
+  const std::size_t end = r + 1 < packed.rows.size() ? packed.lattice.rows[r + 1].first_element : packed.lattice.element_count;
+  if (end - row.first_element == std::size_t(row.x_end - row.x_begin)) { // no holes
+    const int x = row.x_begin + int(element - row.first_element);
+    return {r, x / W - packed.rows[r].first_pack, x % W};
+  }
+  each_cell(packed.lattice, row, [&](std::size_t e, int x) {
+    if (e == element) place.pack = x / W - packed.rows[r].first_pack, place.lane = x % W;
+  });
+  return place;
+}
+
+template <class T>
+PackedRows<T>::PackedRows(const Problem& problem, Model model)
+    : lattice(problem.lattice), layout(model_layout(model)), rows(lattice.rows.size()), applied_index_(lattice.rows.size(), -1) {
+  reach = lattice.row_reach();
+  choose_kernels(problem, model);
+  std::size_t packs = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = lattice.rows[r];
+    PackedRow<T>& packed = rows[r];
+    packed.first_pack = row.x_begin / W;
+    packed.packs = (row.x_end + W - 1) / W - packed.first_pack;
+    packed.pack_offset = packs;
+    packed.kernels = kernels_[std::size_t(row.body)];
+    packed.body = &bodies_[std::size_t(row.body)];
+    packs += std::size_t(packed.packs);
+    packs_across = std::max(packs_across, packed.first_pack + packed.packs);
+    max_packs = std::max(max_packs, packed.packs);
+  }
+  masks_.resize(packs);
+  for (PackedRow<T>& row : rows) row.masks = &masks_[row.pack_offset];
+  mark_links();
+  apply_loads(problem);
+  apply_extra_links(problem);
+  apply_clamps(problem);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (applied_index_[r] < 0) continue;
+    AppliedRow& row = *applied_[std::size_t(applied_index_[r])];
+    row.applied.patterns = row.patterns.data();
+    row.applied.pattern_count = int(row.patterns.size());
+    row.applied.first = 0;
+    row.applied.packs = rows[r].packs;
+    if (row.free_lanes.empty() && !row.patterns.empty()) { // loads alone: only the packs that carry one
+      row.applied.first = row.patterns.front().first;
+      int end = 0;
+      for (const auto& p : row.patterns) {
+        row.applied.first = std::min(row.applied.first, p.first);
+        end = std::max(end, p.first + p.packs);
+      }
+      row.applied.packs = end - row.applied.first;
+    }
+    row.applied.free_lanes = row.free_lanes.empty() ? nullptr : row.free_lanes.data();
+    rows[r].applied = &row.applied;
+  }
+}
+
+template <class T>
+void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
+  Terms common;
+  common.is_tied = problem.stabilization.is_present();
+  for (const Body& body : problem.bodies) {
+    for (const AxisConstants& a : body.axis) {
+      common.is_damped |= a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{};
+      common.is_bending |= body.law == LinkLaw::paper && a.k_rot != Vec3{};
+    }
+    common.is_gyroscopic |= body.has_tensor_inertia() && model == Model::spatial;
+  }
+  const auto choose = [&] {
+    kernels_.clear();
+    bool is_velocity_dependent = false;
+    for (const Body& body : problem.bodies) {
+      Terms need = common;
+      need.is_material = body.law == LinkLaw::material;
+      kernels_.push_back(&find_kernels<T>(model, need));
+      is_velocity_dependent |= kernels_.back()->terms.is_velocity_dependent();
+    }
+    return is_velocity_dependent;
+  };
+  if (choose() && !common.is_velocity_dependent()) common.is_damped = true, choose(); // one width of leapfrog rows for all bodies
+  for (const Body& body : problem.bodies) bodies_.push_back(body_constants<T>(body, problem.stabilization));
+  for (const KernelSet<T>* set : kernels_) {
+    carry_size = std::max(carry_size, set->carry_size);
+    leapfrog_fields = std::max(leapfrog_fields, set->leapfrog_fields);
+  }
+}
+
+template <class T>
+void PackedRows<T>::mark_links() {
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = lattice.rows[r];
+    const auto links_to = [&](int other, int x) { return other >= 0 && lattice.is_present(lattice.rows[std::size_t(other)], x); };
+    each_cell(lattice, row, [&](std::size_t, int x) {
+      PackMasks& masks = masks_[rows[r].pack_offset + std::size_t(x / W - rows[r].first_pack)];
+      const auto bit = simd::LaneMask(1u << (x % W));
+      if (lattice.is_present(row, x + 1)) masks.link_x |= bit;
+      if (links_to(row.upper_y, x)) masks.link_y |= bit;
+      if (links_to(row.upper_z, x)) masks.link_z |= bit;
+      if (links_to(row.lower_y, x)) masks.below_y |= bit;
+      if (links_to(row.lower_z, x)) masks.below_z |= bit;
+    });
+  }
+}
+
+template <class T>
+typename PackedRows<T>::AppliedRow& PackedRows<T>::applied_row(std::size_t row) {
+  if (applied_index_[row] < 0) {
+    applied_index_[row] = int(applied_.size());
+    applied_.push_back(std::make_unique<AppliedRow>());
+  }
+  return *applied_[std::size_t(applied_index_[row])];
+}
+
+template <class T>
+void PackedRows<T>::apply_loads(const Problem& problem) {
+  const std::size_t components = layout.wrench.size();
+  for (std::size_t n = 0; n < problem.loads.size(); ++n) {
+    const Load& load = problem.loads[n];
+    std::vector<Place> places;
+    for (const std::size_t element : load.elements) places.push_back(place_of(*this, element));
+    for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
+      const std::size_t r = places[from].row;
+      while (to < places.size() && places[to].row == r) ++to;
+      const int first = places[from].pack, packs = places[to - 1].pack - first + 1;
+      AppliedRow& row = applied_row(r);
+      Buffer<T> values(std::size_t(packs) * components * W);
+      for (std::size_t p = from; p < to; ++p)
+        for (std::size_t c = 0; c < components; ++c) {
+          const std::size_t w = std::size_t(layout.wrench[c]);
+          values.data()[(std::size_t(places[p].pack - first) * components + c) * W + std::size_t(places[p].lane)] =
+              T(w < 3 ? load.force[w] : load.torque[w - 3]);
+        }
+      row.patterns.push_back({values.data(), int(3 + n), first, packs});
+      row.values.push_back(std::move(values));
+    }
+  }
+}
+
+template <class T>
+void PackedRows<T>::apply_extra_links(const Problem& problem) {
+  if (problem.extra_links.empty()) return;
+  extra_.resize(rows.size());
+  const int constant_one = int(3 + problem.loads.size());
+  for (const ExtraLink& link : problem.extra_links)
+    for (const std::size_t element : {link.i, link.j}) {
+      const std::size_t r = row_of(lattice, element);
+      if (!extra_[r].empty()) continue;
+      extra_[r] = Buffer<T>(std::size_t(rows[r].packs) * layout.wrench.size() * W);
+      applied_row(r).patterns.push_back({extra_[r].data(), constant_one, 0, rows[r].packs});
+    }
+}
+
+template <class T>
+void PackedRows<T>::apply_clamps(const Problem& problem) {
+  const std::size_t components = layout.wrench.size();
+  for (const Clamp& clamp : problem.clamps) {
+    const Place place = place_of(*this, clamp.element);
+    AppliedRow& row = applied_row(place.row);
+    if (row.free_lanes.empty()) row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, simd::all_lanes<T>);
+    for (std::size_t c = 0; c < components; ++c)
+      if ((clamp.dofs >> layout.wrench[c] & 1) != 0)
+        row.free_lanes[std::size_t(place.pack) * components + c] &= simd::LaneMask(~(1u << place.lane));
+  }
+}
+
+template <class T>
+std::size_t PackedRows<T>::bytes() const {
+  std::size_t sum = rows.size() * sizeof(PackedRow<T>) + masks_.size() * sizeof(PackMasks) + applied_index_.size() * sizeof(int);
+  for (const auto& row : applied_) {
+    sum += sizeof(AppliedRow) + row->free_lanes.size() * sizeof(simd::LaneMask);
+    for (const Buffer<T>& values : row->values) sum += values.bytes();
+  }
+  for (const Buffer<T>& wrench : extra_) sum += wrench.bytes();
+  return sum;
+}
+
+template <class T>
+static void set_link_constants(BodyConstants<T>& c, std::size_t axis, const AxisConstants& a) {
+  c.axis[axis] = {T(a.k_shear), T(a.k_normal - a.k_shear), T(a.d_shear), T(a.d_normal - a.d_shear),
+                  T(2 * a.k_rot[2]), T(2 * (a.k_rot[0] - a.k_rot[2])), T(2 * (a.k_rot[1] - a.k_rot[2])),
+                  T(a.d_rot[2]), T(a.d_rot[0] - a.d_rot[2]), T(a.d_rot[1] - a.d_rot[2])};
+}
+/// Unit of force of a link law: the paper's law is computed in units of k.
+static double force_unit(LinkLaw law, const AxisConstants& a) { return law == LinkLaw::paper && a.k_normal > 0 ? a.k_normal : 1; }
+template <class T>
+static void set_paper_constants(BodyConstants<T>& c, const AxisConstants& a) {
+  c.tau = T(a.d_normal / a.k_normal);
+  c.kt2 = T(2 * a.k_rot[0] / a.k_normal);
+  c.dt = T(a.d_rot[0] / a.k_normal);
+}
+
+template <class T>
+BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
+  BodyConstants<T> c{};
+  const double unit = force_unit(body.law, body.axis[0]);
+  c.inverse_unit = T(1 / unit);
+  if (body.law == LinkLaw::paper && body.axis[0].k_normal > 0) set_paper_constants(c, body.axis[0]);
+  for (std::size_t a = 0; a < 3; ++a) {
+    c.edge[a] = T(body.edge[a]);
+    set_link_constants(c, a, body.axis[a]);
+    c.inertia[a] = T(body.inertia[a] / unit);
+    c.inverse_inertia[a] = T(unit / body.inertia[a]);
+  }
+  c.inverse_mass = T(unit / body.mass);
+  c.tie_k = T(tie.k / unit), c.tie_d = T(tie.d / unit), c.tie_k2_rot = T(2 * tie.k_rot / unit), c.tie_d_rot = T(tie.d_rot / unit);
+  return c;
+}
+
+template <class T>
+ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLink& link) {
+  const auto edge = [&](std::size_t element) {
+    const Row& row = problem.lattice.rows[row_of(problem.lattice, element)];
+    return T(problem.bodies[std::size_t(row.body)].edge[std::size_t(link.axis)]);
+  };
+  ExtraLinkConstants<T> c{};
+  c.is_material = link.law == LinkLaw::material;
+  c.axis = link.axis;
+  c.edge_i = edge(link.i), c.edge_j = edge(link.j);
+  c.unit = T(force_unit(link.law, link.constants));
+  if (!c.is_material) set_paper_constants(c.body, link.constants);
+  set_link_constants(c.body, std::size_t(link.axis), link.constants);
+  return c;
+}
+
+template class PackedRows<double>;
+template class PackedRows<float>;
+template Place place_of(const PackedRows<double>&, std::size_t);
+template Place place_of(const PackedRows<float>&, std::size_t);
+template ExtraLinkConstants<double> extra_link_constants(const Problem&, const ExtraLink&);
+template ExtraLinkConstants<float> extra_link_constants(const Problem&, const ExtraLink&);
+
+} // namespace dss

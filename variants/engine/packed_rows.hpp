@@ -1,0 +1,90 @@
+#pragma once
+/// A problem cut into rows of packs: what is constant during a run.
+#include "solver/model/problem.hpp"
+#include "variants/engine/buffer.hpp"
+#include "variants/engine/kernel_set.hpp"
+#include "variants/engine/layout.hpp"
+
+#include <vector>
+
+namespace dss {
+
+/// One row of packs. Packs start at multiples of W on the body's grid, so that neighbouring rows agree on lanes.
+template <class T>
+struct PackedRow {
+  int first_pack = 0, packs = 0;
+  std::size_t pack_offset = 0; ///< packs of all rows before it
+  const KernelSet<T>* kernels = nullptr;
+  const BodyConstants<T>* body = nullptr;
+  const PackMasks* masks = nullptr;
+  const Applied<T>* applied = nullptr;
+};
+
+template <class T>
+class PackedRows {
+public:
+  static constexpr int W = simd::lanes<T>;
+  PackedRows(const Problem& problem, Model model);
+  PackedRows(const PackedRows&) = delete;
+  PackedRows& operator=(const PackedRows&) = delete;
+
+  const Lattice& lattice;
+  const ModelLayout layout;
+  std::vector<PackedRow<T>> rows;
+  int reach = 0;              ///< largest distance in rows of two linked elements
+  int packs_across = 0;       ///< packs of the widest body's grid
+  int max_packs = 0;          ///< packs of the longest row
+  int carry_size = 0;         ///< scalars a pack of a carry buffer, largest over the bodies
+  int leapfrog_fields = 0;
+  int fields() const { return int(layout.fields.size()); }
+
+  /// Where a row's extra wrenches go (links outside the grid), or null; six (three) components a pack, in newtons. Signal: constant 1.
+  T* extra_wrench(std::size_t row) { return extra_.empty() ? nullptr : extra_[row].data(); }
+  std::size_t bytes() const;
+
+private:
+  struct AppliedRow {
+    Applied<T> applied;
+    std::vector<typename Applied<T>::Pattern> patterns;
+    std::vector<Buffer<T>> values;
+    std::vector<simd::LaneMask> free_lanes;
+  };
+  void choose_kernels(const Problem& problem, Model model);
+  void mark_links();
+  void apply_loads(const Problem& problem);
+  void apply_clamps(const Problem& problem);
+  void apply_extra_links(const Problem& problem);
+  AppliedRow& applied_row(std::size_t row);
+
+  std::vector<const KernelSet<T>*> kernels_;
+  std::vector<BodyConstants<T>> bodies_;
+  std::vector<PackMasks> masks_;
+  std::vector<int> applied_index_; ///< row -> applied_, or -1
+  std::vector<std::unique_ptr<AppliedRow>> applied_;
+  std::vector<Buffer<T>> extra_;
+};
+
+/// Where an element is.
+struct Place {
+  std::size_t row;
+  int pack, lane; ///< pack counted from the row's first
+};
+/// Row that holds an element: the last whose first_element is not beyond it.
+std::size_t row_of(const Lattice& lattice, std::size_t element);
+/// x of every present cell of a row is visited as visit(element, x), in order.
+template <class Visit>
+void each_cell(const Lattice& lattice, const Row& row, Visit&& visit) {
+  std::size_t element = row.first_element;
+  for (int x = row.x_begin; x < row.x_end; ++x)
+    if (lattice.is_present(row, x)) visit(element++, x);
+}
+template <class T>
+Place place_of(const PackedRows<T>& packed, std::size_t element);
+
+/// Constants of a body in the form of the kernels.
+template <class T>
+BodyConstants<T> body_constants(const Body& body, const Stabilization& tie);
+template <class T>
+ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLink& link);
+
+} // namespace dss

@@ -1,0 +1,12 @@
+/// Entry point of every module built over the row engine; DSS_VARIANT and DSS_ISA come from CMake.
+#include "variants/engine/row_executor.hpp"
+
+extern "C" const dss::Plugin* dss_plugin() {
+#ifdef __FMA__
+  constexpr bool has_fma = true;
+#else
+  constexpr bool has_fma = false;
+#endif
+  static constexpr dss::Plugin plugin{dss::plugin_abi, DSS_VARIANT, DSS_ISA, has_fma, true, dss::create_row_executor};
+  return &plugin;
+}

@@ -1,0 +1,73 @@
+#pragma once
+/// Blocks of rows, one a thread, and the row tasks that every schedule is made of.
+#include "solver/numerics/method.hpp"
+#include "variants/engine/packed_rows.hpp"
+
+#include <array>
+#include <vector>
+
+namespace dss {
+
+/// Carry buffers of one stage of one block: the link forces that rows leave for their upper neighbours.
+/// Across y the upper row is the next one; across z it is at most `reach` rows ahead, so rings of 2 and reach + 1 rows do.
+template <class T>
+class CarryRings {
+public:
+  CarryRings() = default;
+  explicit CarryRings(const PackedRows<T>& packed)
+      : rows_z_(packed.reach + 1), row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
+        data_(std::size_t(2 + rows_z_) * row_size_) {}
+  /// Ring rows start at pack 0 of the body's grid, so rows of different first packs agree.
+  T* y(int row) { return data_.data() + std::size_t(row % 2) * row_size_; }
+  T* z(int row) { return data_.data() + std::size_t(2 + row % rows_z_) * row_size_; }
+  std::size_t bytes() const { return data_.bytes(); }
+
+private:
+  int rows_z_ = 0;
+  std::size_t row_size_ = 0;
+  Buffer<T> data_;
+};
+
+/// Fills the part of a task that depends on the row and its neighbours: masks, constants, input rows, carries.
+/// `input(row)` is the address of any row's input; rows hold `fields` fields a pack.
+template <class T, class Input>
+void set_row(RowTask<T>& task, const PackedRows<T>& packed, int row, int fields, CarryRings<T>& carry, Input&& input) {
+  const PackedRow<T>& p = packed.rows[std::size_t(row)];
+  const Row& r = packed.lattice.rows[std::size_t(row)];
+  const std::ptrdiff_t pack_size = std::ptrdiff_t(fields) * PackedRows<T>::W;
+  const std::ptrdiff_t carry_offset = std::ptrdiff_t(p.first_pack) * p.kernels->carry_size;
+  const auto aligned = [&](int upper) -> const T* {
+    return upper < 0 ? nullptr : input(upper) + (p.first_pack - packed.rows[std::size_t(upper)].first_pack) * pack_size;
+  };
+  task.packs = p.packs;
+  task.masks = p.masks;
+  task.body = p.body;
+  task.applied = p.applied;
+  task.in = input(row);
+  task.upper_y = aligned(r.upper_y);
+  task.carry_y = carry.y(row) + carry_offset;
+  if (r.lower_y >= 0) task.from_y = carry.y(r.lower_y) + carry_offset;
+  if (r.upper_z >= 0) task.upper_z = aligned(r.upper_z), task.carry_z = carry.z(row) + carry_offset;
+  if (r.lower_z >= 0) task.from_z = carry.z(r.lower_z) + carry_offset;
+}
+
+/// Computes the links that rows before `begin` leave for rows from `begin` on: what a block needs before its first row.
+template <class T, class Input>
+void prime_links(const PackedRows<T>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input) {
+  const auto prime = [&](int lower, int axis) {
+    RowTask<T> task;
+    set_row(task, packed, lower, fields, carry, input);
+    packed.rows[std::size_t(lower)].kernels->prime(task, axis, fields);
+  };
+  const int rows = int(packed.rows.size());
+  if (begin >= rows) return;
+  if (const int lower = packed.lattice.rows[std::size_t(begin)].lower_y; lower >= 0) prime(lower, 1);
+  for (int row = begin; row < rows && row < begin + packed.reach; ++row)
+    if (const int lower = packed.lattice.rows[std::size_t(row)].lower_z; lower >= 0 && lower < begin) prime(lower, 2);
+}
+
+/// First row of each of `parts` blocks with about equal packs, and the end.
+template <class T>
+std::vector<int> cut_rows(const PackedRows<T>& packed, int parts);
+
+} // namespace dss

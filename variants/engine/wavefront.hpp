@@ -1,0 +1,93 @@
+#pragma once
+/// The wavefront over rows (design.md section 4): stage s runs `reach` rows behind stage s - 1, intermediate stages live in rings of a few
+/// rows, the state is updated in place, threads recompute a halo of stages * reach rows and meet once a step.
+#include "variants/engine/schedule.hpp"
+
+#include <atomic>
+
+namespace dss {
+
+/// A contiguous block of rows with its own storage. What other blocks need of it is published twice over, by parity of the step, so that
+/// one synchronisation a step is enough: while step n reads one copy, the other is written for step n + 1.
+template <class T>
+class Block {
+public:
+  Block(const PackedRows<T>& packed, int begin, int end, int fields, int halo, bool has_rings, int stages);
+
+  int begin, end;
+  T* row(int r) { return state_.data() + (packed_->rows[std::size_t(r)].pack_offset - packed_->rows[std::size_t(begin)].pack_offset) * pack_size_; }
+  bool owns(int r) const { return r >= begin && r < end; }
+  bool is_published(int r) const { return (r < begin + halo_ && begin > 0) || (r >= end - halo_ && end < int(packed_->rows.size())); }
+  T* published(int r, int parity) { return published_[std::size_t(parity)].data() + std::size_t(published_index_[std::size_t(r - begin)]) * row_size_; }
+  void publish(int r, int parity);
+  /// Row r of Y_{stage + 1}, in a ring that holds what stages up to the last still read.
+  T* ring_row(int stage, int r) { return rings_[std::size_t(stage)].data() + std::size_t(r % ring_rows_[std::size_t(stage)]) * row_size_; }
+
+  std::vector<CarryRings<T>> carry; ///< one a stage
+  int failed_row = -1;
+  std::size_t bytes() const;
+
+private:
+  const PackedRows<T>* packed_;
+  std::size_t pack_size_, row_size_;
+  int halo_;
+  Buffer<T> state_;
+  std::array<Buffer<T>, 2> published_;
+  std::vector<int> published_index_;
+  std::vector<Buffer<T>> rings_;
+  std::vector<int> ring_rows_;
+};
+
+/// Signals of one step as the kernels take them: row s of stage s, in T, and a constant 1 behind them.
+template <class T>
+class StepSignals {
+public:
+  StepSignals(std::size_t count, int stages) : count_(count), values_(std::size_t(stages) * (count + 1), T(1)) {}
+  void set(const double* rows) {
+    for (std::size_t s = 0; s * (count_ + 1) < values_.size(); ++s)
+      for (std::size_t n = 0; n < count_; ++n) values_[s * (count_ + 1) + n] = T(rows[s * count_ + n]);
+  }
+  const T* stage(int s) const { return values_.data() + std::size_t(s) * (count_ + 1); }
+
+private:
+  std::size_t count_;
+  std::vector<T> values_;
+};
+
+/// Runs one step of one block; `blocks` are all blocks, `parity` says which published copies are current. The block's own rows end up
+/// updated in place and published under the other parity. Sets failed_row when a row leaves a non-finite state.
+template <class T>
+class WavefrontStep {
+public:
+  WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields, std::vector<Block<T>>& blocks);
+  void operator()(Block<T>& block, const StepSignals<T>& signals, int parity) const;
+
+private:
+  T* state_row(Block<T>& block, int r, int parity) const;
+  void stage_row(Block<T>& block, int stage, int r, const StepSignals<T>& signals, int parity) const;
+
+  const PackedRows<T>& packed_;
+  const Method& method_;
+  const int fields_;
+  std::array<T, Method::max_stages> beta_{};
+  std::array<std::vector<std::pair<int, T>>, Method::max_stages> increments_; ///< (stage whose output it is, alpha)
+  std::vector<Block<T>>& blocks_;
+};
+
+/// The Runge-Kutta part of a task: out = base + sum alpha (Y_m - base) + beta f; `stage_output(m)` is the row of Y_{m + 1}.
+template <class T, class StageOutput>
+void set_update(RowTask<T>& task, T* base, T* out, T beta, const std::vector<std::pair<int, T>>& increments, StageOutput&& stage_output) {
+  task.base = base;
+  task.out = out;
+  task.beta = beta;
+  task.increments = int(increments.size());
+  for (std::size_t m = 0; m < increments.size(); ++m) {
+    task.increment[m] = stage_output(increments[m].first);
+    task.alpha[m] = increments[m].second;
+  }
+}
+/// The terms alpha (Y_m - y) of each stage with alpha != 0. @throws std::logic_error beyond the three that a task holds.
+template <class T>
+std::array<std::vector<std::pair<int, T>>, Method::max_stages> increments_of(const Method& method);
+
+} // namespace dss

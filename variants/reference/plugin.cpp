@@ -1,0 +1,49 @@
+/// The variant `reference`: the oracle behind the interface of variants. Straightforward code, one thread, no SIMD by
+/// hand.
+#include "solver/numerics/signal_rows.hpp"
+#include "solver/reference/oracle.hpp"
+#include "variants/api.hpp"
+
+namespace dss {
+namespace {
+
+/// The planar model runs the spatial physics: where planar is exact, the fields outside the plane stay zero.
+template <class T>
+class ReferenceExecutor final : public Executor {
+public:
+  explicit ReferenceExecutor(const Setup& setup)
+      : oracle_(setup.problem, setup.method, setup.dt), row_width_(signal_count(setup.problem)),
+        stages_(setup.method.stages) {}
+
+  void write(std::size_t first, std::span<const double> fields) override { oracle_.write(fields, first); }
+  void read(std::size_t first, std::span<double> fields) override { oracle_.read(fields, first); }
+  void derivative(std::span<const double> signals, std::span<double> rates) override {
+    oracle_.derivative(signals, rates);
+  }
+  Outcome advance(long steps, std::span<const double> signals) override {
+    const auto breakdown = oracle_.advance(steps, [&](long step, int stage) {
+      return signals.subspan(std::size_t(step * stages_ + stage) * row_width_, row_width_);
+    });
+    if (breakdown) return {false, breakdown->step, breakdown->element};
+    return {true, steps, 0};
+  }
+  std::string schedule() const override { return "stage by stage: straightforward code"; }
+  std::size_t bytes() const override { return oracle_.bytes(); }
+
+private:
+  Oracle<T> oracle_;
+  std::size_t row_width_;
+  long stages_;
+};
+
+std::unique_ptr<Executor> create(const Setup& setup) {
+  if (setup.precision == Precision::f32) return std::make_unique<ReferenceExecutor<float>>(setup);
+  return std::make_unique<ReferenceExecutor<double>>(setup);
+}
+
+constexpr Plugin plugin = {plugin_abi, DSS_VARIANT, DSS_ISA, false, false, create};
+
+} // namespace
+} // namespace dss
+
+extern "C" const dss::Plugin* dss_plugin() { return &dss::plugin; }
