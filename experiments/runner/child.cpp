@@ -72,8 +72,10 @@ bool drain(const Pipes& pipes, Clock::time_point start, double limit_s, ChildRes
       if (ends[e].fd < 0 || ends[e].revents == 0) continue;
       char bytes[65536];
       const ssize_t count = ::read(ends[e].fd, bytes, sizeof bytes);
-      if (count > 0) texts[e]->append(bytes, std::size_t(count));
-      else if (count == 0 || errno != EINTR) ends[e].fd = -1; // poll skips negative descriptors
+      if (count > 0)
+        texts[e]->append(bytes, std::size_t(count));
+      else if (count == 0 || errno != EINTR)
+        ends[e].fd = -1; // poll skips negative descriptors
     }
   }
   return true;
@@ -108,7 +110,8 @@ ChildResult run_child(const std::string& program, const std::vector<std::string>
   }
   if (result.timed_out) {
     ::kill(pid, SIGKILL);
-    while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {}
+    while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
   }
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status) && !result.timed_out) result.signal = WTERMSIG(status);

@@ -8,9 +8,9 @@ namespace dss {
 /// What became of a child process.
 struct ChildResult {
   bool timed_out = false;
-  int exit_code = -1;  ///< valid if it exited
-  int signal = 0;      ///< that ended it, or 0
-  double wall_s = 0;   ///< its whole life [s]
+  int exit_code = -1; ///< valid if it exited
+  int signal = 0;     ///< that ended it, or 0
+  double wall_s = 0;  ///< its whole life [s]
   std::string output, error;
   /// "exit code 3: ...", "time limit of 60 s", "signal 11 (Segmentation fault)"; empty on success.
   std::string failure(double time_limit_s) const;

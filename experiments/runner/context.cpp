@@ -74,7 +74,9 @@ Json library_versions() {
                                         NLOHMANN_JSON_VERSION_PATCH)}};
 }
 
-std::string utc_now() {
+} // namespace
+
+std::string measurement_time() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm parts{};
   ::gmtime_r(&now, &parts);
@@ -82,8 +84,6 @@ std::string utc_now() {
   std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text.data();
 }
-
-} // namespace
 
 nlohmann::ordered_json measurement_context() {
   std::array<char, 256> host{};
@@ -94,7 +94,7 @@ nlohmann::ordered_json measurement_context() {
   const char* omp_binding = std::getenv("OMP_PROC_BIND");
   const std::string governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   Json context;
-  context["date"] = utc_now();
+  context["date"] = measurement_time();
   context["host_name"] = host.data();
   context["executable"] = "dssbench";
   context["num_cpus"] = ::sysconf(_SC_NPROCESSORS_ONLN);

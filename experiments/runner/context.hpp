@@ -1,16 +1,21 @@
 #pragma once
 /// Circumstances of a measurement, in Google Benchmark's layout, and what of them the program itself sets.
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace dss {
 
 /// Date, host, CPU, caches, load, build, library versions, affinity; the content of "context".
 nlohmann::ordered_json measurement_context();
 
+/// The present time, UTC, ISO 8601.
+std::string measurement_time();
+
 /// Processors that this process may use (its affinity mask).
 int usable_cores();
 
-/// Makes this thread, and all that it starts later, take denormal numbers as zero (MXCSR: DAZ and FTZ), where the CPU has such a mode.
+/// Makes this thread, and all that it starts later, take denormal numbers as zero (MXCSR: DAZ and FTZ), where the CPU
+/// has such a mode.
 void flush_denormals();
 bool are_denormals_flushed();
 

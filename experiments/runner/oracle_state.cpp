@@ -22,14 +22,15 @@ OracleState compute_oracle_state(const Problem& problem, const Method& method, d
   Oracle<double> oracle(problem, method, dt);
   oracle.write(result.state);
   if (const auto breakdown = oracle.advance(steps))
-    throw UnstableError(fmt::format("{}: the oracle is not finite at step {} (t = {:g} s), element {}; take a smaller dt",
-                                    problem.name, breakdown->step, double(breakdown->step) * dt, breakdown->element));
+    throw UnstableError(
+        fmt::format("{}: the oracle is not finite at step {} (t = {:g} s), element {}; take a smaller dt", problem.name,
+                    breakdown->step, double(breakdown->step) * dt, breakdown->element));
   oracle.read(result.state);
   return result;
 }
 
-std::vector<double> continue_by_oracle(const Problem& problem, const Method& method, double dt, long first_step, long steps,
-                                       const std::vector<double>& state) {
+std::vector<double> continue_by_oracle(const Problem& problem, const Method& method, double dt, long first_step,
+                                       long steps, const std::vector<double>& state) {
   Oracle<double> oracle(problem, method, dt);
   oracle.write(state);
   const std::size_t width = signal_count(problem);

@@ -62,10 +62,14 @@ std::vector<std::string> split_csv(const std::string& line, const std::string& w
   bool is_quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
-    if (is_quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') values.back() += line[++i];
-    else if (c == '"') is_quoted = !is_quoted;
-    else if (c == ',' && !is_quoted) values.emplace_back();
-    else if (c != '\r') values.back() += c;
+    if (is_quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
+      values.back() += line[++i];
+    else if (c == '"')
+      is_quoted = !is_quoted;
+    else if (c == ',' && !is_quoted)
+      values.emplace_back();
+    else if (c != '\r')
+      values.back() += c;
   }
   if (is_quoted) throw InputError(fmt::format("{}: a quote does not close", where));
   return values;
@@ -89,7 +93,8 @@ Table read_csv(const std::string& path, std::size_t* complete_bytes) {
     for (std::size_t c = 0; c < values.size(); ++c) record[table.columns[c]] = values[c];
     table.rows.push_back(std::move(record));
   }
-  if (table.columns.empty()) throw InputError(fmt::format("{}: no head line; a result has one, then a row a repetition", path));
+  if (table.columns.empty())
+    throw InputError(fmt::format("{}: no head line; a result has one, then a row a repetition", path));
   if (complete_bytes != nullptr) *complete_bytes = begin;
   return table;
 }
@@ -132,7 +137,8 @@ void RecordFile::write_line(const std::string& line) {
   while (done < line.size()) {
     const ssize_t count = ::write(descriptor_, line.data() + done, line.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw InputError(fmt::format("{}: cannot append: {}; rows before stay", path_, std::strerror(errno)));
+    if (count < 0)
+      throw InputError(fmt::format("{}: cannot append: {}; rows before stay", path_, std::strerror(errno)));
     done += std::size_t(count);
   }
   ::fdatasync(descriptor_); // not all targets can sync; the row is written either way

@@ -27,7 +27,8 @@ std::string csv_line(const std::vector<std::string>& columns, const Record& reco
 /// Splits one line of CSV. @throws InputError naming `where` if a quote does not close
 std::vector<std::string> split_csv(const std::string& line, const std::string& where);
 
-/// Reads a CSV. A torn last line (no line break at its end) is left out; `complete_bytes`, if given, gets the length without it.
+/// Reads a CSV. A torn last line (no line break at its end) is left out; `complete_bytes`, if given, gets the length
+/// without it.
 /// @throws InputError if the file cannot be read, has no head, or a row has another number of values than the head
 Table read_csv(const std::string& path, std::size_t* complete_bytes = nullptr);
 
@@ -37,7 +38,8 @@ void write_csv(const std::string& path, const Table& table);
 /// A CSV that grows by one row at a time; each row is on its way to the disk when append() returns.
 class RecordFile {
 public:
-  /// Opens a file. With `resume`, rows present stay (a torn last line is cut off) and are in `present()`; else it starts anew.
+  /// Opens a file. With `resume`, rows present stay (a torn last line is cut off) and are in `present()`; else it
+  /// starts anew.
   /// @throws InputError if it cannot be written, or is resumed with other columns
   RecordFile(std::string path, std::vector<std::string> columns, bool resume);
   RecordFile(const RecordFile&) = delete;

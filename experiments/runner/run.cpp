@@ -13,8 +13,8 @@
 namespace dss {
 namespace {
 
-constexpr long batch_steps = 256;                     ///< signals are made for so many steps at once
-constexpr std::size_t energy_elements = 2'000'000;    ///< a second copy of a larger state would count in the memory
+constexpr long batch_steps = 256;                  ///< signals are made for so many steps at once
+constexpr std::size_t energy_elements = 2'000'000; ///< a second copy of a larger state would count in the memory
 
 /// Advances an executor by pieces between the steps at which somebody looks, and times nothing but advance().
 class TimedRun {
@@ -58,7 +58,8 @@ private:
     return steps;
   }
 
-  /// A leapfrog cannot start anew from a state without its half-step velocities, so only Runge-Kutta runs have their ends checked.
+  /// A leapfrog cannot start anew from a state without its half-step velocities, so only Runge-Kutta runs have their
+  /// ends checked.
   bool has_tail() const {
     return plan_.expected && plan_.expected->steps < plan_.steps && plan_.method->family == Method::Family::runge_kutta;
   }
@@ -83,8 +84,9 @@ private:
 
   void report_breakdown(long step, std::size_t element, RunResult& result) const {
     result.status = "unstable";
-    result.reason = fmt::format("{}: the state is not finite at step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s", problem_.name,
-                                step, double(step + 1) * plan_.dt, element, std::min(plan_.stability_limit, 0.5 * plan_.dt));
+    result.reason = fmt::format(
+        "{}: the state is not finite at step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s", problem_.name,
+        step, double(step + 1) * plan_.dt, element, std::min(plan_.stability_limit, 0.5 * plan_.dt));
   }
 
   void look(long step) {
@@ -122,6 +124,7 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
   result.scene = plan.scene.name;
   result.variant = plan.plugin->name;
   result.isa = plan.plugin->isa;
+  result.has_fma = plan.plugin->has_fma;
   result.model = name(plan.model);
   result.precision = name(plan.precision);
   result.integrator = plan.method->name;
@@ -138,9 +141,11 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
 void judge(const CheckResult& check, RunResult& result) {
   if (!check.is_done || check.is_passed()) return;
   result.status = "wrong";
-  result.reason = check.tail_error && !(*check.tail_error <= check.tolerance)
-                      ? fmt::format("error {:.3g} over the last steps exceeds the tolerance {:.3g}", *check.tail_error, check.tolerance)
-                      : fmt::format("error {:.3g} ({}) exceeds the tolerance {:.3g}", check.error, check.how, check.tolerance);
+  result.reason =
+      check.tail_error && !(*check.tail_error <= check.tolerance)
+          ? fmt::format("error {:.3g} over the last steps exceeds the tolerance {:.3g}", *check.tail_error,
+                        check.tolerance)
+          : fmt::format("error {:.3g} ({}) exceeds the tolerance {:.3g}", check.error, check.how, check.tolerance);
 }
 
 } // namespace
@@ -170,6 +175,7 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   for (const Override& item : request.overrides) json["set"][item.key] = item.value;
   json["variant"] = result.variant;
   json["isa"] = result.isa;
+  json["has_fma"] = result.has_fma;
   json["model"] = result.model;
   json["precision"] = result.precision;
   json["integrator"] = result.integrator;

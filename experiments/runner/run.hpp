@@ -21,34 +21,35 @@ struct RunRequest {
   std::optional<std::string> model, precision, integrator;
   std::optional<double> dt; ///< [s]
   std::optional<long> steps;
-  bool is_forced = false;   ///< run above the stability limit
-  long warmup_steps = 0;    ///< steps before the clock starts; the state then starts anew
-  std::string output;       ///< .vtu file, or empty
-  int frames = 0;           ///< files of a series besides the final one
-  std::string state_csv;    ///< or empty
-  std::string json;         ///< file, "-" for standard output, or empty
-  std::string check_state;  ///< file of the oracle's state, or empty
-  long check_step = 0;      ///< the step of that state
+  bool is_forced = false;  ///< run above the stability limit
+  long warmup_steps = 0;   ///< steps before the clock starts; the state then starts anew
+  std::string output;      ///< .vtu file, or empty
+  int frames = 0;          ///< files of a series besides the final one
+  std::string state_csv;   ///< or empty
+  std::string json;        ///< file, "-" for standard output, or empty
+  std::string check_state; ///< file of the oracle's state, or empty
+  long check_step = 0;     ///< the step of that state
 };
 
 /// A comparison with the oracle.
 struct CheckResult {
   bool is_done = false;
-  std::string how;            ///< "oracle after 100 steps, and over the last 2"
+  std::string how; ///< "oracle after 100 steps, and over the last 2"
   double tolerance = 0;
-  double error = 0;           ///< after check_step steps
+  double error = 0;                 ///< after check_step steps
   std::optional<double> tail_error; ///< of the last steps, where the run went on
   bool is_passed() const { return error <= tolerance && (!tail_error || *tail_error <= tolerance); }
 };
 
 struct RunResult {
   std::string scene, variant, isa, model, precision, integrator, schedule;
+  bool has_fma = false; ///< its bits are those of every other variant that has FMA
   int threads = 1;
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
   Usage usage;
-  std::optional<double> energy_j;  ///< absent for states too large to hold twice
+  std::optional<double> energy_j; ///< absent for states too large to hold twice
   double max_displacement_m = 0;
   std::uint64_t digest = 0;
   CheckResult check;
@@ -56,8 +57,10 @@ struct RunResult {
   double element_steps_per_s() const { return wall_s > 0 ? double(elements) * double(steps) / wall_s : 0; }
 };
 
-/// Runs, and writes the output files asked for. A run that leaves the finite numbers has the status "unstable", one that fails its check "wrong".
-/// @throws InputError for anything wrong with the request, UnstableError for a step above the predicted limit that is not forced
+/// Runs, and writes the output files asked for. A run that leaves the finite numbers has the status "unstable", one
+/// that fails its check "wrong".
+/// @throws InputError for anything wrong with the request, UnstableError for a step above the predicted limit that is
+/// not forced
 RunResult run_scene(const RunRequest& request);
 
 /// The keys of design.md section 7 and those of the record; with the context in Google Benchmark's layout.

@@ -23,12 +23,15 @@ Precision chosen_precision(const std::string& name) {
 
 void require_sensible(const RunRequest& request, const RunPlan& plan) {
   const auto refuse = [](const std::string& what) { throw InputError(what); };
-  if (request.threads < 1 || request.threads > 1024) refuse(fmt::format("--threads {}: give 1 to 1024", request.threads));
+  if (request.threads < 1 || request.threads > 1024)
+    refuse(fmt::format("--threads {}: give 1 to 1024", request.threads));
   if (request.threads > 1 && !plan.plugin->is_threaded)
-    refuse(fmt::format("--threads {}: variant \"{}\" runs on one thread; give --threads 1", request.threads, plan.plugin->name));
+    refuse(fmt::format("--threads {}: variant \"{}\" runs on one thread; give --threads 1", request.threads,
+                       plan.plugin->name));
   if (request.ranks != 1)
     refuse(fmt::format("--ranks {}: no variant of this build has ranks; give --ranks 1", request.ranks));
-  if (!(plan.dt > 0) || !std::isfinite(plan.dt)) refuse(fmt::format("--dt {:g}: the step must be positive [s]", plan.dt));
+  if (!(plan.dt > 0) || !std::isfinite(plan.dt))
+    refuse(fmt::format("--dt {:g}: the step must be positive [s]", plan.dt));
   if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));
   if (request.warmup_steps < 0) refuse(fmt::format("--warmup {}: give 0 or more", request.warmup_steps));
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
@@ -38,14 +41,16 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
 }
 
 void require_outputs_writable(const RunRequest& request) {
-  for (const std::string& path : {request.output, request.state_csv, request.json == "-" ? std::string() : request.json})
+  for (const std::string& path :
+       {request.output, request.state_csv, request.json == "-" ? std::string() : request.json})
     if (!path.empty()) require_writable(path);
 }
 
 OracleState expected_state(const RunRequest& request, const RunPlan& plan) {
   OracleState expected = read_oracle_state(request.check_state);
   if (request.check_step != 0 && request.check_step != expected.steps)
-    throw InputError(fmt::format("--check-step {}: {} has the state at step {}", request.check_step, request.check_state, expected.steps));
+    throw InputError(fmt::format("--check-step {}: {} has the state at step {}", request.check_step,
+                                 request.check_state, expected.steps));
   if (expected.state.size() != plan.scene.problem.lattice.element_count * field_count)
     throw InputError(fmt::format("--check-state {}: has {} elements, the scene {}", request.check_state,
                                  expected.state.size() / field_count, plan.scene.problem.lattice.element_count));
@@ -65,11 +70,13 @@ const Method& require_method(const std::string& name) {
 
 double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced) {
   StabilityLimit limit = stable_step(problem, method);
-  if (dt > limit.dt && problem.lattice.element_count <= sharp_stability_elements) limit = stable_step(problem, method, true);
+  if (dt > limit.dt && problem.lattice.element_count <= sharp_stability_elements)
+    limit = stable_step(problem, method, true);
   if (dt > limit.dt && !is_forced)
-    throw UnstableError(fmt::format("{}: dt = {:.6g} s is above the stability limit {:.6g} s of {} here ({}); take a smaller --dt, or "
-                                    "--force to run anyway",
-                                    problem.name, dt, limit.dt, method.name, limit.how));
+    throw UnstableError(
+        fmt::format("{}: dt = {:.6g} s is above the stability limit {:.6g} s of {} here ({}); take a smaller --dt, or "
+                    "--force to run anyway",
+                    problem.name, dt, limit.dt, method.name, limit.how));
   return limit.dt;
 }
 

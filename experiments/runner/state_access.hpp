@@ -23,8 +23,8 @@ std::vector<double> whole_state(Executor& executor, std::size_t element_count);
 /// Largest length of a displacement [m].
 double max_displacement(Executor& executor, std::size_t element_count);
 
-/// 64-bit digest of a state's bits (FNV-1a over its 64-bit words). -0 counts as +0, and so does what may or may not have been flushed:
-/// numbers below 2^-1000 (f64) or 2^-120 (f32) (design.md section 6).
+/// 64-bit digest of a state's bits (FNV-1a over its 64-bit words). -0 counts as +0, and so does what may or may not
+/// have been flushed: numbers below 2^-1000 (f64) or 2^-120 (f32) (design.md section 6).
 class StateDigest {
 public:
   explicit StateDigest(Precision precision) : smallest_(precision == Precision::f64 ? 0x1p-1000 : 0x1p-120) {}
@@ -39,10 +39,10 @@ private:
 /// Digest of an executor's state.
 std::uint64_t state_digest(Executor& executor, std::size_t element_count, Precision precision);
 
-/// Largest relative error of a state (or of its time derivative) against the expected one: the maximum over the groups u, q, v, w of
-/// max|difference| / scale, where the scale is the group's largest expected number. A group that is negligible beside its partner (u and q h,
-/// v and w h, with h the shortest edge) is measured against a thousandth of that partner: what is zero but for rounding has no digits of
-/// its own. Infinite where a number is not finite.
+/// Largest relative error of a state (or of its time derivative) against the expected one: the maximum over the groups
+/// u, q, v, w of max|difference| / scale, where the scale is the group's largest expected number. A group that is
+/// negligible beside its partner (u and q h, v and w h, with h the shortest edge) is measured against a thousandth of
+/// that partner: what is zero but for rounding has no digits of its own. Infinite where a number is not finite.
 double state_error(const Problem& problem, std::span<const double> expected, std::span<const double> actual);
 
 } // namespace dss

@@ -1,5 +1,6 @@
 #pragma once
-/// Statistics of timings (design.md section 6): medians with order-statistic intervals, ratios of pairs, the rank-sum test.
+/// Statistics of timings (design.md section 6): medians with order-statistic intervals, ratios of pairs, the rank-sum
+/// test.
 #include <optional>
 #include <span>
 #include <utility>
@@ -27,11 +28,12 @@ constexpr std::size_t interval_samples = 6;
 /// Median of a sample. @throws std::invalid_argument for an empty one
 double median(std::vector<double> sample);
 
-/// Median and distribution-free interval from the order statistics x_(k), x_(n+1-k), k the largest with coverage >= 95 % by the
-/// binomial distribution (Hoefler & Belli, SC'15, rule 5). @throws std::invalid_argument for an empty sample
+/// Median and distribution-free interval from the order statistics x_(k), x_(n+1-k), k the largest with coverage >= 95
+/// % by the binomial distribution (Hoefler & Belli, SC'15, rule 5). @throws std::invalid_argument for an empty sample
 Estimate estimate(std::vector<double> sample);
 
-/// Two-sided p value of the Mann-Whitney U test, normal approximation with ties and continuity correction; meant for samples of nine or more.
+/// Two-sided p value of the Mann-Whitney U test, normal approximation with ties and continuity correction; meant for
+/// samples of nine or more.
 /// @throws std::invalid_argument if a sample is empty
 double rank_sum_p_value(std::span<const double> a, std::span<const double> b);
 

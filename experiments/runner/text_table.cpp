@@ -10,7 +10,8 @@ bool is_numeric(const std::string& text) { return text.find_first_not_of("012345
 
 /// Characters, not bytes: UTF-8 continuation bytes take no place.
 std::size_t width_of(const std::string& text) {
-  return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
+  return std::size_t(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }));
 }
 
 } // namespace

@@ -6,8 +6,8 @@ namespace dss {
 
 /// Sums over all threads of this process.
 struct Usage {
-  double cpu_s = 0;                 ///< user and system time [s]
-  double wait_s = 0;                ///< runnable but not running, in a run queue [s]; NaN where the kernel does not tell
+  double cpu_s = 0;  ///< user and system time [s]
+  double wait_s = 0; ///< runnable but not running, in a run queue [s]; NaN where the kernel does not tell
   long involuntary_switches = 0;
   Usage& operator+=(const Usage& other);
   Usage operator-(const Usage& earlier) const;
@@ -16,9 +16,9 @@ struct Usage {
 /// Usage of this process until now (getrusage; /proc/self/task/*/schedstat).
 Usage usage_now();
 
-/// A timed region's cleanliness (design.md section 6): CPU time / (wall x threads) below 0.97, or more than a hundredth of wall x threads
-/// spent waiting for a processor, and the sample is contaminated. Regions shorter than the clock of getrusage can tell (20 ms) are
-/// judged by their waiting alone.
+/// A timed region's cleanliness (design.md section 6): CPU time / (wall x threads) below 0.97, or more than a hundredth
+/// of wall x threads spent waiting for a processor, and the sample is contaminated. Regions shorter than the clock of
+/// getrusage can tell (20 ms) are judged by their waiting alone.
 bool is_contaminated(const Usage& usage, double wall_s, int threads);
 
 } // namespace dss

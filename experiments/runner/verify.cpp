@@ -38,7 +38,8 @@ public:
     oracle.derivative(first_signals(), expected_rates_);
     for (const Plugin* plugin : plugins) {
       guarded(*plugin, "evaluation", [&] { evaluation(*plugin); });
-      for (const Method& method : methods()) guarded(*plugin, fmt::format("run {}", method.name), [&] { run(*plugin, method); });
+      for (const Method& method : methods())
+        guarded(*plugin, fmt::format("run {}", method.name), [&] { run(*plugin, method); });
     }
   }
 
@@ -69,10 +70,12 @@ private:
 
   void add(const Plugin& plugin, const std::string& check, Verdict verdict, const std::string& reason,
            std::optional<double> error = std::nullopt, std::optional<double> allowed = std::nullopt) {
-    rows.push_back({scene_.name, std::string(name(model_)), std::string(name(precision_)), plugin.name, check, error, allowed, verdict, reason});
+    rows.push_back({scene_.name, std::string(name(model_)), std::string(name(precision_)), plugin.name, check, error,
+                    allowed, verdict, reason});
   }
 
-  template <class Check> void guarded(const Plugin& plugin, const std::string& check, Check&& body) {
+  template <class Check>
+  void guarded(const Plugin& plugin, const std::string& check, Check&& body) {
     try {
       body();
     } catch (const std::exception& error) {
@@ -82,7 +85,8 @@ private:
 
   void judge_error(const Plugin& plugin, const std::string& check, double error, double allowed) {
     const bool passes = error <= allowed; // false for NaN
-    add(plugin, check, passes ? Verdict::passed : Verdict::failed, passes ? "" : "error above the tolerance", error, allowed);
+    add(plugin, check, passes ? Verdict::passed : Verdict::failed, passes ? "" : "error above the tolerance", error,
+        allowed);
   }
 
   /// States of variants with FMA are equal to the last bit; the first of them is the model of the rest.
@@ -119,8 +123,9 @@ private:
       const Outcome outcome = executor->advance(steps_, signals);
       if (threads == 1)
         judge_error(plugin, "run " + run_name,
-                    outcome.is_finite ? state_error(problem_, expected.state, whole_state(*executor, problem_.lattice.element_count))
-                                      : std::numeric_limits<double>::infinity(),
+                    outcome.is_finite
+                        ? state_error(problem_, expected.state, whole_state(*executor, problem_.lattice.element_count))
+                        : std::numeric_limits<double>::infinity(),
                     tolerance().run);
       const std::uint64_t bits = state_digest(*executor, problem_.lattice.element_count, precision_);
       if (!digest) digest = bits;
@@ -128,7 +133,8 @@ private:
     }
     if (plugin.is_threaded)
       add(plugin, "threads " + run_name, unequal.empty() ? Verdict::passed : Verdict::failed,
-          unequal.empty() ? "equal bits on 1, 2, 3, 4, 7 threads" : fmt::format("other bits than on 1 thread on {} threads", unequal));
+          unequal.empty() ? "equal bits on 1, 2, 3, 4, 7 threads"
+                          : fmt::format("other bits than on 1 thread on {} threads", unequal));
     judge_bits(plugin, run_name, *digest);
   }
 

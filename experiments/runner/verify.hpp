@@ -1,5 +1,6 @@
 #pragma once
-/// Equivalence of variants: against the oracle in long double, over thread counts, and with one another (design.md section 6).
+/// Equivalence of variants: against the oracle in long double, over thread counts, and with one another (design.md
+/// section 6).
 #include "solver/scene/scene.hpp"
 #include "variants/api.hpp"
 
@@ -13,10 +14,10 @@ namespace dss {
 struct VerifyRow {
   enum class Verdict { passed, failed, skipped };
   std::string scene, model, precision, variant;
-  std::string check;                    ///< "evaluation", "run rk4", "threads rk4", "bits rk4", ...
+  std::string check; ///< "evaluation", "run rk4", "threads rk4", "bits rk4", ...
   std::optional<double> error, tolerance;
   Verdict verdict = Verdict::passed;
-  std::string reason;                   ///< of a failure or a skip
+  std::string reason; ///< of a failure or a skip
 };
 
 /// Thread counts over which states must be equal to the last bit.
@@ -29,8 +30,8 @@ constexpr int verified_threads[] = {1, 2, 3, 4, 7};
 /// Both precisions, and each model that is exact for the scene. A variant's exception is a failure with its message.
 std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::vector<const Plugin*>& plugins);
 
-/// A state with gaps of a hundredth of an edge, rotations up to 2.5 rad (about z only in the planar model) and velocities, none along clamped
-/// degrees of freedom; for f32 rounded to float. The same for a seed on every machine.
+/// A state with gaps of a hundredth of an edge, rotations up to 2.5 rad (about z only in the planar model) and
+/// velocities, none along clamped degrees of freedom; for f32 rounded to float. The same for a seed on every machine.
 std::vector<double> random_state(const Problem& problem, Model model, Precision precision, unsigned seed);
 
 } // namespace dss

@@ -52,6 +52,14 @@ static inline spin rotor_relative(rotor i, rotor j) {
 static inline REAL rotor_relative_s(rotor i, rotor j) { return FMA(i.s, j.s, i.s + j.s) + i.z * j.z; }
 static inline spin rotor_vector(rotor q) { spin r = {q.z}; return r; }
 
+/* In the plane a face of the y axis is a face of the x axis turned by a right angle and scaled by the ratio k of the edges:
+ * k turned(a) + b, and t + k turned(a) x f. */
+static inline vec vec_axpy_turned(REAL k, vec a, vec b) { vec r = {FMA(-k, a.y, b.x), FMA(k, a.x, b.y)}; return r; }
+static inline spin vec_moment_turned(REAL k, vec a, vec f, spin t) {
+  spin r = {FMA(-a.x, k * f.x, FMA(-a.y, k * f.y, t.z))};
+  return r;
+}
+
 static inline rotor rotor_rate(rotor q, spin w) {
   REAL q0 = q.s + SPLAT(1), z = SPLAT(0.5) * w.z;
   rotor r = {-(z * q.z), z * q0};

@@ -11,28 +11,28 @@ typedef struct { vec force; spin couple_i, couple_j; } exchange;
  * It is isotropic, so the force k D + d V is a difference of one quantity, k (x + tau x') with tau = d / k, at the two face points that the
  * link joins:  upper face of i: x = u + (A - I) c, x' = v + w x a;   lower face of j: x = u - (A - I) c, x' = v - w x a;   a = A c
  *   F = k (lower_j - upper_i).
- * Each element's faces are computed once for both of its links on an axis, and need one cross product for both moments. Forces and
+ * An element's two faces on an axis differ by one sign, and need one cross product for both moments. Forces and
  * couples are in units of k (so forces are lengths): k meets the mass and the inertia in the constants, never in the loop. */
 
-typedef struct { REAL edge, tau, kt2, dt; } paper_law; /* [m]; d / k [s]; 2 kt / k [m^2]; dt / k [m^2 s] */
-typedef struct { vec arm, lower, upper; } faces;        /* a = A c; x + tau x' of both face points [m] */
+typedef struct { REAL edge, half_edge, tau, kt2, dt; } paper_law; /* [m], [m]; d / k [s]; 2 kt / k [m^2]; dt / k [m^2 s] */
+typedef struct { vec arm, swing; } face; /* a = A c; (A - I) c + tau w x a, by which x + tau x' of the face points differs from the centre's [m] */
 
 /* u + tau v, common to all faces of an element, and tau w */
 static inline vec centre_pull(element e, paper_law law, const int is_damped) {
   return is_damped ? vec_axpy(law.tau, e.v, e.u) : e.u;
 }
-static inline vec face_arm(rotor q, const int axis, REAL edge) {
-  return vec_along(rotor_turn(q, axis, edge), axis, SPLAT(0.5) * edge);
+static inline vec face_arm(rotor q, const int axis, REAL edge, REAL half_edge) {
+  return vec_along(rotor_turn(q, axis, edge), axis, half_edge);
 }
-static inline faces element_faces(element e, vec pull, const int axis, paper_law law, const int is_damped) {
-  faces f;
-  vec swing = rotor_turn(e.q, axis, law.edge);
-  f.arm = vec_along(swing, axis, SPLAT(0.5) * law.edge);
-  if (is_damped) swing = spin_cross_add(spin_scale(law.tau, e.w), f.arm, swing);
-  f.lower = vec_sub(pull, swing);
-  f.upper = vec_add(pull, swing);
+static inline face element_face(element e, const int axis, paper_law law, const int is_damped) {
+  face f;
+  f.swing = rotor_turn(e.q, axis, law.edge);
+  f.arm = vec_along(f.swing, axis, law.half_edge);
+  if (is_damped) f.swing = spin_cross_add(spin_scale(law.tau, e.w), f.arm, f.swing);
   return f;
 }
+static inline vec lower_face(vec pull, face f) { return vec_sub(pull, f.swing); }
+static inline vec upper_face(vec pull, face f) { return vec_add(pull, f.swing); }
 /* Couple T / k = 2 kt / k r + dt / k (w_j - w_i) on i, its negative on j. Without bending it is left as w_j - w_i, for the element's sum
  * of couples to be scaled once: couple_moment. */
 static inline spin paper_couple(rotor qi, spin wi, rotor qj, spin wj, paper_law law, const int is_bending, const int is_damped) {
@@ -104,9 +104,9 @@ static inline exchange material_link(element i, element j, const int axis, mater
 /* Paper's law for one pair by itself, for links outside the grid; in units of k like the law it is given. */
 static inline exchange paper_link(element i, element j, const int axis, paper_law law_i, paper_law law_j, const int is_bending, const int is_damped) {
   exchange x;
-  faces fi = element_faces(i, centre_pull(i, law_i, is_damped), axis, law_i, is_damped);
-  faces fj = element_faces(j, centre_pull(j, law_j, is_damped), axis, law_j, is_damped);
-  x.force = vec_sub(fj.lower, fi.upper);
+  vec upper_i = upper_face(centre_pull(i, law_i, is_damped), element_face(i, axis, law_i, is_damped));
+  vec lower_j = lower_face(centre_pull(j, law_j, is_damped), element_face(j, axis, law_j, is_damped));
+  x.force = vec_sub(lower_j, upper_i);
   x.couple_i = couple_moment(paper_couple(i.q, i.w, j.q, j.w, law_i, is_bending, is_damped), law_i, is_bending, spin_zero());
   x.couple_j = spin_scale(SPLAT(-1), x.couple_i);
   return x;

@@ -17,7 +17,7 @@ struct FiniteCheck {
   bool passed() const { return simd::is_zero(sum); }
 };
 
-/// out = base + sum alpha_m (increment_m - base) + beta f(in).
+/// out = base + sum alpha_m (increment_m - base) + beta f(in), as rk_update.h computes it.
 template <class P, class T>
 struct RungeKuttaUpdate {
   using R = typename P::real;
@@ -53,10 +53,9 @@ struct RungeKuttaUpdate {
       if constexpr (count == 0) {
         k = P::rk_first(y, beta, k);
       } else {
-        R sum = beta * k;
-        for (int m = 0; m < count; ++m)
-          sum = P::rk_increment(alpha[m], simd::load(increment[m] + at), y, sum);
-        k = y + sum;
+        R t = P::rk_first(simd::load(increment[0] + at) - y, beta, k);
+        for (int m = 1; m < count; ++m) t = P::rk_increment(alpha[m], simd::load(increment[m] + at), y, t);
+        k = P::rk_finish(alpha[0], t, y);
       }
       simd::store(out + at, k);
       at += W;

@@ -49,7 +49,8 @@ struct RowTask {
   const T *upper_y = nullptr, *upper_z = nullptr;
   T *carry_y = nullptr, *carry_z = nullptr;      ///< link forces and couples for the upper rows
   const T *from_y = nullptr, *from_z = nullptr;  ///< those that the lower rows left
-  // out = base + sum alpha_m (increment_m - base) + beta f(in); leapfrog: beta = h, in == base == out
+  // No increments: out = base + beta f(in). With: out = base + alpha_0 [beta f(in) + (increment_0 - base) + sum_{m > 0} alpha_m (increment_m -
+  // base)], so beta and the later alpha are ratios to alpha_0 (rk_update.h). Leapfrog: beta = h, in == base == out.
   const T* base = nullptr;
   T* out = nullptr;
   T beta = 0;

@@ -37,6 +37,8 @@ struct StageRow {
   const RowTask<T>& task;
   const BodyConstants<T>& body = *task.body;
   const std::array<typename P::paper_law, 3> laws{paper_law(0), paper_law(1), paper_law(2)};
+  const R edge_ratio{body.edge[1] / body.edge[0]};
+  static constexpr bool is_planar = component_count<vec>() == 2;
 
   static element load_element(const T* p) {
     element e;
@@ -72,27 +74,37 @@ struct StageRow {
     each_component(t, [&](R& c) { c = simd::keep(mask, c); });
   }
 
-  typename P::paper_law paper_law(int axis) const { return {R(body.edge[axis]), R(body.tau), R(body.kt2), R(body.dt)}; }
+  typename P::paper_law paper_law(int axis) const { return {R(body.edge[axis]), R(body.edge[axis] / 2), R(body.tau), R(body.kt2), R(body.dt)}; }
   typename P::material_law material(int axis) const {
     const auto& a = body.axis[axis];
     return {R(body.edge[axis]), R(body.edge[axis]), R(a.k_s),  R(a.k_ns), R(a.d_s), R(a.d_ns),
             R(a.k_z),           R(a.k_xz),          R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
   }
 
-  /// An element with what its links on the x axis share.
+  /// An element with what its links share (paper's law): k x + d x' of its centre, its faces on the x axis.
   struct Prepared {
     element e;
-    vec pull;
-    typename P::faces x;
+    vec pull, lower_x;
+    typename P::face x;
   };
   Prepared prepare(const T* p) const {
     Prepared r;
     r.e = load_element(p);
     if constexpr (!terms.is_material) {
       r.pull = P::centre_pull(r.e, laws[0], terms.is_damped);
-      r.x = P::element_faces(r.e, r.pull, 0, laws[0], terms.is_damped);
+      r.x = P::element_face(r.e, 0, laws[0], terms.is_damped);
+      r.lower_x = P::lower_face(r.pull, r.x);
     }
     return r;
+  }
+  /// Upper or lower face of an element on axis 1 or 2, and the moment of a force on it; the plane's are turned from the x axis.
+  vec upper_across(const vec& pull, const typename P::face& x, const typename P::face& own) const {
+    if constexpr (is_planar) return P::vec_axpy_turned(edge_ratio, x.swing, pull);
+    return P::upper_face(pull, own);
+  }
+  vec lower_across(const element& e, const vec& pull, const int axis) const {
+    if constexpr (is_planar) return P::vec_axpy_turned(-edge_ratio, P::element_face(e, 0, laws[0], terms.is_damped).swing, pull);
+    return P::lower_face(pull, P::element_face(e, axis, laws[std::size_t(axis)], terms.is_damped));
   }
 
   /// Exchange over the link from i to j on `axis`; `lower` is j's lower face (paper's law), `upper` i's upper face.
@@ -136,30 +148,37 @@ struct StageRow {
     const element j = load_element(upper);
     vec lower_face;
     if constexpr (!terms.is_material)
-      lower_face = P::element_faces(j, P::centre_pull(j, laws[std::size_t(axis)], terms.is_damped), axis, laws[std::size_t(axis)], terms.is_damped).lower;
+      lower_face = lower_across(j, P::centre_pull(j, laws[std::size_t(axis)], terms.is_damped), axis);
     return link(i, upper_face, j, lower_face, axis);
   }
 
   void add_across(const Prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper, T* carry,
                   const T* from, Wrench& sum) const {
     if ((above | below) == 0) return;
-    typename P::faces faces;
+    typename P::face own;
+    vec upper_face;
     if constexpr (terms.is_material)
-      faces.arm = P::face_arm(i.e.q, axis, R(body.edge[axis]));
-    else
-      faces = P::element_faces(i.e, i.pull, axis, laws[std::size_t(axis)], terms.is_damped);
+      own.arm = arm(i.e, axis);
+    else if constexpr (!is_planar)
+      own = P::element_face(i.e, axis, laws[std::size_t(axis)], terms.is_damped);
+    if constexpr (!terms.is_material) upper_face = upper_across(i.pull, i.x, own);
     typename P::exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (above != 0) {
-      up = link_across(i.e, faces.upper, upper, axis);
+      up = link_across(i.e, upper_face, upper, axis);
       mask_links(above, up);
       store_carry(carry, carry_of(up));
     }
     Carry low{zero<vec>(), zero<spin>()};
     if (below != 0) low = load_carry(from);
     sum.force = P::vec_sub(P::vec_add(sum.force, up.force), low.force);
-    sum.moment = P::vec_moment(faces.arm, P::vec_add(up.force, low.force), sum.moment);
+    const vec both = P::vec_add(up.force, low.force);
+    if constexpr (is_planar && !terms.is_material)
+      sum.moment = P::vec_moment_turned(edge_ratio, i.x.arm, both, sum.moment);
+    else
+      sum.moment = P::vec_moment(own.arm, both, sum.moment);
     add_couples(up, low, sum.couple);
   }
+  vec arm(const element& e, const int axis) const { return P::face_arm(e.q, axis, R(body.edge[axis]), R(body.edge[axis] / 2)); }
 
   Wrench links_x(const Prepared& i, const Prepared& next, simd::LaneMask mask, Carry& previous) const {
     element j;
@@ -167,23 +186,22 @@ struct StageRow {
     if constexpr (terms.is_material) {
       j = from_above(i.e, next.e);
     } else {
-      lower = from_above(i.x.lower, next.x.lower);
+      lower = from_above(i.lower_x, next.lower_x);
       if constexpr (terms.is_damped) j.w = from_above(i.e.w, next.e.w);
       if constexpr (terms.is_bending) j.q = from_above(i.e.q, next.e.q);
     }
-    typename P::exchange up = link(i.e, i.x.upper, j, lower, 0);
+    vec upper;
+    if constexpr (!terms.is_material) upper = P::upper_face(i.pull, i.x);
+    typename P::exchange up = link(i.e, upper, j, lower, 0);
     mask_links(mask, up);
     const Carry carry = carry_of(up);
     Carry low;
     low.force = from_below(previous.force, carry.force);
     if constexpr (terms.has_couples()) low.couple = from_below(previous.couple, carry.couple);
     previous = carry;
-    vec arm;
-    if constexpr (terms.is_material)
-      arm = P::face_arm(i.e.q, 0, R(body.edge[0]));
-    else
-      arm = i.x.arm;
-    Wrench sum{P::vec_sub(up.force, low.force), P::vec_moment(arm, P::vec_add(up.force, low.force), zero<spin>()), zero<spin>()};
+    vec arm_x = i.x.arm;
+    if constexpr (terms.is_material) arm_x = arm(i.e, 0);
+    Wrench sum{P::vec_sub(up.force, low.force), P::vec_moment(arm_x, P::vec_add(up.force, low.force), zero<spin>()), zero<spin>()};
     add_couples(up, low, sum.couple);
     return sum;
   }
@@ -226,8 +244,9 @@ struct StageRow {
       const element i = load_element(task.in + place);
       vec upper;
       if constexpr (!terms.is_material) {
-        const auto& law = laws[std::size_t(axis)];
-        upper = P::element_faces(i, P::centre_pull(i, law, terms.is_damped), axis, law, terms.is_damped).upper;
+        const vec pull = P::centre_pull(i, laws[0], terms.is_damped);
+        upper = upper_across(pull, P::element_face(i, 0, laws[0], terms.is_damped),
+                             P::element_face(i, is_planar ? 0 : axis, laws[std::size_t(axis)], terms.is_damped));
       }
       typename P::exchange up = link_across(i, upper, (axis == 1 ? task.upper_y : task.upper_z) + place, axis);
       mask_links(above, up);

@@ -69,8 +69,9 @@ void AtomicFile::commit() {
 }
 
 void AtomicFile::fail(const char* what, int reason) const {
-  throw InputError(fmt::format("{}: cannot {}: {}; give a path in a directory that exists, may be written and has space",
-                               target_, what, std::strerror(reason)));
+  throw InputError(
+      fmt::format("{}: cannot {}: {}; give a path in a directory that exists, may be written and has space", target_,
+                  what, std::strerror(reason)));
 }
 
 void require_writable(const std::string& target) {
@@ -79,7 +80,8 @@ void require_writable(const std::string& target) {
 
 std::string read_text(const std::string& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
+  if (::stat(path.c_str(), &status) != 0)
+    throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
   if (S_ISDIR(status.st_mode)) throw InputError(fmt::format("{}: is a directory; give a file", path));
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));

@@ -12,7 +12,8 @@ class Base64Writer {
 public:
   explicit Base64Writer(AtomicFile& file) : file_(file) {}
 
-  template <class T> void put(const T& value) {
+  template <class T>
+  void put(const T& value) {
     unsigned char bytes[sizeof(T)];
     std::memcpy(bytes, &value, sizeof(T));
     for (const unsigned char byte : bytes) {

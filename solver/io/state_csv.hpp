@@ -11,8 +11,8 @@ namespace dss {
 /// Stress of an element [Pa]: xx, yy, zz, yz, xz, xy, von Mises (solver/model/stress.hpp).
 using ElementStress = std::array<double, 7>;
 
-/// Writes element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm: rest position of the centre [m], then the fields of
-/// solver/model/fields.hpp (qw = 1 + qs), in global grid order, every number with 17 digits. C locale.
+/// Writes element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm: rest position of the centre [m], then the
+/// fields of solver/model/fields.hpp (qw = 1 + qs), in global grid order, every number with 17 digits. C locale.
 /// @param state   13 numbers an element  @param stress  one entry an element
 /// @throws InputError if the file cannot be written; an earlier file then stays as it was
 void write_state_csv(const std::string& path, const Problem& problem, std::span<const double> state,

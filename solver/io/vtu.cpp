@@ -41,10 +41,10 @@ Vec3 rotation_vector(const double* fields) {
 
 /// One <DataArray>: a 64-bit byte count, then the numbers that `fill` puts.
 template <class T, class Fill>
-void data_array(AtomicFile& file, std::string_view type, std::string_view name, std::size_t components, std::size_t count,
-                std::string_view component_names, Fill&& fill) {
-  file.write(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">", type, name,
-                         components, component_names));
+void data_array(AtomicFile& file, std::string_view type, std::string_view name, std::size_t components,
+                std::size_t count, std::string_view component_names, Fill&& fill) {
+  file.write(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">", type,
+                         name, components, component_names));
   Base64Writer out(file);
   out.put(std::uint64_t(components * count * sizeof(T)));
   fill(out);
@@ -120,8 +120,9 @@ void write_vtu(const std::string& path, const Problem& problem, std::span<const 
                std::span<const ElementStress> stress) {
   const std::size_t count = problem.lattice.element_count;
   AtomicFile file(path);
-  file.write("<?xml version=\"1.0\"?>\n"
-             "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n");
+  file.write(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n");
   file.write(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", 8 * count, count));
   write_points(file, problem, state);
   write_cells(file, count);
@@ -134,17 +135,23 @@ void write_pvd(const std::string& path, std::span<const Frame> frames) {
   const auto escaped = [](std::string_view text) {
     std::string out;
     for (const char c : text) {
-      if (c == '&') out += "&amp;";
-      else if (c == '<') out += "&lt;";
-      else if (c == '"') out += "&quot;";
-      else out += c;
+      if (c == '&')
+        out += "&amp;";
+      else if (c == '<')
+        out += "&lt;";
+      else if (c == '"')
+        out += "&quot;";
+      else
+        out += c;
     }
     return out;
   };
   AtomicFile file(path);
-  file.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n");
+  file.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+             "byte_order=\"LittleEndian\">\n<Collection>\n");
   for (const Frame& frame : frames)
-    file.write(fmt::format("<DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", frame.time, escaped(frame.file)));
+    file.write(
+        fmt::format("<DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", frame.time, escaped(frame.file)));
   file.write("</Collection>\n</VTKFile>\n");
   file.commit();
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// VTK XML output, readable by ParaView: every element is a hexahedron of its own, because elements are rigid and gaps open between them.
+/// VTK XML output, readable by ParaView: every element is a hexahedron of its own, because elements are rigid and gaps
+/// open between them.
 #include "solver/io/state_csv.hpp"
 #include "solver/model/problem.hpp"
 
@@ -9,9 +10,9 @@
 
 namespace dss {
 
-/// Writes one state as an unstructured grid (.vtu, inline base64, 64-bit floats). Points are the corners at rest; point data
-/// `displacement` [m] moves them (ParaView: Warp By Vector). Cell data: displacement [m], velocity [m/s], rotation_vector [rad],
-/// stress [Pa] (xx, yy, zz, yz, xz, xy) and von_mises [Pa].
+/// Writes one state as an unstructured grid (.vtu, inline base64, 64-bit floats). Points are the corners at rest; point
+/// data `displacement` [m] moves them (ParaView: Warp By Vector). Cell data: displacement [m], velocity [m/s],
+/// rotation_vector [rad], stress [Pa] (xx, yy, zz, yz, xz, xy) and von_mises [Pa].
 /// @param state   13 numbers an element  @param stress  one entry an element
 /// @throws InputError if the file cannot be written; an earlier file then stays as it was
 void write_vtu(const std::string& path, const Problem& problem, std::span<const double> state,

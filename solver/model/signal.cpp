@@ -21,10 +21,14 @@ double interpolate(const std::vector<double>& times, const std::vector<double>& 
 
 double Signal::operator()(double t) const {
   switch (kind) {
-  case Kind::constant: return offset + amplitude;
-  case Kind::ramp: return offset + (t >= duration ? amplitude : t <= 0 ? 0 : amplitude * (t / duration));
-  case Kind::harmonic: return offset + amplitude * std::sin(2 * std::numbers::pi * frequency * t + phase);
-  case Kind::table: return offset + amplitude * interpolate(times, values, t);
+  case Kind::constant:
+    return offset + amplitude;
+  case Kind::ramp:
+    return offset + (t >= duration ? amplitude : t <= 0 ? 0 : amplitude * (t / duration));
+  case Kind::harmonic:
+    return offset + amplitude * std::sin(2 * std::numbers::pi * frequency * t + phase);
+  case Kind::table:
+    return offset + amplitude * interpolate(times, values, t);
   }
   return offset;
 }

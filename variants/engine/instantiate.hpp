@@ -47,13 +47,13 @@ struct RowKernels {
         x = S::material_link(i, j, axis,
                              {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns, a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz}, true);
       else
-        x = S::paper_link(i, j, axis, {link.edge_i, b.tau, b.kt2, b.dt}, {link.edge_j, b.tau, b.kt2, b.dt}, true, true);
+        x = S::paper_link(i, j, axis, {link.edge_i, link.edge_i / 2, b.tau, b.kt2, b.dt}, {link.edge_j, link.edge_j / 2, b.tau, b.kt2, b.dt}, true, true);
       const auto add = [&](T* wrench, T sign, typename S::spin moment) {
         each_component(x.force, [&](T& c) { *wrench = simd::fma(sign * link.unit, c, *wrench), ++wrench; });
         each_component(moment, [&](T& c) { *wrench = simd::fma(link.unit, c, *wrench), ++wrench; });
       };
-      add(wrench_i, T(1), S::vec_moment(S::face_arm(i.q, axis, link.edge_i), x.force, x.couple_i));
-      add(wrench_j, T(-1), S::vec_moment(S::face_arm(j.q, axis, link.edge_j), x.force, x.couple_j));
+      add(wrench_i, T(1), S::vec_moment(S::face_arm(i.q, axis, link.edge_i, link.edge_i / 2), x.force, x.couple_i));
+      add(wrench_j, T(-1), S::vec_moment(S::face_arm(j.q, axis, link.edge_j, link.edge_j / 2), x.force, x.couple_j));
     };
     if (link.axis == 0) along(std::integral_constant<int, 0>{});
     if (link.axis == 1) along(std::integral_constant<int, 1>{});

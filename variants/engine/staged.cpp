@@ -5,13 +5,12 @@ namespace dss {
 template <class T>
 StagedRows<T>::StagedRows(PackedRows<T>& packed, const Problem& problem, const Method& method, double dt, int fields, int threads)
     : packed_(packed), method_(method), fields_(fields), pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)),
-      cuts_(cut_rows(packed, threads)), failed_rows_(cuts_.size() - 1, -1), increments_(increments_of<T>(method)), extra_links_(problem, packed) {
+      cuts_(cut_rows(packed, threads)), failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, dt)), extra_links_(problem, packed) {
   const PackedRow<T>& last = packed.rows.back();
   const std::size_t packs = last.pack_offset + std::size_t(last.packs) + 1; // rows look one pack ahead
   const int copies = method.family == Method::Family::leapfrog ? 2 : method.stages;
   for (int m = 0; m < copies; ++m) stages_.emplace_back(packs * pack_size_);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
-  for (std::size_t s = 0; s < std::size_t(method.stages); ++s) beta_[s] = T(dt * method.beta[s]);
 }
 
 template <class T>

@@ -49,8 +49,7 @@ private:
   std::vector<Buffer<T>> stages_; ///< [0] the state, [m] the output of stage m - 1; leapfrog: [1] the next state
   std::vector<CarryRings<T>> carry_;
   std::vector<int> failed_rows_;
-  std::array<T, Method::max_stages> beta_{};
-  std::array<std::vector<std::pair<int, T>>, Method::max_stages> increments_;
+  const std::vector<StageUpdate<T>> updates_;
   ExtraLinks<T> extra_links_;
 };
 
@@ -103,7 +102,7 @@ void StagedRows<T>::step(int thread, const StepSignals<T>& signals, Synchronise&
       set_row(task, packed_, r, fields_, carry, input);
       task.signals = signals.stage(s);
       T* const out = is_leapfrog ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(s + 1, r);
-      set_update(task, stage_row(0, r), out, beta_[std::size_t(s)], increments_[std::size_t(s)], [&](int m) { return stage_row(m + 1, r); });
+      updates_[std::size_t(s)].set(task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); });
       const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
       const bool is_finite = is_leapfrog ? kernels.leapfrog(task) : kernels.stage(task, is_last);
       if (!is_finite && failed_rows_[std::size_t(thread)] < 0) failed_rows_[std::size_t(thread)] = r;

@@ -22,14 +22,22 @@ std::vector<int> cut_rows(const PackedRows<T>& packed, int parts) {
 }
 
 template <class T>
-std::array<std::vector<std::pair<int, T>>, Method::max_stages> increments_of(const Method& method) {
-  std::array<std::vector<std::pair<int, T>>, Method::max_stages> terms;
-  for (int s = 0; s < method.stages; ++s) {
-    for (int m = 1; m <= s; ++m)
-      if (const double alpha = method.alpha[std::size_t(s)][std::size_t(m)]; alpha != 0) terms[std::size_t(s)].push_back({m - 1, T(alpha)});
-    if (terms[std::size_t(s)].size() > std::size(RowTask<T>{}.alpha)) throw std::logic_error("method with more increments than a row task holds");
+std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
+  std::vector<StageUpdate<T>> updates;
+  for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
+    StageUpdate<T> update;
+    double first = 0;
+    for (std::size_t m = 1; m <= s; ++m) {
+      const double alpha = method.alpha[s][m];
+      if (alpha == 0) continue;
+      update.increments.push_back({int(m) - 1, T(first == 0 ? alpha : alpha / first)});
+      if (first == 0) first = alpha;
+    }
+    update.beta = T(dt * method.beta[s] / (first == 0 ? 1 : first));
+    if (update.increments.size() > std::size(RowTask<T>{}.alpha)) throw std::logic_error("method with more increments than a row task holds");
+    updates.push_back(std::move(update));
   }
-  return terms;
+  return updates;
 }
 
 template <class T>
@@ -69,9 +77,7 @@ std::size_t Block<T>::bytes() const {
 
 template <class T>
 WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields, std::vector<Block<T>>& blocks)
-    : packed_(packed), method_(method), fields_(fields), increments_(increments_of<T>(method)), blocks_(blocks) {
-  for (std::size_t s = 0; s < std::size_t(method.stages); ++s) beta_[s] = T(dt * method.beta[s]);
-}
+    : packed_(packed), method_(method), fields_(fields), updates_(stage_updates<T>(method, dt)), blocks_(blocks) {}
 
 template <class T>
 T* WavefrontStep<T>::state_row(Block<T>& block, int r, int parity) const {
@@ -90,8 +96,7 @@ void WavefrontStep<T>::stage_row(Block<T>& block, int stage, int r, const StepSi
   set_row(task, packed_, r, fields_, block.carry[std::size_t(stage)], input);
   task.signals = signals.stage(stage);
   T* const base = state_row(block, r, parity);
-  set_update(task, base, is_last ? base : block.ring_row(stage, r), beta_[std::size_t(stage)], increments_[std::size_t(stage)],
-             [&](int m) { return block.ring_row(m, r); });
+  updates_[std::size_t(stage)].set(task, base, is_last ? base : block.ring_row(stage, r), [&](int m) { return block.ring_row(m, r); });
   const bool is_finite = method_.family == Method::Family::leapfrog ? kernels.leapfrog(task) : kernels.stage(task, is_last);
   if (!is_finite && block.failed_row < 0) block.failed_row = r;
   if (is_last && block.is_published(r)) block.publish(r, parity ^ 1);
@@ -118,7 +123,7 @@ void WavefrontStep<T>::operator()(Block<T>& block, const StepSignals<T>& signals
   template std::vector<int> cut_rows(const PackedRows<T>&, int);                                                                           \
   template class Block<T>;                                                                                                                 \
   template class WavefrontStep<T>;                                                                                                         \
-  template std::array<std::vector<std::pair<int, T>>, Method::max_stages> increments_of<T>(const Method&);
+  template std::vector<StageUpdate<T>> stage_updates(const Method&, double);
 DSS_INSTANTIATE(double)
 DSS_INSTANTIATE(float)
 #undef DSS_INSTANTIATE

@@ -54,6 +54,28 @@ private:
   std::vector<T> values_;
 };
 
+/// How a stage updates the state, in T: beta f plus terms alpha (Y_m - y), the later ones as ratios to the first (kernels/stage_row/row.hpp).
+template <class T>
+struct StageUpdate {
+  T beta = 0;
+  std::vector<std::pair<int, T>> increments; ///< (stage whose output Y_m is, alpha or ratio)
+  /// The part of a task that it determines; `stage_output(m)` is the row of the output of stage m.
+  template <class StageOutput>
+  void set(RowTask<T>& task, T* base, T* out, StageOutput&& stage_output) const {
+    task.base = base;
+    task.out = out;
+    task.beta = beta;
+    task.increments = int(increments.size());
+    for (std::size_t m = 0; m < increments.size(); ++m) {
+      task.increment[m] = stage_output(increments[m].first);
+      task.alpha[m] = increments[m].second;
+    }
+  }
+};
+/// One for each stage of the method. @throws std::logic_error for more terms in a stage than the three that a task holds.
+template <class T>
+std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt);
+
 /// Runs one step of one block; `blocks` are all blocks, `parity` says which published copies are current. The block's own rows end up
 /// updated in place and published under the other parity. Sets failed_row when a row leaves a non-finite state.
 template <class T>
@@ -69,25 +91,8 @@ private:
   const PackedRows<T>& packed_;
   const Method& method_;
   const int fields_;
-  std::array<T, Method::max_stages> beta_{};
-  std::array<std::vector<std::pair<int, T>>, Method::max_stages> increments_; ///< (stage whose output it is, alpha)
+  const std::vector<StageUpdate<T>> updates_;
   std::vector<Block<T>>& blocks_;
 };
-
-/// The Runge-Kutta part of a task: out = base + sum alpha (Y_m - base) + beta f; `stage_output(m)` is the row of Y_{m + 1}.
-template <class T, class StageOutput>
-void set_update(RowTask<T>& task, T* base, T* out, T beta, const std::vector<std::pair<int, T>>& increments, StageOutput&& stage_output) {
-  task.base = base;
-  task.out = out;
-  task.beta = beta;
-  task.increments = int(increments.size());
-  for (std::size_t m = 0; m < increments.size(); ++m) {
-    task.increment[m] = stage_output(increments[m].first);
-    task.alpha[m] = increments[m].second;
-  }
-}
-/// The terms alpha (Y_m - y) of each stage with alpha != 0. @throws std::logic_error beyond the three that a task holds.
-template <class T>
-std::array<std::vector<std::pair<int, T>>, Method::max_stages> increments_of(const Method& method);
 
 } // namespace dss

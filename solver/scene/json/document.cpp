@@ -65,8 +65,8 @@ json scalar_of(const Override& change) {
   const json value = json::parse(change.value, nullptr, false);
   if (value.is_discarded()) return change.value;
   if (value.is_primitive() && !value.is_null()) return value;
-  throw InputError(fmt::format("--set {}={}: the value must be a number, a text or true or false", change.key,
-                               change.value));
+  throw InputError(
+      fmt::format("--set {}={}: the value must be a number, a text or true or false", change.key, change.value));
 }
 
 std::vector<std::string> keys_of(const json& object) {
@@ -86,8 +86,8 @@ json& step_into(json& parent, const std::string& part, const Override& change) {
                         std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   if (parent.is_array() && is_index && std::stoul(part) < parent.size()) return parent[std::stoul(part)];
   if (parent.is_array())
-    fail_override(change, fmt::format("\"{}\" is not an index of its array; it has items 0 to {}", part,
-                                      int(parent.size()) - 1));
+    fail_override(
+        change, fmt::format("\"{}\" is not an index of its array; it has items 0 to {}", part, int(parent.size()) - 1));
   fail_override(change, fmt::format("the scene has a single value where \"{}\" is looked for", part));
 }
 
@@ -123,10 +123,10 @@ bool is_identifier(const std::string& name) {
 }
 
 /// Parameters may refer to each other in any order: each pass resolves those whose references are resolved.
-Parameters resolve_parameters(SceneText& text) {
+void resolve_parameters(SceneText& text) {
   ObjectNode root(Node(text, text.root, ""));
   const std::optional<Node> parameters = root.find("parameters");
-  if (!parameters) return {};
+  if (!parameters) return;
   ObjectNode names(*parameters);
   std::vector<std::string> pending = keys_of(parameters->json());
   for (const std::string& name : pending)
@@ -140,13 +140,15 @@ Parameters resolve_parameters(SceneText& text) {
         text.parameters[name] = node.number();
         return true;
       } catch (const InputError&) {
-        text.parameters.erase(name);
         return false;
       }
     });
-    if (pending.size() == before) names.require(pending.front()).number(); // throws: what it refers to is nowhere
+    if (pending.size() < before) continue;
+    // None resolves, so number() throws for each: the one to show is that which others may only refer to.
+    const auto culprit = std::find_if(pending.begin(), pending.end(),
+                                      [&](const std::string& name) { return !names.require(name).is_number(); });
+    names.require(culprit == pending.end() ? pending.front() : *culprit).number();
   }
-  return text.parameters;
 }
 
 std::vector<std::string> scene_names(const std::string& directory) {
@@ -183,8 +185,8 @@ std::string scene_path(const std::string& name_or_path) {
   if (!name_or_path.empty() && fs::exists(path, error)) return path;
   const std::vector<std::string> names = scene_names(directory);
   if (names.empty())
-    throw InputError(fmt::format("scene \"{}\": no scenes in {}; set DSSBENCH_SCENES to their directory", name_or_path,
-                                 directory));
+    throw InputError(
+        fmt::format("scene \"{}\": no scenes in {}; set DSSBENCH_SCENES to their directory", name_or_path, directory));
   const std::string near = nearest_name(name_or_path, names);
   throw InputError(fmt::format("scene \"{}\": no such scene{}; scenes are {}", name_or_path,
                                near.empty() ? "" : fmt::format(", did you mean \"{}\"?", near), listed(names)));

@@ -78,23 +78,27 @@ double Node::number() const {
   }
 }
 
+std::string Node::with_source(double value) const {
+  return is_string() ? fmt::format("{} ({})", value, shown(*value_)) : fmt::format("{}", value);
+}
+
 double Node::positive() const {
   const double value = number();
-  if (!(value > 0)) fail(fmt::format("{} is not positive", value));
+  if (!(value > 0)) fail(with_source(value) + " is not positive");
   return value;
 }
 
 double Node::non_negative() const {
   const double value = number();
-  if (!(value >= 0)) fail(fmt::format("{} is negative", value));
+  if (!(value >= 0)) fail(with_source(value) + " is negative");
   return value;
 }
 
 long Node::whole(long least, long most) const {
   const double value = number();
-  if (value != std::floor(value)) fail(fmt::format("{} is not a whole number", value));
+  if (value != std::floor(value)) fail(with_source(value) + " is not a whole number");
   if (value < double(least) || value > double(most))
-    fail(fmt::format("{} is out of range; it must be from {} to {}", value, least, most));
+    fail(fmt::format("{} is out of range; it must be from {} to {}", with_source(value), least, most));
   return long(value);
 }
 
@@ -131,7 +135,7 @@ std::vector<Node> Node::items() const {
 std::size_t Node::choice(const char* what, const std::vector<std::string>& names) const {
   const std::string text = string();
   const auto place = std::find(names.begin(), names.end(), text);
-  if (place == names.end()) fail(fmt::format("\"{}\" is not a {}; known are {}", text, what, listed(names)));
+  if (place == names.end()) fail(fmt::format("\"{}\" is not a known {}; known are {}", text, what, listed(names)));
   return std::size_t(place - names.begin());
 }
 

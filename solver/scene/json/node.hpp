@@ -17,7 +17,7 @@ namespace dss {
 
 /// A scene's text, parsed, with overrides applied, and what its numbers refer to.
 struct SceneText {
-  std::string path;                             ///< as it is shown in errors
+  std::string path; ///< as it is shown in errors
   nlohmann::json root;
   Parameters parameters;                        ///< resolved
   std::map<std::string, std::string> overrides; ///< JSON pointer -> the --set that changed what stands there
@@ -57,6 +57,7 @@ public:
 
 private:
   friend class ObjectNode;
+  std::string with_source(double value) const; ///< and the expression that gave it
   const SceneText* text_;
   const nlohmann::json* value_;
   std::string pointer_;

@@ -1,0 +1,61 @@
+#include "experiments/runner/cell_record.hpp"
+#include "experiments/runner/context.hpp"
+#include "experiments/runner/samples.hpp"
+
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+Record identity(const RecordPlace& place) {
+  const Cell& cell = place.cell;
+  Record row = {{"experiment", place.study.name},
+                {"scale", place.study.scale.name},
+                {"cell", cell.key()},
+                {"scene", cell.scene},
+                {"set", cell.set_text()},
+                {"variant", cell.variant},
+                {"model", cell.model},
+                {"precision", cell.precision},
+                {"integrator", cell.integrator},
+                {"ranks", "1"},
+                {"time_utc", measurement_time()}};
+  row["twin"] = cell.is_twin ? "true" : "false";
+  row["threads"] = fmt::format("{}", cell.threads);
+  row["cores"] = fmt::format("{}", place.cores);
+  row["steps"] = fmt::format("{}", cell.steps);
+  row["full_steps"] = fmt::format("{}", cell.full_steps);
+  row["repetition"] = fmt::format("{}", place.repetition);
+  row["attempt"] = fmt::format("{}", place.attempt);
+  return row;
+}
+
+} // namespace
+
+Record failure_record(const RecordPlace& place, const std::string& status, const std::string& reason) {
+  Record row = identity(place);
+  row["status"] = status;
+  row["reason"] = reason;
+  return row;
+}
+
+Record result_record(const RecordPlace& place, const nlohmann::json& json, double process_s) {
+  Record row = identity(place);
+  for (const std::string& column : raw_columns()) {
+    if (row.contains(column) || !json.contains(column)) continue;
+    const nlohmann::json& value = json[column];
+    if (value.is_number_float())
+      row[column] = number_text(value.get<double>());
+    else if (value.is_string())
+      row[column] = value.get<std::string>();
+    else if (!value.is_null())
+      row[column] = value.dump();
+  }
+  row["contaminated"] = json.value("is_contaminated", false) ? "true" : "false";
+  row["process_s"] = number_text(process_s);
+  // JSON has no infinity: an error that is missing from a failed check is one
+  if (json.value("check", "") == "failed" && row["check_error"].empty()) row["check_error"] = "inf";
+  return row;
+}
+
+} // namespace dss

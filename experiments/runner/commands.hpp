@@ -1,0 +1,21 @@
+#pragma once
+/// The commands of dssbench. Each adds itself to the command line; the one that was given sets `chosen`, which returns
+/// the exit code.
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace dss {
+
+/// Exit codes of the program (design.md section 7).
+enum ExitCode { exit_success = 0, exit_check_failed = 1, exit_bad_input = 2, exit_unstable = 3 };
+
+using Chosen = std::function<int()>;
+
+void add_list_command(CLI::App& app, Chosen& chosen);
+void add_run_command(CLI::App& app, Chosen& chosen);
+void add_verify_command(CLI::App& app, Chosen& chosen);
+void add_experiment_command(CLI::App& app, Chosen& chosen);
+void add_stability_command(CLI::App& app, Chosen& chosen);
+void add_compare_command(CLI::App& app, Chosen& chosen);
+
+} // namespace dss

@@ -1,0 +1,279 @@
+#include "experiments/runner/experiment.hpp"
+#include "experiments/runner/cell_record.hpp"
+#include "experiments/runner/child.hpp"
+#include "experiments/runner/context.hpp"
+#include "experiments/runner/oracle_state.hpp"
+#include "experiments/runner/progress.hpp"
+#include "experiments/runner/run_plan.hpp"
+#include "experiments/runner/samples.hpp"
+#include "experiments/runner/statistics.hpp"
+#include "experiments/runner/tables.hpp"
+#include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <random>
+#include <set>
+
+namespace dss {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr unsigned order_seed = 20220617;
+
+/// A cell on its way: what of it is done, and whether more is wanted.
+struct CellState {
+  const Cell* cell = nullptr;
+  std::vector<Record> records;
+  bool is_broken = false; ///< a repetition failed; no more are tried
+  double process_s = 0;   ///< of the last repetition
+  long done = 0;          ///< repetitions recorded
+  bool is_converged = false;
+};
+
+class ExperimentRun {
+public:
+  ExperimentRun(const Study& study, const std::string& directory, bool resume, const std::string& program)
+      : study_(study), paths_(experiment_paths(directory, study.name)), program_(program), resume_(resume),
+        file_(paths_.raw, raw_columns(), resume), start_(std::chrono::steady_clock::now()), cores_(usable_cores()) {
+    write_context();
+    for (const Cell& cell : study.cells) cells_.push_back({&cell, {}, false, 0, 0, false});
+    take_over(file_.present());
+  }
+
+  bool measure() {
+    for (CellState& state : cells_)
+      if (!state.cell->skipped.empty() && state.records.empty())
+        record(state, failure_record(place(*state.cell, 0, 0), "skipped", state.cell->skipped));
+    for (long repetition = 0; repetition < study_.scale.max_repetitions && is_more_wanted(); ++repetition) {
+      if (!round(repetition)) break;
+      update_convergence();
+    }
+    return finish();
+  }
+
+private:
+  double elapsed_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+  void write_context() const {
+    nlohmann::ordered_json json;
+    json["context"] = measurement_context();
+    json["experiment"] = study_.name;
+    json["title"] = study_.title;
+    json["scale"] = study_.scale.name;
+    AtomicFile file(paths_.context);
+    file.write(json.dump(2) + "\n");
+    file.commit();
+  }
+
+  void take_over(const std::vector<Record>& present) {
+    for (const Record& old : present) {
+      all_records_.push_back(old);
+      if (text_in(old, "scale") != study_.scale.name) continue;
+      for (CellState& state : cells_)
+        if (state.cell->key() == text_in(old, "cell")) state.records.push_back(old);
+    }
+    for (CellState& state : cells_) account(state);
+    update_convergence();
+  }
+
+  void account(CellState& state) {
+    const auto samples = samples_of(state.records);
+    if (samples.empty()) return;
+    state.done = samples[0].is_empty() ? 0 : samples[0].repetitions.rbegin()->first + 1;
+    state.is_broken = text_in(samples[0].last, "wall_s").empty();
+  }
+
+  void record(CellState& state, const Record& row) {
+    file_.append(row);
+    all_records_.push_back(row);
+    state.records.push_back(row);
+    account(state);
+  }
+
+  void update_convergence() {
+    for (CellState& state : cells_) {
+      const auto samples = samples_of(state.records);
+      if (samples.empty() || samples[0].is_empty()) continue;
+      const Estimate wall = estimate(samples[0].wall_s());
+      const auto half = wall.half_width();
+      state.is_converged = long(wall.count) >= study_.scale.min_repetitions && half && *half <= study_.scale.half_width;
+    }
+  }
+
+  bool is_more_wanted() const {
+    return std::any_of(cells_.begin(), cells_.end(), [&](const CellState& state) { return is_wanted(state); });
+  }
+  bool is_wanted(const CellState& state) const {
+    return !state.is_broken && !state.is_converged && state.done < study_.scale.max_repetitions &&
+           state.cell->skipped.empty();
+  }
+  /// Bases and twins go on while any cell does: speed-ups are ratios of pairs of the same round.
+  bool is_partner(const CellState& state) const {
+    const bool is_base = std::find(study_.bases.begin(), study_.bases.end(), state.cell->variant) != study_.bases.end();
+    return !state.is_broken && state.cell->skipped.empty() &&
+           ((is_base && state.cell->threads == 1) || state.cell->is_twin);
+  }
+
+  /// One repetition of every cell that wants one, in random order; false if the budget is spent.
+  bool round(long repetition) {
+    std::vector<CellState*> order;
+    for (CellState& state : cells_)
+      if (state.done <= repetition && (is_wanted(state) || is_partner(state))) order.push_back(&state);
+    std::mt19937_64 generator(order_seed + std::uint64_t(repetition));
+    for (std::size_t last = order.size(); last > 1; --last) std::swap(order[last - 1], order[generator() % last]);
+    for (std::size_t place = 0; place < order.size(); ++place) {
+      CellState& state = *order[place];
+      if (repetition > 0 && elapsed_s() + state.process_s > study_.scale.budget_s) return false;
+      repeat(state, repetition);
+      show_progress(repetition, double(place + 1) / double(order.size()), state);
+    }
+    return true;
+  }
+
+  void show_progress(long repetition, double share_of_round, const CellState& state) {
+    const double rounds = (double(repetition) + share_of_round) / double(study_.scale.max_repetitions);
+    const double share = std::max(rounds, std::min(1.0, elapsed_s() / study_.scale.budget_s));
+    const Record& last = state.records.back();
+    const std::string wall =
+        text_in(last, "wall_s").empty() ? text_in(last, "status") : fmt::format("{:.4g} s", number_in(last, "wall_s"));
+    progress_.show(share, 1, fmt::format("repetition {} of {}: {}", repetition + 1, state.cell->key(), wall));
+  }
+
+  /// A repetition, again if it was contaminated and there is time: retries take at most a quarter of the budget.
+  void repeat(CellState& state, long repetition) {
+    for (long attempt = 0; attempt <= study_.scale.retries; ++attempt) {
+      const Record row = measured(state, repetition, attempt);
+      record(state, row);
+      const bool is_dirty = text_in(row, "contaminated") == "true" && text_in(row, "status") == "ok";
+      if (!is_dirty || retry_s_ + state.process_s > 0.25 * study_.scale.budget_s) return;
+      if (attempt < study_.scale.retries) retry_s_ += state.process_s;
+    }
+  }
+
+  Record measured(CellState& state, long repetition, long attempt) {
+    const Cell& cell = *state.cell;
+    std::string oracle_file;
+    try {
+      oracle_file = oracle_file_of(cell);
+    } catch (const std::exception& error) {
+      return failure_record(place(cell, repetition, attempt), "failed", error.what());
+    }
+    const ChildResult child = run_child(program_, arguments(cell, oracle_file), study_.scale.time_limit_s);
+    state.process_s = child.wall_s;
+    const nlohmann::json json = nlohmann::json::parse(child.output, nullptr, false);
+    const std::string failure = child.failure(study_.scale.time_limit_s);
+    if (json.is_object() && json.value("status", "") == "wrong")
+      return result_record(place(cell, repetition, attempt), json, child.wall_s);
+    if (!failure.empty())
+      return failure_record(place(cell, repetition, attempt), child.timed_out ? "time limit" : "failed", failure);
+    if (!json.is_object())
+      return failure_record(place(cell, repetition, attempt), "failed", "its result is no JSON object");
+    return result_record(place(cell, repetition, attempt), json, child.wall_s);
+  }
+
+  std::vector<std::string> arguments(const Cell& cell, const std::string& oracle_file) const {
+    std::vector<std::string> line = {"dssbench",
+                                     "run",
+                                     cell.scene,
+                                     "--variant",
+                                     cell.variant,
+                                     "--threads",
+                                     fmt::format("{}", cell.threads),
+                                     "--model",
+                                     cell.model,
+                                     "--precision",
+                                     cell.precision,
+                                     "--integrator",
+                                     cell.integrator,
+                                     "--steps",
+                                     fmt::format("{}", cell.steps),
+                                     "--warmup",
+                                     fmt::format("{}", study_.scale.warmup_steps),
+                                     "--check-state",
+                                     oracle_file,
+                                     "--json",
+                                     "-"};
+    for (const Override& item : cell.set) line.insert(line.end(), {"--set", item.key + "=" + item.value});
+    return line;
+  }
+
+  RecordPlace place(const Cell& cell, long repetition, long attempt) const {
+    return {study_, cell, repetition, attempt, cores_};
+  }
+
+  /// File of the oracle's state for a cell; computed once a study, kept for --resume.
+  std::string oracle_file_of(const Cell& cell) {
+    const long steps = std::min(cell.steps, study_.scale.oracle_steps);
+    const Scene scene = load_scene(cell.scene, cell.set);
+    const std::string key =
+        fmt::format("{} {} {} dt {:.17g} {} elements {} steps, {}", cell.scene, cell.set_text(), cell.integrator,
+                    scene.problem.dt, scene.problem.lattice.element_count, steps, scene_digest(scene));
+    const std::string path = fmt::format("{}/{:016x}.state", paths_.oracle_directory, std::hash<std::string>{}(key));
+    if (oracles_.contains(path)) return path;
+    const bool is_kept = resume_ && fs::exists(path) && read_oracle_state(path).key == key;
+    if (!is_kept) {
+      progress_.note(fmt::format("oracle: {} {}, {} steps", cell.scene, cell.set_text(), steps));
+      write_oracle_state(
+          path, compute_oracle_state(scene.problem, require_method(cell.integrator), scene.problem.dt, steps, key));
+    }
+    oracles_.insert(path);
+    return path;
+  }
+
+  /// A changed scene file must not meet the oracle's states of the old one.
+  static std::string scene_digest(const Scene& scene) {
+    return fmt::format("scene {:016x}", std::hash<std::string>{}(read_text(scene.path)));
+  }
+
+  bool finish() {
+    const Table table = derive_table(study_, all_records_);
+    write_csv(paths_.table, table);
+    fmt::print("{}\nTable: {}\nRecords: {}\n", table_text(study_, table), paths_.table, paths_.raw);
+    return std::all_of(table.rows.begin(), table.rows.end(), [](const Record& row) {
+      static const std::set<std::string> fine = {"", "ok", "skipped", "oversubscribed"};
+      return fine.contains(text_in(row, "status"));
+    });
+  }
+
+  const Study& study_;
+  ExperimentPaths paths_;
+  std::string program_;
+  bool resume_;
+  RecordFile file_;
+  std::chrono::steady_clock::time_point start_;
+  int cores_;
+  std::vector<CellState> cells_;
+  std::vector<Record> all_records_;
+  std::set<std::string> oracles_;
+  double retry_s_ = 0;
+  Progress progress_;
+};
+
+void make_directories(const ExperimentPaths& paths) {
+  for (const std::string& path : {paths.raw, paths.table, paths.oracle_directory + "/x"}) {
+    std::error_code error;
+    fs::create_directories(fs::path(path).parent_path(), error);
+    if (error)
+      throw InputError(
+          fmt::format("--out: cannot make {}: {}", fs::path(path).parent_path().string(), error.message()));
+    require_writable(path);
+  }
+}
+
+} // namespace
+
+ExperimentPaths experiment_paths(const std::string& directory, const std::string& name) {
+  return {fmt::format("{}/raw/{}.csv", directory, name), fmt::format("{}/raw/{}.json", directory, name),
+          fmt::format("{}/tables/{}.csv", directory, name), directory + "/oracle"};
+}
+
+bool run_experiment(const Study& study, const std::string& directory, bool resume, const std::string& program) {
+  make_directories(experiment_paths(directory, study.name));
+  return ExperimentRun(study, directory, resume, program).measure();
+}
+
+} // namespace dss

@@ -1,0 +1,61 @@
+#include "experiments/runner/child.hpp"
+#include "experiments/runner/commands.hpp"
+#include "experiments/runner/context.hpp"
+#include "experiments/runner/experiment.hpp"
+#include "experiments/runner/progress.hpp"
+#include "experiments/runner/text_table.hpp"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace dss {
+namespace {
+
+struct ExperimentArguments {
+  std::string file, scale = "host", out = "results";
+  bool resumes = false, is_dry = false;
+};
+
+void print_plan(const Study& study, const std::string& out) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Cell& cell : study.cells)
+    rows.push_back({cell.scene, cell.set_text(), cell.variant, fmt::format("{}", cell.threads), cell.model,
+                    cell.precision, cell.integrator, fmt::format("{}", cell.steps), cell.is_twin ? "A/A" : "",
+                    cell.skipped.empty() ? "" : "skipped: " + cell.skipped});
+  fmt::print(
+      "{} ({}, scale {})\n{}", study.title, study.name, study.scale.name,
+      text_table({"scene", "set", "variant", "threads", "model", "precision", "integrator", "steps", "pair", "note"},
+                 rows));
+  const ExperimentPaths paths = experiment_paths(out, study.name);
+  fmt::print("{} cells, {} to {} repetitions each, at most about {}.\nTable: {}\nRecords: {}\n", study.cells.size(),
+             study.scale.min_repetitions, study.scale.max_repetitions, duration_text(study.scale.budget_s), paths.table,
+             paths.raw);
+}
+
+int experiment(const ExperimentArguments& arguments) {
+  const Study study = load_study(arguments.file, arguments.scale, usable_cores());
+  if (arguments.is_dry) {
+    print_plan(study, arguments.out);
+    return exit_success;
+  }
+  return run_experiment(study, arguments.out, arguments.resumes, this_program) ? exit_success : exit_check_failed;
+}
+
+} // namespace
+
+void add_experiment_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "experiment", "Measure a study: interleaved, each repetition in its own process, each result checked");
+  const auto arguments = std::make_shared<ExperimentArguments>();
+  command->add_option("FILE", arguments->file, "A name from `dssbench list experiments`, or a path")->required();
+  command->add_option("--scale", arguments->scale, "A scale of the study: smoke (seconds), host (minutes), paper")
+      ->capture_default_str();
+  command->add_option("--out", arguments->out, "Directory of raw/, tables/ and oracle/")->capture_default_str();
+  command->add_flag("--resume", arguments->resumes, "Keep the records present and measure what is missing");
+  command->add_flag("--dry-run", arguments->is_dry, "Print the cells and stop");
+  command->footer("Example: dssbench experiment table1_host --scale smoke --out /tmp/results\nExit code 1 if a cell "
+                  "failed or was wrong.");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return experiment(*arguments); }; });
+}
+
+} // namespace dss

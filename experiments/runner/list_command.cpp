@@ -1,0 +1,105 @@
+#include "experiments/runner/arguments.hpp"
+#include "experiments/runner/commands.hpp"
+#include "experiments/runner/context.hpp"
+#include "experiments/runner/nearest.hpp"
+#include "experiments/runner/study.hpp"
+#include "experiments/runner/text_table.hpp"
+#include "solver/error.hpp"
+#include "variants/loader.hpp"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace dss {
+namespace {
+
+struct ListArguments {
+  std::string what;
+  bool is_json = false;
+};
+
+/// A listing: an array of objects that all have the same keys.
+using Listing = nlohmann::ordered_json;
+
+Listing variant_listing() {
+  Listing list = Listing::array();
+  for (const VariantStatus& status : variants()) {
+    Listing item = {{"variant", status.name}, {"isa", status.isa}, {"fma", ""}, {"threads", ""}, {"status", "usable"}};
+    if (status.is_usable()) {
+      const Plugin& plugin = load_variant(status.name);
+      item["fma"] = plugin.has_fma ? "yes" : "no";
+      item["threads"] = plugin.is_threaded ? "any" : "1";
+    } else {
+      item["status"] = "unusable: " + status.unusable;
+    }
+    list.push_back(item);
+  }
+  return list;
+}
+
+Listing scene_listing() {
+  Listing list = Listing::array();
+  for (const SceneListing& scene : list_scenes()) {
+    std::string parameters;
+    for (const auto& [name, value] : scene.parameters)
+      parameters += fmt::format("{}{}={:g}", parameters.empty() ? "" : " ", name, value);
+    list.push_back({{"scene", scene.name}, {"parameters", parameters}, {"title", scene.title}, {"path", scene.path}});
+  }
+  return list;
+}
+
+Listing study_listing() {
+  Listing list = Listing::array();
+  for (const StudyListing& study : list_studies())
+    list.push_back({{"experiment", study.name}, {"title", study.title}, {"path", study.path}});
+  return list;
+}
+
+Listing device_listing() {
+  const nlohmann::ordered_json context = measurement_context();
+  return Listing::array(
+      {{{"device", "cpu"}, {"name", context["cpu_model"]}, {"cores", fmt::format("{}", usable_cores())}}});
+}
+
+Listing listing(const std::string& what) {
+  if (what == "variants") return variant_listing();
+  if (what == "scenes") return scene_listing();
+  if (what == "experiments") return study_listing();
+  if (what == "devices") return device_listing();
+  throw InputError(
+      fmt::format("list {}: unknown; {}", what, suggestion(what, {"variants", "scenes", "experiments", "devices"})));
+}
+
+int list(const ListArguments& arguments) {
+  const Listing items = listing(arguments.what);
+  if (arguments.is_json) {
+    write_json("-", items);
+    return exit_success;
+  }
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& item : items) {
+    head.clear();
+    rows.emplace_back();
+    for (const auto& [key, value] : item.items()) {
+      if (key == "path") continue;
+      head.push_back(key);
+      rows.back().push_back(value.get<std::string>());
+    }
+  }
+  fmt::print("{}", text_table(head, rows));
+  return exit_success;
+}
+
+} // namespace
+
+void add_list_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("list", "List variants, scenes, experiments or devices");
+  const auto arguments = std::make_shared<ListArguments>();
+  command->add_option("WHAT", arguments->what, "variants, scenes, experiments or devices")->required();
+  command->add_flag("--json", arguments->is_json, "As JSON, with paths");
+  command->footer("Example: dssbench list variants");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return list(*arguments); }; });
+}
+
+} // namespace dss

@@ -1,0 +1,74 @@
+/// The program `dssbench`: command line, exit codes, and one line for every error.
+#include "experiments/runner/commands.hpp"
+#include "experiments/runner/nearest.hpp"
+#include "solver/error.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <fmt/format.h>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace dss {
+namespace {
+
+int fail(int exit_code, const std::string& what) {
+  fmt::print(stderr, "dssbench: {}\n", what);
+  return exit_code;
+}
+
+/// CLI11 says only that an unknown word was not expected; the user should hear what would be right.
+void require_known_command(int argc, char** argv, const CLI::App& app) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
+  for (const std::string& name : known)
+    if (name == argv[1]) return;
+  throw InputError(fmt::format("{}: unknown command; {}", argv[1], suggestion(argv[1], known)));
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("dssbench: dynamic stress-strain solvers, measured and checked.\n"
+               "Exit codes: 0 success, 1 a check failed, 2 bad input, 3 a run is or would be unstable.");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "dssbench 0.1.0");
+  app.footer(
+      "Example: dssbench run plate_paper --set n=100 --steps 500 --threads 2\nHelp of a command: dssbench run --help");
+  Chosen chosen;
+  add_list_command(app, chosen);
+  add_run_command(app, chosen);
+  add_verify_command(app, chosen);
+  add_experiment_command(app, chosen);
+  add_stability_command(app, chosen);
+  add_compare_command(app, chosen);
+  require_known_command(argc, argv, app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error); // help, version
+    std::string what = error.what();
+    what = what.substr(0, what.find('\n'));
+    return fail(exit_bad_input,
+                fmt::format("{}; see dssbench {} --help", what, argc > 1 && argv[1][0] != '-' ? argv[1] : ""));
+  }
+  const int exit_code = chosen();
+  if (std::fflush(stdout) != 0) throw InputError("standard output: cannot write; is the disk full?");
+  return exit_code;
+}
+
+} // namespace
+} // namespace dss
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes then is an error of write(), told like a full disk
+  try {
+    return dss::run_program(argc, argv);
+  } catch (const dss::UnstableError& error) {
+    return dss::fail(dss::exit_unstable, error.what());
+  } catch (const std::bad_alloc&) {
+    return dss::fail(dss::exit_bad_input, "not enough memory for this problem; take a smaller one");
+  } catch (const std::exception& error) {
+    return dss::fail(dss::exit_bad_input, error.what());
+  }
+}

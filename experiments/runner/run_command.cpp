@@ -1,0 +1,83 @@
+#include "experiments/runner/arguments.hpp"
+#include "experiments/runner/commands.hpp"
+#include "experiments/runner/run.hpp"
+#include "solver/error.hpp"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+namespace dss {
+namespace {
+
+struct RunArguments {
+  RunRequest request;
+  std::vector<std::string> set;
+};
+
+void print_summary(const RunResult& result) {
+  fmt::print("{}: {} elements, {} links, {} steps of {:g} s ({}, {}, {})\n", result.scene, result.elements,
+             result.links, result.steps, result.dt_s, result.model, result.precision, result.integrator);
+  fmt::print("{} ({}), {} thread{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
+             result.schedule);
+  fmt::print("wall {:.6g} s, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
+             1e-6 * result.element_steps_per_s(), double(result.bytes) / double(result.elements));
+  fmt::print("largest displacement {:.6g} m, energy {}, state {:016x}\n", result.max_displacement_m,
+             result.energy_j ? fmt::format("{:.6g} J", *result.energy_j) : "not computed (large state)", result.digest);
+  if (result.check.is_done)
+    fmt::print("check: {} ({}): error {:.3g}, tolerance {:.3g}\n", result.check.is_passed() ? "passed" : "failed",
+               result.check.how, result.check.error, result.check.tolerance);
+}
+
+int run(const RunArguments& arguments) {
+  RunRequest request = arguments.request;
+  request.overrides = parse_overrides(arguments.set);
+  const RunResult result = run_scene(request);
+  if (!request.json.empty()) write_json(request.json, run_json(request, result));
+  if (result.status == "unstable") throw UnstableError(result.reason);
+  if (request.json != "-") print_summary(result);
+  if (result.status == "ok") return exit_success;
+  fmt::print(stderr, "dssbench: {}: {}\n", result.scene, result.reason);
+  return exit_check_failed;
+}
+
+} // namespace
+
+void add_run_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("run", "Run one scene on one variant, and write what is asked for");
+  const auto arguments = std::make_shared<RunArguments>();
+  RunRequest& request = arguments->request;
+  command->add_option("SCENE", request.scene, "A name from `dssbench list scenes`, or a path")->required();
+  command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--variant", request.variant, "A name from `dssbench list variants`; auto: the fastest here")
+      ->capture_default_str();
+  command->add_option("--threads", request.threads, "Threads of the variant")->capture_default_str();
+  command->add_option("--ranks", request.ranks, "Processes of the variant")->capture_default_str();
+  command->add_option("--model", request.model, "spatial or planar (default: the scene's)");
+  command->add_option("--precision", request.precision, "f64 or f32 (default: f64)");
+  command->add_option("--integrator", request.integrator, "rk4 or velocity_verlet (default: the scene's)");
+  command->add_option("--dt", request.dt, "Time step [s] (default: the scene's)");
+  command->add_option("--steps", request.steps, "Number of steps (default: the scene's)");
+  command->add_flag("--force", request.is_forced, "Run above the predicted stability limit");
+  command->add_option("--output", request.output, "F.vtu: the final state for ParaView");
+  command->add_option("--frames", request.frames, "Files of a series F_0000.vtu ... with F.pvd, besides the first")
+      ->capture_default_str();
+  command->add_option("--state", request.state_csv, "F.csv: the final state, one row an element");
+  command->add_option("--json", request.json, "File for the result, or - for standard output");
+  command->add_option("--warmup", request.warmup_steps, "Steps before the clock starts; the state then starts anew")
+      ->capture_default_str()
+      ->group("Checks");
+  command
+      ->add_option("--check-state", request.check_state,
+                   "File of the oracle's state (made by `experiment`) to compare with")
+      ->group("Checks");
+  command->add_option("--check-step", request.check_step, "Step of that state (0: as the file says)")
+      ->capture_default_str()
+      ->group("Checks");
+  command->footer(
+      "Example: dssbench run plate_paper --set n=100 --steps 500 --variant avx2 --threads 2 --output plate.vtu");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+} // namespace dss

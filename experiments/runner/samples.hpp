@@ -1,0 +1,39 @@
+#pragma once
+/// Raw records grouped into samples: what tables and comparisons are made of.
+#include "experiments/runner/records.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// Columns of results/raw/<experiment>.csv, one row a repetition (and attempt).
+const std::vector<std::string>& raw_columns();
+
+/// All that was measured of one cell. Of a repetition that was retried, the last attempt counts; all attempts stay in
+/// the raw file.
+struct CellSample {
+  std::string key;
+  std::map<long, Record> repetitions; ///< those with a time, by number
+  Record last;                        ///< the last record of the cell, whatever became of it
+  long contaminated = 0;              ///< of the repetitions that count
+
+  bool is_empty() const { return repetitions.empty(); }
+  /// Wall times [s] in order of repetitions.
+  std::vector<double> wall_s() const;
+  /// Seconds a step, by repetition.
+  std::map<long, double> step_s() const;
+  /// "passed" if every repetition passed its check, else the first other verdict.
+  std::string check() const;
+  /// Largest error of any repetition, NaN without a check.
+  double check_error() const;
+};
+
+/// Groups records by their cell, in order of first appearance.
+std::vector<CellSample> samples_of(const std::vector<Record>& records);
+
+/// Ratios a / b of two cells' seconds a step over the repetitions that both have.
+std::vector<double> paired_ratios(const CellSample& a, const CellSample& b);
+
+} // namespace dss

@@ -1,0 +1,72 @@
+#pragma once
+/// A study: which cells are measured, on which scale, by which rules (experiments/README.md describes the JSON).
+#include "solver/scene/scene.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// What one figure is measured of. Everything definite, as `dssbench run` takes it.
+struct Cell {
+  std::string scene;
+  std::vector<Override> set;
+  std::string variant;
+  int threads = 1;
+  std::string model, precision, integrator;
+  long steps = 0;
+  long full_steps = 0;  ///< of the study; `steps` is less where the variant is too slow for them
+  bool is_twin = false; ///< the second of an A/A pair
+  std::string skipped;  ///< why it cannot run here, or empty
+
+  /// "n=100"
+  std::string set_text() const;
+  /// Unique in a study: "plate_paper n=100 avx512 t2 spatial f64 rk4 500 steps (A/A)"
+  std::string key() const;
+  /// Cells with equal physics and steps, whose states are comparable: the key without variant, threads and twin.
+  std::string problem_key() const;
+};
+
+/// How much is measured: seconds, minutes or the paper's size.
+struct Scale {
+  std::string name;
+  long steps = 0;
+  long oracle_steps = 0; ///< the oracle is compared with after min(steps, oracle_steps) steps
+  long warmup_steps = 2;
+  std::map<std::string, long> steps_for; ///< fewer steps for slow variants
+  long min_repetitions = 6, max_repetitions = 30;
+  long retries = 3;          ///< of a contaminated repetition
+  double half_width = 0.02;  ///< a cell is converged at this relative half-width of its interval
+  double budget_s = 240;     ///< for the whole study [s]
+  double time_limit_s = 120; ///< for one repetition [s]
+};
+
+/// A published figure, beside the measured ones and never in their columns.
+struct PaperRow {
+  std::string label;
+  double wall_s = 0, speedup = 0; ///< speedup 0: none is published
+};
+
+struct Study {
+  std::string name, title, path;
+  std::vector<std::string> bases; ///< variants that speed-ups refer to, on one thread
+  std::vector<Cell> cells;
+  Scale scale;
+  std::string paper_source;
+  std::vector<PaperRow> paper;
+};
+
+/// A study of the study directory.
+struct StudyListing {
+  std::string name, title, path;
+};
+
+/// Studies that this program finds: *.json in $DSSBENCH_EXPERIMENTS, else in experiments/ of the source tree.
+std::vector<StudyListing> list_studies();
+
+/// Loads a study by name or path and resolves it for a scale and a number of cores.
+/// @throws InputError: file, JSON pointer, what is wrong and what would be right
+Study load_study(const std::string& name_or_path, const std::string& scale, int cores);
+
+} // namespace dss

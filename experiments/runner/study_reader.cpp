@@ -1,0 +1,68 @@
+#include "experiments/runner/study_reader.hpp"
+#include "experiments/runner/nearest.hpp"
+#include "solver/io/atomic_file.hpp"
+
+#include <algorithm>
+
+namespace dss {
+
+void JsonPlace::require_keys(std::initializer_list<const char*> allowed) const {
+  if (!value_.is_object()) fail("is not an object");
+  const std::vector<std::string> known(allowed.begin(), allowed.end());
+  for (const auto& [key, value] : value_.items())
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      fail(fmt::format("unknown key \"{}\"; {}", key, suggestion(key, known)));
+}
+
+JsonPlace JsonPlace::operator[](const std::string& key) const {
+  if (!has(key)) fail(fmt::format("lacks the key \"{}\"", key));
+  return {value_.at(key), file_, pointer_ + "/" + key};
+}
+
+std::vector<JsonPlace> JsonPlace::items() const {
+  if (!value_.is_array()) return {*this};
+  std::vector<JsonPlace> places;
+  for (std::size_t i = 0; i < value_.size(); ++i)
+    places.emplace_back(value_[i], file_, fmt::format("{}/{}", pointer_, i));
+  return places;
+}
+
+std::string JsonPlace::text() const {
+  if (!value_.is_string() || value_.get<std::string>().empty()) fail(fmt::format("{} is not a name", value_.dump()));
+  return value_.get<std::string>();
+}
+
+std::vector<std::string> JsonPlace::texts() const {
+  std::vector<std::string> all;
+  for (const JsonPlace& item : items()) all.push_back(item.text());
+  if (all.empty()) fail("is empty; give at least one name");
+  return all;
+}
+
+double JsonPlace::positive() const {
+  if (!value_.is_number() || !(value_.get<double>() > 0))
+    fail(fmt::format("{} is not a positive number", value_.dump()));
+  return value_.get<double>();
+}
+
+long JsonPlace::count(long least) const {
+  if (!value_.is_number_integer() || value_.get<long>() < least)
+    fail(fmt::format("{} is not a whole number of at least {}", value_.dump(), least));
+  return value_.get<long>();
+}
+
+nlohmann::json parse_json_file(const std::string& path) {
+  const std::string text = read_text(path);
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::size_t place = std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size());
+    const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(place), '\n');
+    const std::size_t line_start = text.rfind('\n', place > 0 ? place - 1 : 0);
+    const std::size_t column = line_start == std::string::npos || place == 0 ? place + 1 : place - line_start;
+    throw InputError(fmt::format("{}:{}:{}: broken JSON; a value, a comma or a bracket is missing or too much here",
+                                 path, line, column));
+  }
+}
+
+} // namespace dss

@@ -1,0 +1,71 @@
+#include "experiments/runner/tables.hpp"
+#include "experiments/runner/text_table.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+std::string shown(const Record& row, const std::string& column, const char* form, double scale = 1) {
+  const double value = number_in(row, column);
+  return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), scale * value);
+}
+
+std::string shown_speedup(const Record& row, const std::string& base) {
+  const std::string measured = "speedup_vs_" + base, scaled = "extrapolated_" + measured;
+  const std::string& column = text_in(row, measured).empty() ? scaled : measured;
+  if (text_in(row, column).empty()) return "";
+  const std::string mark = column == scaled ? "~" : "";
+  if (text_in(row, column + "_low").empty()) return mark + shown(row, column, "{:.2f}");
+  return fmt::format("{}{} [{}, {}]", mark, shown(row, column, "{:.2f}"), shown(row, column + "_low", "{:.2f}"),
+                     shown(row, column + "_high", "{:.2f}"));
+}
+
+std::string shown_time(const Record& row) {
+  const double half = number_in(row, "half_width");
+  const std::string time = shown(row, "measured_wall_s", "{:.4g}");
+  return std::isnan(half) ? time : fmt::format("{} ± {:.1f} %", time, 100 * half);
+}
+
+std::string shown_status(const Record& row) {
+  const std::string status = text_in(row, "status"), reason = text_in(row, "reason");
+  if (!reason.empty()) return status + ": " + reason;
+  if (status == "ok" && text_in(row, "converged") == "no") return "ok, not converged";
+  return status;
+}
+
+} // namespace
+
+std::string table_text(const Study& study, const Table& table) {
+  std::vector<std::string> head = {"cell", "set", "steps", "n", "wall [s]", "extrapolated [s]", "Melement-steps/s"};
+  for (const std::string& base : study.bases) head.push_back("speed-up vs " + base);
+  head.insert(head.end(), {"error", "status"});
+  std::vector<std::vector<std::string>> rows, paper;
+  std::string resolution;
+  for (const Record& row : table.rows) {
+    if (text_in(row, "source") == "paper") {
+      paper.push_back(
+          {text_in(row, "label"), shown(row, "paper_wall_s", "{:.2f}"), shown(row, "paper_speedup", "{:.2f}")});
+      continue;
+    }
+    rows.push_back({text_in(row, "label"), text_in(row, "set"), text_in(row, "steps"), text_in(row, "repetitions"),
+                    shown_time(row), shown(row, "extrapolated_wall_s", "{:.4g}"),
+                    shown(row, "element_steps_per_s", "{:.2f}", 1e-6)});
+    for (const std::string& base : study.bases) rows.back().push_back(shown_speedup(row, base));
+    rows.back().push_back(shown(row, "check_error", "{:.1e}"));
+    rows.back().push_back(shown_status(row));
+    resolution = shown(row, "resolution", "{:.1f} %", 100);
+  }
+  std::string text =
+      fmt::format("{} ({}, scale {})\n{}", study.title, study.name, study.scale.name, text_table(head, rows));
+  text += "Medians with the half-width of their 95 % interval; speed-ups are medians of ratios of interleaved pairs "
+          "[95 % interval]; ~ scaled from fewer steps.\n";
+  if (!resolution.empty()) text += fmt::format("Resolution by the A/A pair: {}. No claim below it.\n", resolution);
+  if (!paper.empty())
+    text += fmt::format("\nPublished ({}):\n{}", study.paper_source,
+                        text_table({"configuration", "wall [s]", "speed-up"}, paper));
+  return text;
+}
+
+} // namespace dss

@@ -1,0 +1,138 @@
+#include "solver/scene/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace dss {
+namespace {
+
+using Cell = std::array<long, 3>;
+using Layers = std::vector<std::vector<std::string>>; ///< layers by z, lines by y, characters by x
+
+Cell read_cell(const Node& node, long least) {
+  node.vector(); // for its errors about the shape
+  const std::vector<Node> parts = node.items();
+  return {parts[0].whole(least, max_elements), parts[1].whole(least, max_elements),
+          parts[2].whole(least, max_elements)};
+}
+
+VoxelGrid empty_grid(const Node& node, const Cell& size) {
+  // In double: the product of three such sizes overflows 64 bits.
+  if (double(size[0]) * double(size[1]) * double(size[2]) > double(max_elements))
+    node.fail(fmt::format("{} x {} x {} cells are too many; at most {} are allowed", size[0], size[1], size[2],
+                          max_elements));
+  VoxelGrid grid{int(size[0]), int(size[1]), int(size[2]), {}};
+  grid.occupied.assign(std::size_t(size[0] * size[1] * size[2]), 0);
+  return grid;
+}
+
+void fill(VoxelGrid& grid, const Cell& from, const Cell& size) {
+  for (long z = from[2]; z < from[2] + size[2]; ++z)
+    for (long y = from[1]; y < from[1] + size[1]; ++y) {
+      const auto row = grid.occupied.begin() + ((z * grid.ny + y) * grid.nx + from[0]);
+      std::fill(row, row + size[0], std::uint8_t(1));
+    }
+}
+
+VoxelGrid read_boxes(const Node& node) {
+  std::vector<std::pair<Cell, Cell>> boxes;
+  Cell extent{};
+  for (const Node& item : node.items()) {
+    ObjectNode box(item);
+    const Cell from = read_cell(box.require("from"), 0), size = read_cell(box.require("size"), 1);
+    box.finish();
+    for (std::size_t a = 0; a < 3; ++a) extent[a] = std::max(extent[a], from[a] + size[a]);
+    boxes.emplace_back(from, size);
+  }
+  if (boxes.empty()) node.fail("no boxes; a body has at least one element");
+  VoxelGrid grid = empty_grid(node, extent);
+  for (const auto& [from, size] : boxes) fill(grid, from, size);
+  return grid;
+}
+
+Layers read_layers(const Node& node) {
+  Layers layers;
+  for (const Node& layer : node.items()) {
+    layers.emplace_back();
+    for (const Node& line : layer.items()) layers.back().push_back(line.string());
+  }
+  return layers;
+}
+
+/// Layers of a text file, each ended by a blank line or the end; beside the scene's file unless the path is absolute.
+Layers read_layer_file(const Node& node) {
+  const auto path = std::filesystem::path(node.file()).parent_path() / node.string();
+  std::error_code error;
+  std::ifstream file(path);
+  if (!file || std::filesystem::is_directory(path, error))
+    node.fail(fmt::format("voxel file {} cannot be read; its path is relative to the scene's file", path.string()));
+  Layers layers(1);
+  for (std::string line; std::getline(file, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (!line.empty())
+      layers.back().push_back(line);
+    else if (!layers.back().empty())
+      layers.emplace_back();
+  }
+  if (layers.back().empty()) layers.pop_back();
+  return layers;
+}
+
+VoxelGrid grid_of(const Node& node, const Layers& layers) {
+  if (layers.empty() || layers[0].empty() || layers[0][0].empty())
+    node.fail("the voxel mask is empty; a body has at least one element");
+  const std::size_t nx = layers[0][0].size(), ny = layers[0].size();
+  VoxelGrid grid = empty_grid(node, {long(nx), long(ny), long(layers.size())});
+  std::size_t cell = 0;
+  for (std::size_t z = 0; z < layers.size(); ++z) {
+    if (layers[z].size() != ny)
+      node.fail(fmt::format("layer {} has {} lines; layer 0 has {}", z, layers[z].size(), ny));
+    for (std::size_t y = 0; y < ny; ++y) {
+      const std::string& line = layers[z][y];
+      if (line.size() != nx)
+        node.fail(fmt::format("layer {}, line {} has {} characters; the first line has {}", z, y, line.size(), nx));
+      for (const char mark : line) {
+        if (mark != '#' && mark != '.')
+          node.fail(fmt::format("layer {}, line {} has '{}'; write # for an element and . for a hole", z, y, mark));
+        grid.occupied[cell++] = mark == '#';
+      }
+    }
+  }
+  return grid;
+}
+
+VoxelGrid read_voxels(const Node& node) {
+  ObjectNode voxels(node);
+  const std::string key = voxels.require_one({"layers", "file"});
+  const Node mask = voxels.require(key);
+  voxels.finish();
+  return grid_of(mask, key == "file" ? read_layer_file(mask) : read_layers(mask));
+}
+
+} // namespace
+
+VoxelGrid read_geometry(const Node& node) {
+  ObjectNode shape(node);
+  const std::string key = shape.require_one({"box", "boxes", "voxels"});
+  const Node what = shape.require(key);
+  shape.finish();
+  if (key == "boxes") return read_boxes(what);
+  if (key == "box") {
+    const Cell size = read_cell(what, 1);
+    VoxelGrid grid = empty_grid(what, size);
+    fill(grid, {0, 0, 0}, size);
+    return grid;
+  }
+  VoxelGrid grid = read_voxels(what);
+  if (std::find(grid.occupied.begin(), grid.occupied.end(), 1) == grid.occupied.end())
+    what.fail("the voxel mask has no element (#); a body has at least one");
+  return grid;
+}
+
+} // namespace dss

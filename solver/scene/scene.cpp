@@ -1,0 +1,193 @@
+#include "solver/scene/scene.hpp"
+
+#include "solver/error.hpp"
+#include "solver/model/model.hpp"
+#include "solver/numerics/method.hpp"
+#include "solver/scene/constants.hpp"
+#include "solver/scene/geometry.hpp"
+#include "solver/scene/terms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+namespace dss {
+namespace {
+
+constexpr long max_steps = 1L << 53; // the largest counts that doubles hold exactly
+
+Body read_body_properties(ObjectNode& object) {
+  Body body;
+  const Node name = object.require("name"), element = object.require("element");
+  body.name = name.string();
+  if (body.name.empty()) name.fail("a body's name is not empty");
+  body.edge = element.is_array() ? element.positive_vector() : Vec3{};
+  if (!element.is_array()) body.edge.fill(element.positive());
+  body.origin = object.vector_or("origin", {});
+  read_body_constants(object.require("constants"), body);
+  return body;
+}
+
+void read_bodies(const Node& node, Problem& problem) {
+  for (const Node& item : node.items()) {
+    ObjectNode object(item);
+    const Node geometry = object.require("geometry");
+    const VoxelGrid grid = read_geometry(geometry);
+    const Body body = read_body_properties(object);
+    object.finish();
+    for (const Body& other : problem.bodies)
+      if (other.name == body.name)
+        object.require("name").fail(fmt::format("a second body \"{}\"; names differ", body.name));
+    append_body(problem.lattice, grid, int(problem.bodies.size()));
+    problem.bodies.push_back(body);
+    if (problem.lattice.element_count > std::size_t(max_elements))
+      geometry.fail(fmt::format("{} elements so far are too many; a scene has at most {}",
+                                problem.lattice.element_count, max_elements));
+  }
+  if (problem.bodies.empty()) node.fail("no bodies; a scene has at least one");
+}
+
+void read_terms(ObjectNode& root, Problem& problem) {
+  if (const auto links = root.find("extra_links")) read_extra_links(*links, problem);
+  if (const auto clamps = root.find("clamps")) read_clamps(*clamps, problem);
+  if (const auto loads = root.find("loads")) read_loads(*loads, problem);
+  if (const auto ties = root.find("stabilization")) problem.stabilization = read_stabilization(*ties);
+  if (const auto initial = root.find("initial")) read_initial_motions(*initial, problem);
+  problem.frame_acceleration = read_frame_acceleration(root.find("gravity"), root.find("base_acceleration"));
+}
+
+void read_run(const Node& node, Scene& scene) {
+  ObjectNode run(node);
+  scene.problem.dt = run.require("dt").positive();
+  scene.problem.steps = run.require("steps").whole(1, max_steps);
+  std::vector<std::string> method_names;
+  for (const Method& method : methods()) method_names.emplace_back(method.name);
+  const auto integrator = run.find("integrator"), model = run.find("model");
+  scene.integrator = integrator ? method_names[integrator->choice("integrator", method_names)] : "rk4";
+  scene.problem.integrator = scene.integrator;
+  const std::vector<std::string> model_names = {std::string(name(Model::spatial)), std::string(name(Model::planar))};
+  scene.model = model ? model_names[model->choice("model", model_names)] : model_names[0];
+  if (const std::string reason = why_not_planar(scene.problem); scene.model == "planar" && !reason.empty())
+    model->fail(fmt::format("\"planar\" does not hold: {}; use \"spatial\"", reason));
+  run.finish();
+}
+
+VerifyCase read_verify_case(const Node& node) {
+  ObjectNode object(node);
+  VerifyCase verify;
+  verify.steps = object.require("steps").whole(1, max_steps);
+  verify.set = nlohmann::json::object();
+  if (const auto set = object.find("set")) {
+    ObjectNode changes(*set);
+    for (const auto& item : set->json().items())
+      if (!item.value().is_number() && !item.value().is_string() && !item.value().is_boolean())
+        changes.require(item.key()).fail("not a scalar; an override is a number, a text or true or false");
+    verify.set = set->json();
+  }
+  object.finish();
+  return verify;
+}
+
+std::vector<VerifyCase> read_verify(const std::optional<Node>& node, const Problem& problem) {
+  if (!node) return {{nlohmann::json::object(), std::min(problem.steps, 100L)}};
+  if (!node->is_array()) return {read_verify_case(*node)};
+  std::vector<VerifyCase> cases;
+  for (const Node& item : node->items()) cases.push_back(read_verify_case(item));
+  if (cases.empty()) node->fail("no cases; give at least one, or leave \"verify\" out");
+  return cases;
+}
+
+void read_tolerance(const std::optional<Node>& node, Tolerance& tolerance) {
+  if (!node) return;
+  ObjectNode object(*node);
+  if (const auto evaluation = object.find("evaluation")) tolerance.evaluation = evaluation->positive();
+  if (const auto run = object.find("run")) tolerance.run = run->positive();
+  object.finish();
+}
+
+void read_tolerances(ObjectNode& root, Problem& problem) {
+  problem.tolerance_f64 = {1e-13, 1e-9};
+  problem.tolerance_f32 = {1e-5, 1e-4};
+  const auto node = root.find("tolerance");
+  if (!node) return;
+  ObjectNode object(*node);
+  read_tolerance(object.find("f64"), problem.tolerance_f64);
+  read_tolerance(object.find("f32"), problem.tolerance_f32);
+  object.finish();
+}
+
+/// What `list` shows of a scene, and the keys that say nothing about the problem.
+SceneListing read_head(ObjectNode& root, const SceneText& text) {
+  root.find("$schema");
+  root.find("parameters"); // already resolved
+  if (const auto description = root.find("description")) description->string();
+  const Node name = root.require("scene");
+  if (name.string().empty()) name.fail("a scene's name is not empty");
+  return {name.string(), root.require("title").string(), text.path, text.parameters};
+}
+
+Scene read_scene(const SceneText& text) {
+  const Node whole(text, text.root, "");
+  ObjectNode root(whole);
+  Scene scene;
+  const SceneListing head = read_head(root, text);
+  scene.name = scene.problem.name = head.name;
+  scene.title = head.title;
+  scene.path = head.path;
+  scene.parameters = head.parameters;
+  const Node run = root.require("run");
+  read_bodies(root.require("bodies"), scene.problem);
+  read_terms(root, scene.problem);
+  read_run(run, scene);
+  read_tolerances(root, scene.problem);
+  scene.verify = read_verify(root.find("verify"), scene.problem);
+  root.finish();
+  check_clamps(scene.problem, whole);
+  return scene;
+}
+
+} // namespace
+
+Scene load_scene(const std::string& name_or_path, const std::vector<Override>& overrides) {
+  const std::string path = scene_path(name_or_path);
+  try {
+    return read_scene(read_scene_text(path, overrides));
+  } catch (const std::bad_alloc&) {
+    throw InputError(
+        fmt::format("{}: the scene does not fit into this machine's memory; give it fewer elements", path));
+  } catch (const std::length_error&) {
+    throw InputError(
+        fmt::format("{}: the scene does not fit into this machine's memory; give it fewer elements", path));
+  }
+}
+
+std::vector<SceneListing> list_scenes() {
+  std::vector<std::string> paths;
+  const std::string directory = scene_directory();
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, error))
+    if (entry.path().extension() == ".json") paths.push_back(entry.path().string());
+  if (error)
+    throw InputError(fmt::format("scene directory {}: {}; set DSSBENCH_SCENES to one", directory, error.message()));
+  std::sort(paths.begin(), paths.end());
+  std::vector<SceneListing> scenes;
+  for (const std::string& path : paths) {
+    const SceneText text = read_scene_text(path, {});
+    ObjectNode root(Node(text, text.root, ""));
+    scenes.push_back(read_head(root, text));
+  }
+  return scenes;
+}
+
+std::vector<Override> verify_overrides(const VerifyCase& verify) {
+  std::vector<Override> overrides;
+  for (const auto& item : verify.set.items())
+    overrides.push_back({item.key(), item.value().is_string() ? item.value().get<std::string>() : item.value().dump()});
+  overrides.push_back({"run.steps", std::to_string(verify.steps)});
+  return overrides;
+}
+
+} // namespace dss

@@ -1,0 +1,268 @@
+#include "solver/scene/terms.hpp"
+
+#include "solver/scene/constants.hpp"
+#include "solver/scene/selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dss {
+namespace {
+
+const std::vector<std::string> axis_names = {"x", "y", "z"};
+
+void read_ramp(const Node& node, Signal& signal) {
+  ObjectNode ramp(node);
+  signal.kind = Signal::Kind::ramp;
+  signal.amplitude = ramp.number_or("to", 1);
+  signal.duration = ramp.require("duration").positive();
+  ramp.finish();
+}
+
+void read_harmonic(const Node& node, Signal& signal) {
+  ObjectNode harmonic(node);
+  signal.kind = Signal::Kind::harmonic;
+  signal.amplitude = harmonic.number_or("amplitude", 1);
+  signal.frequency = harmonic.require("frequency").non_negative();
+  signal.phase = harmonic.number_or("phase", 0);
+  harmonic.finish();
+}
+
+void read_table(const Node& node, Signal& signal) {
+  signal.kind = Signal::Kind::table;
+  for (const Node& point : node.items()) {
+    const std::vector<Node> pair = point.items();
+    if (pair.size() != 2) point.fail("not [time, value]");
+    const double time = pair[0].number();
+    if (!signal.times.empty() && time <= signal.times.back())
+      pair[0].fail(fmt::format("{} s is not after {} s; times ascend", time, signal.times.back()));
+    signal.times.push_back(time);
+    signal.values.push_back(pair[1].number());
+  }
+  if (signal.times.empty()) node.fail("the table is empty; give at least one [time, value]");
+}
+
+/// One side of a joint: elements of a body, on one of its faces or listed.
+struct JointSide {
+  int body = 0;
+  std::vector<std::size_t> elements;
+  std::optional<std::size_t> face; ///< index of face_names
+};
+
+JointSide read_joint_side(const Node& node, const Problem& problem) {
+  ObjectNode object(node);
+  JointSide side;
+  side.body = read_body(object, problem);
+  side.elements = read_selection(object, problem, side.body);
+  if (const auto face = object.find("face")) side.face = face->choice("face", face_names);
+  object.finish();
+  return side;
+}
+
+/// The axis of a joint from the upper (+) faces of one side to the lower (-) faces of the other.
+int joint_axis(ObjectNode& joint, const JointSide& from, const JointSide& to) {
+  const auto axis_node = joint.find("axis");
+  if (!axis_node && !from.face && !to.face) joint.fail("\"axis\" is missing; it is x, y or z");
+  const std::size_t axis = axis_node ? axis_node->choice("axis", axis_names) : (from.face ? *from.face : *to.face) / 2;
+  if (from.face && *from.face != 2 * axis + 1)
+    joint.fail(fmt::format("a link along {} starts from face {} of \"from\", not {}", axis_names[axis],
+                           face_names[2 * axis + 1], face_names[*from.face]));
+  if (to.face && *to.face != 2 * axis)
+    joint.fail(fmt::format("a link along {} ends at face {} of \"to\", not {}", axis_names[axis], face_names[2 * axis],
+                           face_names[*to.face]));
+  return int(axis);
+}
+
+std::uint8_t read_dofs(const Node& node) {
+  static const std::vector<std::string> names = {"ux", "uy", "uz", "rx", "ry", "rz"};
+  if (node.is_string()) {
+    node.choice("value for \"dofs\" (other than a list of ux, uy, uz, rx, ry, rz)", {"all"});
+    return dof_all;
+  }
+  unsigned dofs = 0;
+  for (const Node& item : node.items()) dofs |= 1U << item.choice("degree of freedom", names);
+  if (dofs == 0) node.fail("clamps nothing; list some of ux, uy, uz, rx, ry, rz, or write \"all\"");
+  return std::uint8_t(dofs);
+}
+
+Load read_load(const Node& node, const Problem& problem) {
+  ObjectNode object(node);
+  Load load;
+  load.elements = read_selected(object, problem, false);
+  const auto force = object.find("force"), torque = object.find("torque"), signal = object.find("signal");
+  if (!force && !torque) object.fail("a load needs \"force\" or \"torque\"");
+  if (force) load.force = force->vector();
+  if (torque) load.torque = torque->vector();
+  if (signal) load.signal = read_signal(*signal);
+  const auto share = object.find("share");
+  if (share && share->choice("share", {"each", "total"}) == 1)
+    for (std::size_t a = 0; a < 3; ++a) {
+      load.force[a] /= double(load.elements.size());
+      load.torque[a] /= double(load.elements.size());
+    }
+  object.finish();
+  return load;
+}
+
+Vec3 mean_position(const Problem& problem, const std::vector<std::size_t>& elements) {
+  Vec3 mean{};
+  problem.lattice.for_each_element([&](std::size_t element, const Row& row, int x) {
+    if (!std::binary_search(elements.begin(), elements.end(), element)) return;
+    const Vec3 place = rest_position(problem, row, x);
+    for (std::size_t a = 0; a < 3; ++a) mean[a] += place[a] / double(elements.size());
+  });
+  return mean;
+}
+
+InitialMotion read_initial_motion(const Node& node, const Problem& problem) {
+  ObjectNode object(node);
+  InitialMotion motion;
+  motion.elements = read_selected(object, problem, true);
+  motion.displacement = object.vector_or("displacement", {});
+  motion.rotation = object.vector_or("rotation", {});
+  motion.velocity = object.vector_or("velocity", {});
+  motion.angular_velocity = object.vector_or("angular_velocity", {});
+  const auto rigid = object.find("rigid"), centre = object.find("centre");
+  motion.is_rigid = rigid && rigid->boolean();
+  if (centre && !motion.is_rigid) centre->fail("only a rigid motion has a centre; add \"rigid\": true");
+  if (motion.is_rigid) motion.centre = centre ? centre->vector() : mean_position(problem, motion.elements);
+  object.finish();
+  return motion;
+}
+
+/// Why a clamp cannot hold exactly what it is to hold, or an empty text. `fields`: of its element at t = 0.
+std::string clamp_conflict(const Clamp& clamp, const Body& body, const double* fields) {
+  constexpr const char* names = "xyz";
+  const int held = ((clamp.dofs & dof_rx) != 0) + ((clamp.dofs & dof_ry) != 0) + ((clamp.dofs & dof_rz) != 0);
+  if (body.has_tensor_inertia() && held == 1)
+    return "has one of its rotations clamped; as its inertia is a tensor, which couples them, clamp two, three or none";
+  for (int a = 0; a < 3; ++a) {
+    if ((clamp.dofs & (dof_ux << a)) != 0 && fields[vx + a] != 0)
+      return fmt::format("is clamped in u{} but starts with a velocity of {} m/s; it must be 0", names[a],
+                         fields[vx + a]);
+    if ((clamp.dofs & (dof_rx << a)) == 0) continue;
+    if (fields[wx + a] != 0)
+      return fmt::format("is clamped in r{} but starts with an angular velocity of {} rad/s; it must be 0", names[a],
+                         fields[wx + a]);
+    if (body.has_tensor_inertia() && held == 2 && fields[qx + a] != 0)
+      return fmt::format(
+          "has two of its rotations clamped and starts turned about {}; as its inertia is a tensor, turn "
+          "it about its free axis only, or clamp all",
+          names[a]);
+  }
+  return {};
+}
+
+} // namespace
+
+Signal read_signal(const Node& node) {
+  Signal signal;
+  if (node.is_number()) {
+    signal.amplitude = node.number();
+    return signal;
+  }
+  ObjectNode object(node);
+  const std::string kind = object.require_one({"constant", "ramp", "harmonic", "table"});
+  const Node shape = object.require(kind);
+  signal.offset = object.number_or("offset", 0);
+  object.finish();
+  if (kind == "constant") signal.amplitude = shape.number();
+  if (kind == "ramp") read_ramp(shape, signal);
+  if (kind == "harmonic") read_harmonic(shape, signal);
+  if (kind == "table") read_table(shape, signal);
+  return signal;
+}
+
+void read_extra_links(const Node& node, Problem& problem) {
+  for (const Node& item : node.items()) {
+    ObjectNode joint(item);
+    const JointSide from = read_joint_side(joint.require("from"), problem);
+    const JointSide to = read_joint_side(joint.require("to"), problem);
+    if (from.elements.size() != to.elements.size())
+      joint.fail(fmt::format("joins {} elements to {}; the two sides are paired in order and must be as many",
+                             from.elements.size(), to.elements.size()));
+    ExtraLink link;
+    link.axis = joint_axis(joint, from, to);
+    const Body &body_from = problem.bodies[std::size_t(from.body)], &body_to = problem.bodies[std::size_t(to.body)];
+    if (const auto constants = joint.find("constants")) {
+      read_link_constants(*constants, body_from, body_to, link);
+    } else {
+      link.law = body_from.law;
+      link.constants = body_from.axis[std::size_t(link.axis)];
+    }
+    joint.finish();
+    for (std::size_t k = 0; k < from.elements.size(); ++k) {
+      link.i = from.elements[k];
+      link.j = to.elements[k];
+      if (link.i == link.j) joint.fail(fmt::format("joins element {} to itself", link.i));
+      problem.extra_links.push_back(link);
+    }
+  }
+}
+
+void read_clamps(const Node& node, Problem& problem) {
+  std::vector<std::uint8_t> held(problem.lattice.element_count, 0);
+  for (const Node& item : node.items()) {
+    ObjectNode object(item);
+    const std::vector<std::size_t> elements = read_selected(object, problem, false);
+    const auto dofs_node = object.find("dofs");
+    const std::uint8_t dofs = dofs_node ? read_dofs(*dofs_node) : std::uint8_t(dof_all);
+    object.finish();
+    for (const std::size_t element : elements) held[element] |= dofs;
+  }
+  for (std::size_t element = 0; element < held.size(); ++element)
+    if (held[element] != 0) problem.clamps.push_back({element, held[element]});
+}
+
+void read_loads(const Node& node, Problem& problem) {
+  for (const Node& item : node.items()) problem.loads.push_back(read_load(item, problem));
+}
+
+void read_initial_motions(const Node& node, Problem& problem) {
+  for (const Node& item : node.items()) problem.initial_motions.push_back(read_initial_motion(item, problem));
+}
+
+Stabilization read_stabilization(const Node& node) {
+  ObjectNode object(node);
+  const Stabilization stabilization = {object.non_negative_or("k", 0), object.non_negative_or("d", 0),
+                                       object.non_negative_or("k_rot", 0), object.non_negative_or("d_rot", 0)};
+  object.finish();
+  return stabilization;
+}
+
+std::array<Signal, 3> read_frame_acceleration(const std::optional<Node>& gravity, const std::optional<Node>& base) {
+  std::array<Signal, 3> frame;
+  for (Signal& signal : frame) signal.amplitude = 0;
+  if (base) {
+    ObjectNode object(*base);
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (const auto node = object.find(axis_names[a])) frame[a] = read_signal(*node);
+      frame[a].amplitude = -frame[a].amplitude;
+      frame[a].offset = -frame[a].offset;
+    }
+    object.finish();
+  }
+  const Vec3 g = gravity ? gravity->vector() : Vec3{};
+  for (std::size_t a = 0; a < 3; ++a) frame[a].offset += g[a];
+  return frame;
+}
+
+void check_clamps(const Problem& problem, const Node& scene) {
+  if (problem.clamps.empty()) return;
+  const bool is_at_rest = problem.initial_motions.empty();
+  std::vector<double> state(is_at_rest ? std::size_t(field_count) : problem.lattice.element_count * field_count, 0.0);
+  if (!is_at_rest) initial_state(problem, 0, problem.lattice.element_count, state.data());
+  auto clamp = problem.clamps.begin();
+  problem.lattice.for_each_element([&](std::size_t element, const Row& row, int x) {
+    if (clamp == problem.clamps.end() || clamp->element != element) return;
+    const Body& body = problem.bodies[std::size_t(row.body)];
+    const std::string conflict =
+        clamp_conflict(*clamp++, body, state.data() + (is_at_rest ? 0 : element * std::size_t(field_count)));
+    if (!conflict.empty())
+      ObjectNode(scene).require("clamps").fail(
+          fmt::format("element [{}, {}, {}] of body \"{}\" {}", x, row.y, row.z, body.name, conflict));
+  });
+}
+
+} // namespace dss
