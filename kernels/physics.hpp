@@ -34,16 +34,21 @@ struct SpatialPhysics {
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"
 #include "kernels/rk_update/rk_update.h"
+#include "kernels/stress/stress.h"
+#include "kernels/cases.h"
 };
 
 template <class Real>
 struct PlanarPhysics {
   using real = Real;
   static constexpr int fields = 7;
+#define PLANAR
 #include "kernels/algebra/planar.h"
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"
 #include "kernels/rk_update/rk_update.h"
+#include "kernels/cases.h"
+#undef PLANAR
 };
 
 #undef REAL

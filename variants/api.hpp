@@ -1,5 +1,6 @@
 #pragma once
 /// The whole interface between the program and an execution target. A variant is one MODULE library that exports dss_plugin().
+#include "kernels/compiled_kernel.hpp"
 #include "solver/model/model.hpp"
 #include "solver/model/problem.hpp"
 #include "solver/numerics/method.hpp"
@@ -53,6 +54,7 @@ struct Plugin {
   bool has_fma;      ///< results are bitwise equal to every other variant that says so
   bool is_threaded;
   std::unique_ptr<Executor> (*create)(const Setup& setup);
+  std::span<const CompiledKernel> (*kernels)(); ///< null if the variant has no kernels of its own
 };
 
 constexpr int plugin_abi = 1;

@@ -6,6 +6,10 @@
 #include <cstdint>
 #include <cstring>
 
+#ifndef DSS_VECTOR_BITS
+#define DSS_VECTOR_BITS 0
+#endif
+
 #if DSS_VECTOR_BITS > 0
 #include <immintrin.h>
 #include <xsimd/xsimd.hpp>

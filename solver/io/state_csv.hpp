@@ -1,15 +1,13 @@
 #pragma once
 /// The state as a table, one row an element.
 #include "solver/model/problem.hpp"
+#include "solver/model/stress.hpp"
 
 #include <array>
 #include <span>
 #include <string>
 
 namespace dss {
-
-/// Stress of an element [Pa]: xx, yy, zz, yz, xz, xy, von Mises (solver/model/stress.hpp).
-using ElementStress = std::array<double, 7>;
 
 /// Writes element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm: rest position of the centre [m], then the
 /// fields of solver/model/fields.hpp (qw = 1 + qs), in global grid order, every number with 17 digits. C locale.

@@ -51,7 +51,7 @@ protected:
 
 TEST_F(scene_file, that_is_missing_is_refused_with_the_nearest_name) {
   expect_part(refusal("plate_papr"), "did you mean \"plate_paper\"?");
-  expect_part(refusal("quite_another"), "scenes are block, cantilever_beam");
+  expect_part(refusal("quite_another"), "known: block, cantilever_beam");
   expect_part(refusal(""), "no such scene");
   expect_part(refusal((folder / "absent.json").string()), "no such scene file");
   expect_part(refusal(folder.string() + "/"), "is a directory");
@@ -118,8 +118,8 @@ TEST(scene_overrides, may_set_what_the_file_leaves_at_its_default) {
 }
 
 TEST(scene_overrides, that_name_nothing_are_refused_with_what_there_is) {
-  expect_part(refusal("block", {{"nq", "3"}}), "no parameter \"nq\", did you mean \"nx\"?");
-  expect_part(refusal("l_bracket", {{"n", "3"}}), "parameters are none");
+  expect_part(refusal("block", {{"nq", "3"}}), "no parameter \"nq\"; did you mean \"nx\"?");
+  expect_part(refusal("l_bracket", {{"n", "3"}}), "no parameter \"n\"; it has none");
   expect_part(refusal("block", {{"rnu.dt", "1"}}), "did you mean \"run\"?");
   expect_part(refusal("block", {{"run.stepz", "1"}}), "did you mean \"steps\"?");
   expect_part(refusal("block", {{"run.stepz", "1"}}), "(from --set run.stepz=1)");

@@ -1,6 +1,7 @@
 #include "solver/scene/json/document.hpp"
 
 #include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
 
 #include <fmt/format.h>
 
@@ -99,11 +100,10 @@ std::string apply(json& root, const Override& change) {
   if (has_parameters && root["parameters"].contains(path)) path = "parameters/" + path;
   if (path.find('/') == std::string::npos && !root.contains(path)) {
     const std::vector<std::string> known = has_parameters ? keys_of(root["parameters"]) : std::vector<std::string>();
-    const std::string near = nearest_name(path, known);
-    fail_override(change, fmt::format("the scene has no parameter \"{}\"{}; parameters are {}; other scalars are named "
-                                      "by their path, as in run.dt",
-                                      path, near.empty() ? "" : fmt::format(", did you mean \"{}\"?", near),
-                                      known.empty() ? "none" : listed(known)));
+    fail_override(change,
+                  fmt::format("the scene has no parameter \"{}\"; {}; other scalars are named by their path, as "
+                              "in run.dt",
+                              path, known.empty() ? "it has none" : nearest_name(path, known)));
   }
   json* place = &root;
   std::istringstream parts(path);
@@ -187,9 +187,7 @@ std::string scene_path(const std::string& name_or_path) {
   if (names.empty())
     throw InputError(
         fmt::format("scene \"{}\": no scenes in {}; set DSSBENCH_SCENES to their directory", name_or_path, directory));
-  const std::string near = nearest_name(name_or_path, names);
-  throw InputError(fmt::format("scene \"{}\": no such scene{}; scenes are {}", name_or_path,
-                               near.empty() ? "" : fmt::format(", did you mean \"{}\"?", near), listed(names)));
+  throw InputError(fmt::format("scene \"{}\": no such scene; {}", name_or_path, nearest_name(name_or_path, names)));
 }
 
 SceneText read_scene_text(const std::string& path, const std::vector<Override>& overrides) {

@@ -1,26 +1,15 @@
 #include "solver/scene/json/node.hpp"
 
 #include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace dss {
 namespace {
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t(0));
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j)
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])}));
-  }
-  return row.back();
-}
 
 /// What stands there, short enough for one line.
 std::string shown(const nlohmann::json& value) {
@@ -40,17 +29,6 @@ std::string escaped(const std::string& key) {
 } // namespace
 
 std::string listed(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
-
-std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names) {
-  std::string nearest;
-  std::size_t least = wrong.size() / 3 + 2;
-  for (const std::string& name : names)
-    if (const std::size_t distance = edit_distance(wrong, name); distance < least && distance < name.size()) {
-      least = distance;
-      nearest = name;
-    }
-  return nearest;
-}
 
 void Node::fail(const std::string& message) const {
   const auto set_by = text_->overrides.find(pointer_);
@@ -153,12 +131,9 @@ std::optional<Node> ObjectNode::find(const std::string& key) {
 Node ObjectNode::require(const std::string& key) {
   const std::optional<Node> node = find(key);
   if (!node) {
-    // A misspelt key is the likelier reason than a missing one.
-    for (const auto& item : node_.json().items())
-      if (!known_.contains(item.key()) && nearest_name(item.key(), {key}) == key)
-        Node(*node_.text_, item.value(), node_.pointer_ + "/" + escaped(item.key()))
-            .fail(fmt::format("unknown key; did you mean \"{}\"?", key));
-    fail(fmt::format("\"{}\" is missing", key));
+    std::vector<std::string> there; // among them may be the key, misspelt
+    for (const auto& item : node_.json().items()) there.push_back(item.key());
+    fail(fmt::format("\"{}\" is missing; there are: {}", key, there.empty() ? "no keys" : listed(there)));
   }
   return *node;
 }
@@ -194,10 +169,8 @@ void ObjectNode::finish() const {
   const std::vector<std::string> known(known_.begin(), known_.end());
   for (const auto& item : node_.json().items()) {
     if (known_.contains(item.key())) continue;
-    const std::string near = nearest_name(item.key(), known);
     Node(*node_.text_, item.value(), node_.pointer_ + "/" + escaped(item.key()))
-        .fail(near.empty() ? fmt::format("unknown key; known are {}", listed(known))
-                           : fmt::format("unknown key; did you mean \"{}\"? Known are {}", near, listed(known)));
+        .fail("unknown key; " + nearest_name(item.key(), known));
   }
 }
 

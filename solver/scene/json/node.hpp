@@ -26,9 +26,6 @@ struct SceneText {
 /// "a, b, c" of the given names.
 std::string listed(const std::vector<std::string>& names);
 
-/// The name nearest to `wrong` by edit distance, or empty if none is near.
-std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);
-
 /// One value of a scene. Every read throws InputError "path: /json/pointer: what is wrong" for anything unexpected.
 class Node {
 public:

@@ -1,0 +1,139 @@
+/// The kernel cases as C++: declared costs against counted ones, and every compiled module against long double and against each other.
+#include "kernels/simd/simd.hpp"
+
+#include <cmath>
+
+namespace dss {
+
+/// A number that counts the operations made with it.
+struct Counted {
+  double value = 0;
+  static inline int flops = 0;
+  Counted() = default;
+  Counted(double v) : value(v) {}
+  friend Counted operator+(Counted a, Counted b) { return ++flops, Counted(a.value + b.value); }
+  friend Counted operator-(Counted a, Counted b) { return ++flops, Counted(a.value - b.value); }
+  friend Counted operator*(Counted a, Counted b) { return ++flops, Counted(a.value * b.value); }
+  friend Counted operator/(Counted a, Counted b) { return ++flops, Counted(a.value / b.value); }
+  friend Counted operator-(Counted a) { return Counted(-a.value); }
+};
+namespace simd { // before the physics is included: it calls simd::fma by its qualified name
+inline Counted fma(Counted a, Counted b, Counted c) { return Counted::flops += 2, Counted(a.value * b.value + c.value); }
+inline long double fma(long double a, long double b, long double c) { return a * b + c; }
+} // namespace simd
+} // namespace dss
+
+#include "kernels/cases.hpp"
+#include "kernels/stage_row/cost.hpp"
+#include "kernels/stage_row/stage_row.hpp"
+#include "tests/equivalence/kernel_operands.hpp"
+#include "variants/loader.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dss::test {
+namespace {
+
+TEST(KernelCases, declare_the_flops_that_they_make) {
+  for (const auto& c : kernel_cases<Counted>()) {
+    Counted in[32], out[32];
+    for (Counted& x : in) x = Counted(0.1);
+    Counted::flops = 0;
+    c.evaluate(in, out);
+    EXPECT_EQ(c.flops, Counted::flops) << c.name << ' ' << name(c.model);
+  }
+}
+
+/// Flops of one stage of the fused row kernel on an element of the plate's interior, by running it on counting numbers.
+template <template <class> class Physics>
+int stage_flops(int increments) {
+  using P = Physics<Counted>;
+  constexpr Terms terms{.is_damped = true};
+  Counted rows[4][3 * P::fields], carry[2][16];
+  for (auto& row : rows)
+    for (Counted& x : row) x = Counted(0.01);
+  const PackMasks interior{1, 1, 0, 1, 0}, masks[] = {interior, interior};
+  BodyConstants<Counted> body{};
+  const Counted signals[3];
+  RowTask<Counted> task;
+  task.masks = masks, task.body = &body, task.signals = signals;
+  task.in = rows[0], task.upper_y = rows[1], task.base = rows[2], task.out = rows[3];
+  task.carry_y = carry[0], task.from_y = carry[1];
+  task.increments = increments;
+  for (auto& increment : task.increment) increment = rows[1];
+  const auto count = [&](int packs) {
+    task.packs = packs;
+    Counted::flops = 0;
+    RungeKuttaUpdate<P, Counted> update(task, increments > 0);
+    StageRow<P, Counted, terms>{task}.run(update);
+    return Counted::flops;
+  };
+  return count(2) - count(1); // of one element, without what a row begins with
+}
+
+TEST(StageRow, makes_the_flops_that_its_readme_declares) {
+  EXPECT_EQ(stage_flops<SpatialPhysics>(0), row_flops(Model::spatial).stage);
+  EXPECT_EQ(stage_flops<SpatialPhysics>(3), row_flops(Model::spatial).last_stage);
+  EXPECT_EQ(stage_flops<PlanarPhysics>(0), row_flops(Model::planar).stage);
+  EXPECT_EQ(stage_flops<PlanarPhysics>(3), row_flops(Model::planar).last_stage);
+}
+
+std::vector<const Plugin*> plugins_with_kernels() {
+  std::vector<const Plugin*> list;
+  for (const VariantStatus& variant : variants())
+    if (variant.is_usable() && load_variant(variant.name).kernels != nullptr) list.push_back(&load_variant(variant.name));
+  return list;
+}
+
+template <class T>
+void expect_near_long_double(const Plugin& plugin, const CompiledKernel& kernel, double tolerance) {
+  const Operands<T> operands(kernel.inputs, kernel.outputs);
+  const std::vector<T> results = operands.run(kernel);
+  for (const auto& c : kernel_cases<long double>()) {
+    if (c.name != std::string_view(kernel.name) || c.model != kernel.model) continue;
+    for (std::size_t e = 0; e < Operands<T>::elements; ++e) {
+      long double in[32], out[32];
+      for (int n = 0; n < c.inputs; ++n) in[n] = operands.input(n, e);
+      c.evaluate(in, out);
+      long double scale = 0;
+      for (int n = 0; n < c.outputs; ++n) scale = std::max(scale, std::abs(out[n]));
+      for (int n = 0; n < c.outputs; ++n)
+        ASSERT_NEAR(double(results[std::size_t(n) * Operands<T>::elements + e] - out[n]), 0, tolerance * double(scale))
+            << plugin.name << ' ' << kernel.name << ' ' << name(kernel.model) << " output " << n << " of element " << e;
+    }
+  }
+}
+
+TEST(CompiledKernels, agree_with_long_double) {
+  for (const Plugin* plugin : plugins_with_kernels())
+    for (const CompiledKernel& kernel : plugin->kernels())
+      if (kernel.precision == Precision::f64)
+        expect_near_long_double<double>(*plugin, kernel, 1e-14);
+      else
+        expect_near_long_double<float>(*plugin, kernel, 5e-6);
+}
+
+template <class T>
+std::size_t differing(const CompiledKernel& a, const CompiledKernel& b) {
+  const Operands<T> operands(a.inputs, a.outputs);
+  return count_differing(operands.run(a), operands.run(b));
+}
+
+TEST(CompiledKernels, are_bitwise_equal_over_the_variants_with_fma) {
+  const Plugin* first = nullptr;
+  int compared = 0;
+  for (const Plugin* plugin : plugins_with_kernels()) {
+    if (!plugin->has_fma) continue;
+    if (first == nullptr) first = plugin;
+    for (std::size_t k = 0; k < plugin->kernels().size(); ++k) {
+      const CompiledKernel &a = first->kernels()[k], &b = plugin->kernels()[k];
+      EXPECT_EQ(a.precision == Precision::f64 ? differing<double>(a, b) : differing<float>(a, b), 0u)
+          << a.name << ' ' << name(a.model) << ' ' << name(a.precision) << ": " << first->name << " and " << plugin->name;
+    }
+    ++compared;
+  }
+  if (compared < 2) GTEST_SKIP() << "this CPU runs " << compared << " variant(s) with FMA";
+}
+
+} // namespace
+} // namespace dss::test

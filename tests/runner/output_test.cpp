@@ -1,0 +1,60 @@
+#include "solver/io/base64.hpp"
+#include "solver/io/state_csv.hpp"
+#include "solver/io/vtu.hpp"
+#include "tests/fixtures/problems.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace dss {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Output : public ::testing::Test {
+protected:
+  Output() {
+    std::string pattern = (fs::temp_directory_path() / "dssbench-output-XXXXXX").string();
+    directory = ::mkdtemp(pattern.data());
+  }
+  ~Output() override { fs::remove_all(directory); }
+  std::string file(const char* name) const { return (directory / name).string(); }
+  fs::path directory;
+};
+
+/// Test vectors of RFC 4648, section 10.
+TEST_F(Output, Base64AgreesWithTheStandardsExamples) {
+  const std::pair<const char*, const char*> examples[] = {{"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [plain, encoded] : examples) {
+    AtomicFile target(file("a"));
+    Base64Writer writer(target);
+    for (const char* c = plain; *c != '\0'; ++c) writer.put(*c);
+    writer.finish();
+    target.commit();
+    EXPECT_EQ(read_text(file("a")), encoded);
+  }
+}
+
+TEST_F(Output, StateCsvHasOneRowAnElementAndTheWholeQuaternion) {
+  const Problem problem = fixture::make_plate(4);
+  std::vector<double> state(problem.lattice.element_count * field_count);
+  state[ux] = 0.1;
+  state[qs] = -0.25;
+  write_state_csv(file("s.csv"), problem, state, std::vector<ElementStress>(problem.lattice.element_count, ElementStress{0, 0, 0, 0, 0, 0, 5}));
+  const std::string text = read_text(file("s.csv"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 17);
+  EXPECT_TRUE(text.starts_with("element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm\n"));
+  const std::string first = text.substr(text.find('\n') + 1, 200);
+  EXPECT_NE(first.find(",0.10000000000000001,0,0,0.75,0,0,0,0,0,0,0,0,0,5\n"), std::string::npos) << first;
+}
+
+TEST_F(Output, ASeriesNamesItsFilesAndTimes) {
+  const std::vector<Frame> frames = {{"a_0000.vtu", 0}, {"a_0001.vtu", 0.5}};
+  write_pvd(file("a.pvd"), frames);
+  const std::string text = read_text(file("a.pvd"));
+  EXPECT_NE(text.find("<DataSet timestep=\"0.5\" part=\"0\" file=\"a_0001.vtu\"/>"), std::string::npos) << text;
+}
+
+} // namespace
+} // namespace dss
