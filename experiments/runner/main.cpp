@@ -3,6 +3,7 @@
 #include "experiments/runner/nearest.hpp"
 #include "solver/error.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
@@ -28,6 +29,20 @@ void require_known_command(int argc, char** argv, const CLI::App& app) {
   throw InputError(fmt::format("{}: unknown command; {}", argv[1], suggestion(argv[1], known)));
 }
 
+/// The first word that looks like an option of a command but is none, with the nearest that is; else empty.
+std::string unknown_option(int argc, char** argv, const CLI::App& app) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return one->parsed(); }))
+    for (const CLI::Option* option : command->get_options())
+      if (!option->get_lnames().empty()) known.push_back("--" + option->get_lnames().front());
+  for (int place = 2; place < argc; ++place) {
+    const std::string word = std::string(argv[place]).substr(0, std::string(argv[place]).find('='));
+    if (word.starts_with("--") && std::find(known.begin(), known.end(), word) == known.end())
+      return fmt::format("{}: unknown option; {}", word, suggestion(word, known));
+  }
+  return "";
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("dssbench: dynamic stress-strain solvers, measured and checked.\n"
                "Exit codes: 0 success, 1 a check failed, 2 bad input, 3 a run is or would be unstable.");
@@ -47,7 +62,8 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error); // help, version
-    std::string what = error.what();
+    std::string what = unknown_option(argc, argv, app);
+    if (what.empty()) what = error.what();
     what = what.substr(0, what.find('\n'));
     return fail(exit_bad_input,
                 fmt::format("{}; see dssbench {} --help", what, argc > 1 && argv[1][0] != '-' ? argv[1] : ""));

@@ -19,7 +19,7 @@ constexpr const char* magic = "dssbench-oracle-1";
 OracleState compute_oracle_state(const Problem& problem, const Method& method, double dt, long steps, std::string key) {
   OracleState result{std::move(key), steps, std::vector<double>(problem.lattice.element_count * field_count)};
   initial_state(problem, 0, problem.lattice.element_count, result.state.data());
-  Oracle<double> oracle(problem, method, dt);
+  Oracle<long double> oracle(problem, method, dt);
   oracle.write(result.state);
   if (const auto breakdown = oracle.advance(steps))
     throw UnstableError(
@@ -31,7 +31,7 @@ OracleState compute_oracle_state(const Problem& problem, const Method& method, d
 
 std::vector<double> continue_by_oracle(const Problem& problem, const Method& method, double dt, long first_step,
                                        long steps, const std::vector<double>& state) {
-  Oracle<double> oracle(problem, method, dt);
+  Oracle<long double> oracle(problem, method, dt);
   oracle.write(state);
   const std::size_t width = signal_count(problem);
   const std::vector<double> rows = signal_rows(problem, method, dt, first_step, steps);

@@ -9,7 +9,8 @@
 
 namespace dss {
 
-/// State of the oracle, in double, after `steps` steps.
+/// State of the oracle after `steps` steps: computed in long double, so that the variant `reference`, which is the
+/// oracle in double, is compared with something else than itself; kept in double.
 struct OracleState {
   std::string key; ///< what it is the state of: scene, overrides, method, step
   long steps = 0;

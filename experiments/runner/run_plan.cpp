@@ -92,7 +92,7 @@ RunPlan plan_run(const RunRequest& request) {
   plan.steps = request.steps.value_or(problem.steps);
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
-    throw InputError(fmt::format("--model planar: {} leaves the plane: {}; use --model spatial", plan.scene.name, why));
+    throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));
   require_outputs_writable(request);
   plan.stability_limit = require_stable(problem, *plan.method, plan.dt, request.is_forced);
   if (!request.check_state.empty()) plan.expected = expected_state(request, plan);

@@ -6,7 +6,9 @@
 namespace dss {
 namespace {
 
-ChildResult shell(const std::string& script, double limit_s = 20) { return run_child("/bin/sh", {"sh", "-c", script}, limit_s); }
+ChildResult shell(const std::string& script, double limit_s = 20) {
+  return run_child("/bin/sh", {"sh", "-c", script}, limit_s);
+}
 
 TEST(Child, OutputAndErrorAreKeptApart) {
   const ChildResult result = shell("echo out; echo err >&2");
@@ -19,9 +21,7 @@ TEST(Child, ExitCodeAndFirstLineOfErrorAreTheReason) {
   EXPECT_EQ(shell("echo why >&2; echo more >&2; exit 3").failure(20), "exit code 3: why");
 }
 
-TEST(Child, ASignalIsTheReason) {
-  EXPECT_NE(shell("kill -SEGV $$").failure(20).find("signal 11"), std::string::npos);
-}
+TEST(Child, ASignalIsTheReason) { EXPECT_NE(shell("kill -SEGV $$").failure(20).find("signal 11"), std::string::npos); }
 
 TEST(Child, ATimeLimitEndsIt) {
   const ChildResult result = shell("exec sleep 30", 0.2);

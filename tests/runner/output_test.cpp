@@ -25,7 +25,8 @@ protected:
 
 /// Test vectors of RFC 4648, section 10.
 TEST_F(Output, Base64AgreesWithTheStandardsExamples) {
-  const std::pair<const char*, const char*> examples[] = {{"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
+  const std::pair<const char*, const char*> examples[] = {
+      {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
   for (const auto& [plain, encoded] : examples) {
     AtomicFile target(file("a"));
     Base64Writer writer(target);
@@ -41,7 +42,8 @@ TEST_F(Output, StateCsvHasOneRowAnElementAndTheWholeQuaternion) {
   std::vector<double> state(problem.lattice.element_count * field_count);
   state[ux] = 0.1;
   state[qs] = -0.25;
-  write_state_csv(file("s.csv"), problem, state, std::vector<ElementStress>(problem.lattice.element_count, ElementStress{0, 0, 0, 0, 0, 0, 5}));
+  write_state_csv(file("s.csv"), problem, state,
+                  std::vector<ElementStress>(problem.lattice.element_count, ElementStress{0, 0, 0, 0, 0, 0, 5}));
   const std::string text = read_text(file("s.csv"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 17);
   EXPECT_TRUE(text.starts_with("element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm\n"));

@@ -30,7 +30,8 @@ TEST(Statistics, FiveSamplesGiveNoIntervalAndSixGiveTheirExtremes) {
 
 /// Ranks of the 95 % interval of a median from tables of the sign test (Conover, Practical Nonparametric Statistics).
 TEST(Statistics, IntervalRanksAreThoseOfTheSignTest) {
-  const std::pair<int, int> lower_ranks[] = {{6, 1}, {8, 1}, {9, 2}, {11, 2}, {12, 3}, {15, 4}, {20, 6}, {25, 8}, {30, 10}};
+  const std::pair<int, int> lower_ranks[] = {{6, 1},  {8, 1},  {9, 2},  {11, 2}, {12, 3},
+                                             {15, 4}, {20, 6}, {25, 8}, {30, 10}};
   for (const auto& [n, rank] : lower_ranks) {
     const Estimate result = estimate(one_to(n));
     EXPECT_EQ(result.interval->low, rank) << n;

@@ -24,13 +24,25 @@ Cell cell(const std::string& variant, int threads, long steps = 100, bool is_twi
 }
 
 Record row(const Cell& of, long repetition, double wall_s) {
-  return {{"cell", of.key()}, {"scale", "host"}, {"repetition", fmt::format("{}", repetition)}, {"wall_s", number_text(wall_s)},
-          {"steps", fmt::format("{}", of.steps)}, {"elements", "100"}, {"threads", fmt::format("{}", of.threads)}, {"cores", "2"},
-          {"twin", of.is_twin ? "true" : "false"}, {"has_fma", of.variant.starts_with("avx") ? "true" : "false"},
-          {"check", "passed"}, {"check_error", "1e-15"}, {"status", "ok"}, {"state_digest", "00ff"}, {"contaminated", "false"}};
+  return {{"cell", of.key()},
+          {"scale", "host"},
+          {"repetition", fmt::format("{}", repetition)},
+          {"wall_s", number_text(wall_s)},
+          {"steps", fmt::format("{}", of.steps)},
+          {"elements", "100"},
+          {"threads", fmt::format("{}", of.threads)},
+          {"cores", "2"},
+          {"twin", of.is_twin ? "true" : "false"},
+          {"has_fma", of.variant.starts_with("avx") ? "true" : "false"},
+          {"check", "passed"},
+          {"check_error", "1e-15"},
+          {"status", "ok"},
+          {"state_digest", "00ff"},
+          {"contaminated", "false"}};
 }
 
-/// Two variants and a twin, six repetitions: the base takes 10 s and drifts, the other a quarter of the base's time in each repetition.
+/// Two variants and a twin, six repetitions: the base takes 10 s and drifts, the other a quarter of the base's time in
+/// each repetition.
 class Tables : public ::testing::Test {
 protected:
   Tables() {

@@ -1,5 +1,5 @@
-#include "experiments/runner/verify.hpp"
 #include "experiments/runner/state_access.hpp"
+#include "experiments/runner/verify.hpp"
 #include "solver/reference/oracle.hpp"
 #include "tests/fixtures/problems.hpp"
 
@@ -14,7 +14,8 @@ namespace {
 /// The oracle behind the interface of variants, with one deliberate fault.
 enum class Fault { none, force, lost_element, thread_count };
 
-template <Fault fault> class FaultyExecutor final : public Executor {
+template <Fault fault>
+class FaultyExecutor final : public Executor {
 public:
   explicit FaultyExecutor(const Setup& setup)
       : threads_(setup.threads), width_(3 + setup.problem.loads.size()), stages_(std::size_t(setup.method.stages)),
@@ -44,11 +45,13 @@ private:
   Oracle<double> oracle_;
 };
 
-template <Fault fault> std::unique_ptr<Executor> create(const Setup& setup) {
+template <Fault fault>
+std::unique_ptr<Executor> create(const Setup& setup) {
   return std::make_unique<FaultyExecutor<fault>>(setup);
 }
 
-template <Fault fault> std::vector<VerifyRow> rows_with() {
+template <Fault fault>
+std::vector<VerifyRow> rows_with() {
   Plugin plugin{};
   plugin.abi = plugin_abi;
   plugin.name = "faulty";
@@ -65,14 +68,16 @@ template <Fault fault> std::vector<VerifyRow> rows_with() {
 std::vector<std::string> failed_checks(const std::vector<VerifyRow>& rows) {
   std::vector<std::string> names;
   for (const VerifyRow& row : rows)
-    if (row.verdict == VerifyRow::Verdict::failed && row.model == "spatial" && row.precision == "f64") names.push_back(row.check);
+    if (row.verdict == VerifyRow::Verdict::failed && row.model == "spatial" && row.precision == "f64")
+      names.push_back(row.check);
   return names;
 }
 
 TEST(Verify, PassesAVariantThatIsRight) {
   const std::vector<VerifyRow> rows = rows_with<Fault::none>();
   EXPECT_TRUE(failed_checks(rows).empty());
-  const auto passed = std::count_if(rows.begin(), rows.end(), [](const VerifyRow& row) { return row.error && *row.error > 0; });
+  const auto passed =
+      std::count_if(rows.begin(), rows.end(), [](const VerifyRow& row) { return row.error && *row.error > 0; });
   EXPECT_GT(passed, 0) << "errors of zero against a longer precision: nothing was compared";
 }
 
@@ -96,7 +101,8 @@ TEST(Verify, RandomStatesAreUnitRotationsAndRespectClamps) {
   double largest_rotation = 0;
   for (std::size_t e = 0; e < state.size(); e += field_count) {
     const double w = 1 + state[e + qs];
-    EXPECT_NEAR(w * w + state[e + qx] * state[e + qx] + state[e + qy] * state[e + qy] + state[e + qz] * state[e + qz], 1, 1e-14);
+    EXPECT_NEAR(w * w + state[e + qx] * state[e + qx] + state[e + qy] * state[e + qy] + state[e + qz] * state[e + qz],
+                1, 1e-14);
     largest_rotation = std::max(largest_rotation, 2 * std::acos(std::abs(w)));
   }
   EXPECT_GT(largest_rotation, 1);

@@ -1,0 +1,102 @@
+"""Bad input: exit code 2 or 3 and one line that says what, where and what would be right."""
+import os
+import resource
+import unittest
+
+from program import ProgramTest, dssbench
+
+SMALL = ("run", "plate_paper", "--set", "n=10", "--steps", "10")
+
+
+def limit_files_to_one_block():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
+
+
+class Errors(ProgramTest):
+    def test_an_unknown_command_suggests_the_nearest(self):
+        self.assert_refused(2, ['did you mean "verify"'], "verfy")
+
+    def test_an_unknown_option_suggests_the_nearest(self):
+        self.assert_refused(2, ["--stepz", '"--steps"'], "run", "plate_paper", "--stepz", "3")
+
+    def test_an_option_of_the_wrong_type_is_named(self):
+        self.assert_refused(2, ["--steps", "many"], "run", "plate_paper", "--steps", "many")
+
+    def test_an_unknown_scene_suggests_the_nearest(self):
+        self.assert_refused(2, ["plate_papr", '"plate_paper"'], "run", "plate_papr")
+
+    def test_a_missing_file_is_named(self):
+        self.assert_refused(2, ["missing.json"], "run", self.path("missing.json"))
+
+    def test_broken_json_is_told_with_its_line(self):
+        self.assert_refused(2, ["broken.json:2"], "run", self.write("broken.json", '{\n"scene": }\n'))
+
+    def test_an_unknown_variant_is_told_with_the_nearest(self):
+        self.assert_refused(2, ["avx51", "avx512"], *SMALL, "--variant", "avx51")
+
+    def test_unknown_model_precision_and_integrator_are_told_with_the_nearest(self):
+        self.assert_refused(2, ["plannar", "planar"], *SMALL, "--model", "plannar")
+        self.assert_refused(2, ["f65", "f64"], *SMALL, "--precision", "f65")
+        self.assert_refused(2, ["rk5", "rk4"], *SMALL, "--integrator", "rk5")
+
+    def test_numbers_out_of_range_are_refused(self):
+        for option, value in (("--threads", "0"), ("--threads", "-1"), ("--steps", "0"), ("--dt", "0"), ("--dt", "nan"), ("--ranks", "2")):
+            self.assert_refused(2, [option], "run", "plate_paper", "--set", "n=10", f"{option}={value}")
+
+    def test_threads_on_a_variant_of_one_thread_are_refused(self):
+        self.assert_refused(2, ["reference", "--threads 1"], *SMALL, "--variant", "reference", "--threads", "2")
+
+    def test_the_planar_model_refuses_a_scene_that_leaves_the_plane_with_the_reason(self):
+        self.assert_refused(2, ["plate_bending", "load 0", "--model spatial"], "run", "plate_bending", "--set", "n=10", "--model", "planar")
+
+    def test_an_override_without_a_value_is_refused(self):
+        self.assert_refused(2, ["KEY=VALUE"], "run", "plate_paper", "--set", "n")
+
+    def test_a_negative_size_is_refused(self):
+        self.assert_refused(2, ["/geometry/box"], "run", "plate_paper", "--set", "n=-3")
+
+    def test_a_step_above_the_stability_limit_is_refused_with_both_numbers(self):
+        self.assert_refused(3, ["1e-05", "limit 2.9", "--force"], "run", "plate_paper", "--set", "n=20", "--dt", "1e-5")
+
+    def test_a_forced_unstable_run_stops_and_says_where(self):
+        self.assert_refused(3, ["not finite at step", "element"], "run", "plate_paper", "--set", "n=10", "--dt", "5e-6", "--force",
+                            "--steps", "5000")
+
+    def test_an_unstable_run_leaves_no_state_file(self):
+        dssbench("run", "plate_paper", "--set", "n=10", "--dt", "5e-6", "--force", "--steps", "5000", "--state", self.path("s.csv"))
+        self.assertEqual(os.listdir(self.directory), [])
+
+    def test_a_directory_that_does_not_exist_is_refused_before_computing(self):
+        for option, name in (("--state", "no/s.csv"), ("--output", "no/s.vtu"), ("--json", "no/s.json")):
+            self.assert_refused(2, ["no/s.", "No such file or directory"], "run", "plate_paper", "--steps", "1000000", option, self.path(name))
+
+    def test_a_directory_without_write_permission_is_refused(self):
+        # root may write anywhere but where the kernel says no
+        target = "/proc/s.csv" if os.geteuid() == 0 else "/s.csv"
+        self.assert_refused(2, [target, "cannot write"], *SMALL, "--state", target)
+
+    def test_a_full_disk_is_one_line(self):
+        self.assert_refused(2, ["No space left on device"], *SMALL, "--state", "/dev/full")
+
+    def test_a_write_that_fails_midway_keeps_the_earlier_file_and_leaves_no_part(self):
+        self.write("s.csv", "earlier")
+        self.assert_refused(2, ["s.csv", "File too large"], *SMALL, "--state", self.path("s.csv"), preexec_fn=limit_files_to_one_block)
+        self.assertEqual(self.read("s.csv"), "earlier")
+        self.assertEqual(os.listdir(self.directory), ["s.csv"])
+
+    def test_a_check_against_a_state_of_another_size_is_refused(self):
+        self.assert_refused(2, ["is no oracle state"], *SMALL, "--check-state", self.write("x.state", "nonsense"))
+
+    def test_verify_refuses_unknown_names_before_it_computes(self):
+        self.assert_refused(2, ["plate_papr"], "verify", "plate_papr")
+        self.assert_refused(2, ["avx3", '"avx2"'], "verify", "--variant", "avx3")
+
+    def test_every_command_has_help_with_an_example(self):
+        for command in ("list", "run", "verify", "experiment", "stability", "compare"):
+            result = dssbench(command, "--help")
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("Example: dssbench " + command, result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

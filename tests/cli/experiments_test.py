@@ -1,0 +1,132 @@
+"""`experiment` and `compare`: records, resumption, failures that stay in their cell."""
+import csv
+import json
+import os
+import unittest
+
+from program import ProgramTest, dssbench
+
+STUDY = {
+    "experiment": "tiny",
+    "title": "A tiny study",
+    "cells": [{"scene": "plate_paper", "set": {"n": [10]}, "variants": ["reference", "scalar"], "threads": [1]}],
+    "base": ["reference"],
+    "twin": "scalar",
+    "paper": {"source": "nobody", "rows": [{"label": "published", "wall_s": 12.5}]},
+    "scales": {"smoke": {"steps": 40, "oracle_steps": 20, "repetitions": [2, 2], "retries": 0, "budget_s": 60, "time_limit_s": 20}},
+}
+
+
+class Experiments(ProgramTest):
+    def study(self, **changes):
+        return self.write("tiny.json", json.dumps({**STUDY, **changes}))
+
+    def experiment(self, *arguments):
+        return dssbench("experiment", self.path("tiny.json"), "--scale", "smoke", "--out", self.path("out"), *arguments)
+
+    def rows(self, name):
+        with open(self.path(f"out/{name}/tiny.csv"), encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_every_repetition_is_checked_and_recorded(self):
+        self.study()
+        result = self.experiment()
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
+        raw = self.rows("raw")
+        self.assertEqual(len(raw), 6)
+        for row in raw:
+            self.assertEqual((row["check"], row["status"]), ("passed", "ok"))
+            self.assertGreater(float(row["check_error"]), 0)
+            self.assertGreater(float(row["check_tail_error"]), 0)
+            self.assertGreater(float(row["wall_s"]), 0)
+        table = self.rows("tables")
+        self.assertEqual([row["source"] for row in table], ["measured"] * 3 + ["paper"])
+        self.assertGreater(float(table[1]["speedup_vs_reference"]), 1)
+        self.assertEqual((table[3]["paper_wall_s"], table[3]["measured_wall_s"]), ("12.5", ""))
+        self.assertIn("context", json.loads(self.read("out/raw/tiny.json")))
+        self.assertIn(self.path("out/tables/tiny.csv"), result.stdout)
+
+    def test_resume_measures_only_what_is_missing(self):
+        self.study()
+        self.experiment()
+        lines = self.read("out/raw/tiny.csv").splitlines(keepends=True)
+        kept = lines[:4]
+        self.write("out/raw/tiny.csv", "".join(kept) + lines[4][:30])
+        self.assertEqual(self.experiment("--resume").returncode, 0)
+        resumed = self.read("out/raw/tiny.csv").splitlines(keepends=True)
+        self.assertEqual(resumed[:4], kept)
+        self.assertEqual(len(resumed), 7)
+        self.assertEqual(self.experiment("--resume").returncode, 0)
+        self.assertEqual(self.read("out/raw/tiny.csv").splitlines(keepends=True), resumed)
+
+    def test_a_cell_past_its_time_limit_is_recorded_and_the_rest_goes_on(self):
+        scale = {**STUDY["scales"]["smoke"], "steps": 300000, "steps_for": {"scalar": 40}, "time_limit_s": 1}
+        self.study(scales={"smoke": scale})
+        self.assertEqual(self.experiment().returncode, 1)
+        table = {row["label"]: row for row in self.rows("tables")}
+        self.assertEqual(table["reference, 1 thread"]["status"], "time limit")
+        self.assertEqual(table["reference, 1 thread"]["reason"], "time limit of 1 s")
+        self.assertEqual(table["scalar, 1 thread"]["status"], "ok")
+        self.assertEqual(table["scalar, 1 thread"]["speedup_vs_reference"], "")
+        self.assertGreater(float(table["scalar, 1 thread"]["extrapolated_wall_s"]), 0)
+
+    def test_a_cell_that_the_program_refuses_is_recorded_with_its_reason(self):
+        self.study(cells=[{"scene": "plate_paper", "set": {"n": 10, "run.dt": [1e-6, 1e-5]}, "variants": ["reference", "scalar"]}])
+        self.assertEqual(self.experiment().returncode, 1)
+        statuses = {(row["set"], row["status"]) for row in self.rows("tables") if row["source"] == "measured"}
+        self.assertEqual({status for set_text, status in statuses if "1e-05" not in set_text}, {"ok"})
+        refused = [row for row in self.rows("tables") if "1e-05" in row["set"]]
+        self.assertEqual({row["status"] for row in refused}, {"failed"})
+        self.assertIn("stability limit", refused[0]["reason"])
+
+    def test_a_wrong_state_keeps_its_time_and_fails(self):
+        self.study()
+        self.experiment()
+        states = [name for name in os.listdir(self.path("out/oracle")) if name.endswith(".state")]
+        self.assertEqual(len(states), 1)
+        with open(self.path("out/oracle/" + states[0]), "r+b") as file:
+            file.seek(-8 * 13 * 3, os.SEEK_END)
+            file.write(b"\x00" * 8)
+        arguments = ("run", "plate_paper", "--set", "n=10", "--steps", "40", "--check-state", self.path("out/oracle/" + states[0]))
+        result = dssbench(*arguments, "--json", "-")
+        record = json.loads(result.stdout)
+        self.assertEqual((result.returncode, record["status"], record["check"]), (1, "wrong", "failed"))
+        self.assertGreater(record["wall_s"], 0)
+
+    def test_bad_studies_are_refused_with_their_place_and_leave_earlier_results(self):
+        self.study()
+        self.experiment()
+        before = self.read("out/raw/tiny.csv")
+        for changes, words in (
+            ({"titel": "x"}, ["tiny.json", "titel"]),
+            ({"base": ["scala"]}, ["/base", '"scalar"']),
+            ({"scales": {"smoke": {"steps": -1}}}, ["/scales/smoke/steps", "-1"]),
+            ({"cells": [{"scene": "plate_paper", "variants": ["scalar"], "models": ["flat"]}]}, ["/cells/models", "flat"]),
+        ):
+            self.study(**changes)
+            self.assert_refused(2, words, "experiment", self.path("tiny.json"), "--scale", "smoke", "--out", self.path("out"))
+        self.assertEqual(self.read("out/raw/tiny.csv"), before)
+
+    def test_a_dry_run_lists_the_cells_and_writes_nothing(self):
+        self.study()
+        result = self.experiment("--dry-run")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("3 cells", result.stdout)
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_compare_finds_what_became_slower(self):
+        columns = "experiment,scale,cell,repetition,wall_s,steps,status,twin\n"
+        old = columns + "".join(f"t,host,a,{r},{1 + 0.001 * r},10,ok,false\n" for r in range(10))
+        new = columns + "".join(f"t,host,a,{r},{1.5 + 0.001 * r},10,ok,false\n" for r in range(10))
+        before, after = self.write("old.csv", old), self.write("new.csv", new)
+        for first, second, exit_code, verdict in ((before, after, 1, "slower"), (after, before, 0, "faster"), (before, before, 0, "same")):
+            result = dssbench("compare", first, second)
+            self.assertEqual(result.returncode, exit_code, result.stdout)
+            self.assertIn(verdict, result.stdout)
+
+    def test_compare_refuses_what_is_no_result(self):
+        self.assert_refused(2, ["x.csv", '"cell"'], "compare", self.write("x.csv", "a,b\n1,2\n"), self.path("x.csv"))
+
+
+if __name__ == "__main__":
+    unittest.main()

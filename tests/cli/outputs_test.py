@@ -1,0 +1,111 @@
+"""What `run`, `verify`, `list` and `stability` write."""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+
+from program import ProgramTest, dssbench
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+KEYS = """scene variant isa model precision integrator threads ranks elements links steps dt_s wall_s element_steps_per_s energy_j
+max_displacement_m status reason schedule bytes cpu_s involuntary_switches state_digest""".split()
+
+
+class Outputs(ProgramTest):
+    def run_json(self, *arguments):
+        result = dssbench("run", "plate_paper", "--set", "n=12", "--steps", "50", *arguments, "--json", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_json_has_the_documented_keys_and_the_context(self):
+        record = self.run_json()
+        self.assertEqual([key for key in KEYS if key not in record], [])
+        self.assertEqual((record["elements"], record["links"], record["steps"], record["status"]), (144, 264, 50, "ok"))
+        self.assertGreater(record["wall_s"], 0)
+        self.assertAlmostEqual(record["element_steps_per_s"], 144 * 50 / record["wall_s"], delta=1)
+        for key in ("date", "num_cpus", "caches", "git_commit", "git_dirty", "compiler", "compiler_flags", "affinity", "denormals_flushed"):
+            self.assertIn(key, record["context"])
+
+    def test_the_digest_is_that_of_the_state_and_of_nothing_else(self):
+        digest = self.run_json()["state_digest"]
+        self.assertEqual(self.run_json("--warmup", "7")["state_digest"], digest)
+        self.assertNotEqual(self.run_json("--steps", "51")["state_digest"], digest)
+
+    def test_a_run_in_batches_is_one_run(self):
+        whole = self.run_json("--steps", "600")
+        pieces = self.run_json("--steps", "600", "--output", self.path("a.vtu"), "--frames", "7")
+        self.assertEqual(whole["state_digest"], pieces["state_digest"])
+
+    def test_velocity_verlet_in_batches_is_one_run(self):
+        options = ("--steps", "600", "--integrator", "velocity_verlet")
+        whole = self.run_json(*options)
+        pieces = self.run_json(*options, "--output", self.path("a.vtu"), "--frames", "7")
+        self.assertEqual(whole["state_digest"], pieces["state_digest"])
+
+    def test_state_has_a_row_an_element_and_full_digits(self):
+        record = self.run_json("--state", self.path("s.csv"))
+        with open(self.path("s.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([int(row["element"]) for row in rows], list(range(144)))
+        largest = max((float(row["ux"]) ** 2 + float(row["uy"]) ** 2 + float(row["uz"]) ** 2) ** 0.5 for row in rows)
+        self.assertAlmostEqual(largest / record["max_displacement_m"], 1, delta=1e-14)
+        self.assertGreater(max(float(row["stress_vm"]) for row in rows), 0)
+        self.assertEqual(os.listdir(self.directory), ["s.csv"])
+
+    def test_a_series_has_its_frames_and_an_index(self):
+        self.run_json("--output", self.path("p.vtu"), "--frames", "2")
+        self.assertEqual(sorted(os.listdir(self.directory)), ["p.pvd", "p_0000.vtu", "p_0001.vtu", "p_0002.vtu"])
+        for step, name in ((0, "p_0000"), (25, "p_0001"), (50, "p_0002")):
+            self.assertIn(f'timestep="{step * 1e-6:.17g}" part="0" file="{name}.vtu"', self.read("p.pvd"))
+
+    def test_the_vtu_has_the_displacements_of_the_state(self):
+        sys.path.insert(0, str(ROOT / "plots"))
+        try:
+            from plate_picture import read_vtu
+        except ImportError as missing:
+            self.skipTest(f"this python has no {missing.name}")
+        self.run_json("--output", self.path("p.vtu"), "--state", self.path("s.csv"))
+        arrays = read_vtu(self.path("p.vtu"))
+        with open(self.path("s.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for cell, row in enumerate(rows):
+            self.assertEqual([float(row[c]) for c in ("ux", "uy", "uz")], list(arrays["CellData", "displacement"][cell]))
+            self.assertEqual(float(row["stress_vm"]), arrays["CellData", "von_mises"][cell])
+        middle = arrays["Points", "points"].reshape(-1, 8, 3).mean(axis=1)
+        self.assertAlmostEqual(middle[143][0], float(rows[143]["x"]), delta=1e-12)
+        self.assertEqual(arrays["Cells", "connectivity"].tolist(), list(range(8 * 144)))
+
+    def test_a_picture_comes_of_a_vtu(self):
+        self.run_json("--output", self.path("p.vtu"))
+        result = subprocess.run([sys.executable, ROOT / "plots/plate_picture.py", self.path("p.vtu"), "--output", self.path("p.png")],
+                                capture_output=True, text=True)
+        if "ModuleNotFoundError" in result.stderr:
+            self.skipTest("this python has no matplotlib")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertGreater(os.path.getsize(self.path("p.png")), 5000)
+
+    def test_verify_writes_its_table_and_passes(self):
+        result = dssbench("verify", "two_elements", "--variant", "reference,scalar", "--json", self.path("v.json"))
+        self.assertEqual(result.returncode, 0, result.stdout)
+        rows = json.loads(self.read("v.json"))["rows"]
+        self.assertEqual({row["variant"] for row in rows if row["verdict"] == "passed"}, {"reference", "scalar"})
+        self.assertGreater(sum(row["error"] is not None for row in rows), 10)
+
+    def test_lists_are_tables_or_json(self):
+        for what in ("variants", "scenes", "experiments", "devices"):
+            self.assertEqual(dssbench("list", what).returncode, 0)
+            self.assertGreater(len(json.loads(dssbench("list", what, "--json").stdout)), 0)
+
+    def test_the_predicted_limit_is_between_half_and_twice_where_a_run_blows_up(self):
+        text = dssbench("stability", "plate_paper", "--set", "n=10").stdout
+        limit = float(text.split("dt = ")[1].split(" s")[0])
+        stable = dssbench("run", "plate_paper", "--set", "n=10", "--steps", "3000", "--dt", 0.99 * limit)
+        unstable = dssbench("run", "plate_paper", "--set", "n=10", "--steps", "3000", "--dt", 1.5 * limit, "--force")
+        self.assertEqual((stable.returncode, unstable.returncode), (0, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,42 @@
+"""Runs the program under test, whose path is in the environment variable DSSBENCH."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["DSSBENCH"]
+
+
+def dssbench(*arguments, **options):
+    """The finished process, with its output as text."""
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a directory of its own in self.directory."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="dssbench-cli-")
+        self.addCleanup(holder.cleanup)
+        self.directory = holder.name
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
+    def assert_refused(self, exit_code, words, *arguments, **options):
+        """The command ends with this code and one line on standard error that has all of these words."""
+        result = dssbench(*arguments, **options)
+        self.assertEqual(result.returncode, exit_code, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertEqual(result.stdout, "")
+        for word in words:
+            self.assertIn(word, result.stderr)
