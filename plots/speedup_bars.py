@@ -49,19 +49,21 @@ def draw_group(axes, rows, base, name):
     """One horizontal bar a cell."""
     rows = rows.iloc[::-1]
     places = range(len(rows))
-    low = (rows["speedup"] - rows["speedup_low"]).fillna(0).clip(lower=0)
-    high = (rows["speedup_high"] - rows["speedup"]).fillna(0).clip(lower=0)
+    # Without an interval (fewer than six repetitions) these are NaN, and no whisker is drawn.
+    low = (rows["speedup"] - rows["speedup_low"]).clip(lower=0)
+    high = (rows["speedup_high"] - rows["speedup"]).clip(lower=0)
     bars = axes.barh(places, rows["speedup"], xerr=[low, high], capsize=3,
                      color=[COLOURS.get(variant, OTHER_COLOUR) for variant in rows["variant"]])
     for bar, is_scaled in zip(bars, rows["is_scaled"]):
         if is_scaled:
             bar.set_hatch("//")
             bar.set_edgecolor("white")
-    for place, (value, reach) in enumerate(zip(rows["speedup"], rows["speedup"] + high)):
-        axes.annotate(f"{value:.3g}", (reach, place), xytext=(5, 0), textcoords="offset points", va="center", fontsize=9)
+    for place, (value, reach) in enumerate(zip(rows["speedup"], rows["speedup"] + high.fillna(0))):
+        axes.annotate(f"{value:.3g}", (reach, place), xytext=(5, 0), textcoords="offset points", va="center", fontsize=9,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
     axes.set_yticks(list(places), rows["label"])
-    axes.set_xlim(0, float((rows["speedup"] + high).max()) * 1.15)
-    axes.axvline(1, color="black", linewidth=0.8, linestyle=":")
+    axes.set_xlim(0, float((rows["speedup"] + high.fillna(0)).max()) * 1.15)
+    axes.axvline(1, color="black", linewidth=0.8, linestyle=":", zorder=0)
     axes.set_title(f"{name}   ({base_time(rows, base)})", fontsize=10, loc="left")
     axes.spines[["top", "right"]].set_visible(False)
 
@@ -86,7 +88,8 @@ def draw(path, base, output):
     for axes, (name, group) in zip(all_axes[:, 0], groups):
         draw_group(axes, group, base, " ".join(str(part) for part in name if not pandas.isna(part)))
     resolution = rows["resolution"].dropna()
-    note = f"Speed-up against {base} (1 thread): medians of paired ratios, 95 % intervals"
+    note = f"Speed-up against {base} (1 thread): medians of paired ratios"
+    note += ", 95 % intervals" if rows["speedup_low"].notna().any() else ", too few repetitions for intervals"
     if not resolution.empty:
         note += f"; resolution {100 * resolution.iloc[0]:.1f} %"
     if rows["is_scaled"].any():

@@ -216,6 +216,7 @@ private:
     if (oracles_.contains(path)) return path;
     const bool is_kept = resume_ && fs::exists(path) && read_oracle_state(path).key == key;
     if (!is_kept) {
+      require_stable(scene.problem, require_method(cell.integrator), scene.problem.dt, false);
       progress_.note(fmt::format("oracle: {} {}, {} steps", cell.scene, cell.set_text(), steps));
       write_oracle_state(
           path, compute_oracle_state(scene.problem, require_method(cell.integrator), scene.problem.dt, steps, key));

@@ -1,10 +1,10 @@
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
-#include "experiments/runner/nearest.hpp"
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
 #include "variants/loader.hpp"
 
 #include <fmt/format.h>
@@ -61,13 +61,34 @@ Listing device_listing() {
       {{{"device", "cpu"}, {"name", context["cpu_model"]}, {"cores", fmt::format("{}", usable_cores())}}});
 }
 
+/// Kernel cases of the fastest variant that has some, with their declared flops (kernels/cases.hpp).
+Listing kernel_listing() {
+  Listing list = Listing::array();
+  for (auto status = variants().rbegin(); status != variants().rend() && list.empty(); ++status) {
+    if (!status->is_usable()) continue;
+    const Plugin& plugin = load_variant(status->name);
+    if (plugin.kernels == nullptr) continue;
+    for (const CompiledKernel& kernel : plugin.kernels())
+      list.push_back({{"kernel", kernel.name},
+                      {"model", std::string(name(kernel.model))},
+                      {"precision", std::string(name(kernel.precision))},
+                      {"inputs", fmt::format("{}", kernel.inputs)},
+                      {"outputs", fmt::format("{}", kernel.outputs)},
+                      {"flops", fmt::format("{}", kernel.flops)},
+                      {"variant", plugin.name},
+                      {"lanes", fmt::format("{}", kernel.lanes)}});
+  }
+  return list;
+}
+
 Listing listing(const std::string& what) {
   if (what == "variants") return variant_listing();
   if (what == "scenes") return scene_listing();
   if (what == "experiments") return study_listing();
+  if (what == "kernels") return kernel_listing();
   if (what == "devices") return device_listing();
-  throw InputError(
-      fmt::format("list {}: unknown; {}", what, suggestion(what, {"variants", "scenes", "experiments", "devices"})));
+  throw InputError(fmt::format("list {}: unknown; {}", what,
+                               nearest_name(what, {"variants", "scenes", "experiments", "kernels", "devices"})));
 }
 
 int list(const ListArguments& arguments) {
@@ -94,9 +115,9 @@ int list(const ListArguments& arguments) {
 } // namespace
 
 void add_list_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("list", "List variants, scenes, experiments or devices");
+  CLI::App* command = app.add_subcommand("list", "List variants, scenes, experiments, kernels or devices");
   const auto arguments = std::make_shared<ListArguments>();
-  command->add_option("WHAT", arguments->what, "variants, scenes, experiments or devices")->required();
+  command->add_option("WHAT", arguments->what, "variants, scenes, experiments, kernels or devices")->required();
   command->add_flag("--json", arguments->is_json, "As JSON, with paths");
   command->footer("Example: dssbench list variants");
   command->callback([arguments, &chosen] { chosen = [arguments] { return list(*arguments); }; });

@@ -1,7 +1,7 @@
 /// The program `dssbench`: command line, exit codes, and one line for every error.
 #include "experiments/runner/commands.hpp"
-#include "experiments/runner/nearest.hpp"
 #include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -26,7 +26,7 @@ void require_known_command(int argc, char** argv, const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
   for (const std::string& name : known)
     if (name == argv[1]) return;
-  throw InputError(fmt::format("{}: unknown command; {}", argv[1], suggestion(argv[1], known)));
+  throw InputError(fmt::format("{}: unknown command; {}", argv[1], nearest_name(argv[1], known)));
 }
 
 /// The first word that looks like an option of a command but is none, with the nearest that is; else empty.
@@ -38,7 +38,7 @@ std::string unknown_option(int argc, char** argv, const CLI::App& app) {
   for (int place = 2; place < argc; ++place) {
     const std::string word = std::string(argv[place]).substr(0, std::string(argv[place]).find('='));
     if (word.starts_with("--") && std::find(known.begin(), known.end(), word) == known.end())
-      return fmt::format("{}: unknown option; {}", word, suggestion(word, known));
+      return fmt::format("{}: unknown option; {}", word, nearest_name(word, known));
   }
   return "";
 }

@@ -1,7 +1,7 @@
 #include "experiments/runner/run_plan.hpp"
-#include "experiments/runner/nearest.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/nearest_name.hpp"
 #include "solver/numerics/stability.hpp"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace {
 
 Model chosen_model(const std::string& name) {
   if (const auto model = find_model(name)) return *model;
-  throw InputError(fmt::format("--model {}: unknown model; {}", name, suggestion(name, {"spatial", "planar"})));
+  throw InputError(fmt::format("--model {}: unknown model; {}", name, nearest_name(name, {"spatial", "planar"})));
 }
 
 Precision chosen_precision(const std::string& name) {
   if (const auto precision = find_precision(name)) return *precision;
-  throw InputError(fmt::format("--precision {}: unknown precision; {}", name, suggestion(name, {"f64", "f32"})));
+  throw InputError(fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32"})));
 }
 
 void require_sensible(const RunRequest& request, const RunPlan& plan) {
@@ -65,7 +65,7 @@ const Method& require_method(const std::string& name) {
   if (const Method* method = find_method(name)) return *method;
   std::vector<std::string> known;
   for (const Method& method : methods()) known.emplace_back(method.name);
-  throw InputError(fmt::format("--integrator {}: unknown integrator; {}", name, suggestion(name, known)));
+  throw InputError(fmt::format("--integrator {}: unknown integrator; {}", name, nearest_name(name, known)));
 }
 
 double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced) {

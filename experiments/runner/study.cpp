@@ -1,7 +1,7 @@
 #include "experiments/runner/study.hpp"
-#include "experiments/runner/nearest.hpp"
 #include "experiments/runner/study_reader.hpp"
 #include "solver/model/model.hpp"
+#include "solver/nearest_name.hpp"
 #include "solver/numerics/method.hpp"
 #include "variants/loader.hpp"
 
@@ -63,13 +63,14 @@ const VariantStatus& known_variant(const std::string& name, const JsonPlace& pla
     if (status.name == name) return status;
     names.push_back(status.name);
   }
-  place.fail(fmt::format("unknown variant \"{}\"; {}", name, suggestion(name, names)));
+  place.fail(fmt::format("unknown variant \"{}\"; {}", name, nearest_name(name, names)));
 }
 
 Scale read_scale(const JsonPlace& scales, const std::string& name) {
   std::vector<std::string> known;
   for (const auto& [key, value] : scales.value().items()) known.push_back(key);
-  if (!scales.has(name)) throw InputError(fmt::format("--scale {}: unknown scale; {}", name, suggestion(name, known)));
+  if (!scales.has(name))
+    throw InputError(fmt::format("--scale {}: unknown scale; {}", name, nearest_name(name, known)));
   const JsonPlace place = scales[name];
   place.require_keys({"set", "steps", "oracle_steps", "warmup_steps", "steps_for", "repetitions", "retries",
                       "half_width", "budget_s", "time_limit_s"});
@@ -189,7 +190,7 @@ std::string study_path(const std::string& name_or_path) {
     if (listing.name == name_or_path || listing.name + ".json" == name_or_path) return listing.path;
     names.push_back(listing.name);
   }
-  throw InputError(fmt::format("{}: no such experiment; {}", name_or_path, suggestion(name_or_path, names)));
+  throw InputError(fmt::format("{}: no such experiment; {}", name_or_path, nearest_name(name_or_path, names)));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "experiments/runner/study_reader.hpp"
-#include "experiments/runner/nearest.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/nearest_name.hpp"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ void JsonPlace::require_keys(std::initializer_list<const char*> allowed) const {
   const std::vector<std::string> known(allowed.begin(), allowed.end());
   for (const auto& [key, value] : value_.items())
     if (std::find(known.begin(), known.end(), key) == known.end())
-      fail(fmt::format("unknown key \"{}\"; {}", key, suggestion(key, known)));
+      fail(fmt::format("unknown key \"{}\"; {}", key, nearest_name(key, known)));
 }
 
 JsonPlace JsonPlace::operator[](const std::string& key) const {
@@ -60,8 +60,9 @@ nlohmann::json parse_json_file(const std::string& path) {
     const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(place), '\n');
     const std::size_t line_start = text.rfind('\n', place > 0 ? place - 1 : 0);
     const std::size_t column = line_start == std::string::npos || place == 0 ? place + 1 : place - line_start;
-    throw InputError(fmt::format("{}:{}:{}: broken JSON; a value, a comma or a bracket is missing or too much here",
-                                 path, line, column));
+    throw InputError(
+        fmt::format("{}: line {}, column {}: broken JSON; a value, a comma or a bracket is missing or too much here",
+                    path, line, column));
   }
 }
 

@@ -1,12 +1,12 @@
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
-#include "experiments/runner/nearest.hpp"
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "experiments/runner/verify.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/nearest_name.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::vector<const Plugin*> chosen_plugins(const std::vector<std::string>& asked,
   for (const VariantStatus& status : variants()) known.push_back(status.name);
   for (const std::string& name : asked)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("--variant {}: unknown variant; {}", name, suggestion(name, known)));
+      throw InputError(fmt::format("--variant {}: unknown variant; {}", name, nearest_name(name, known)));
   std::vector<const Plugin*> plugins;
   for (const VariantStatus& status : variants()) {
     if (!asked.empty() && std::find(asked.begin(), asked.end(), status.name) == asked.end()) continue;

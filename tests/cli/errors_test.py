@@ -29,7 +29,7 @@ class Errors(ProgramTest):
         self.assert_refused(2, ["missing.json"], "run", self.path("missing.json"))
 
     def test_broken_json_is_told_with_its_line(self):
-        self.assert_refused(2, ["broken.json:2"], "run", self.write("broken.json", '{\n"scene": }\n'))
+        self.assert_refused(2, ["broken.json", "line 2, column 10"], "run", self.write("broken.json", '{\n"scene": }\n'))
 
     def test_an_unknown_variant_is_told_with_the_nearest(self):
         self.assert_refused(2, ["avx51", "avx512"], *SMALL, "--variant", "avx51")

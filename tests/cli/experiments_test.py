@@ -101,7 +101,7 @@ class Experiments(ProgramTest):
             ({"titel": "x"}, ["tiny.json", "titel"]),
             ({"base": ["scala"]}, ["/base", '"scalar"']),
             ({"scales": {"smoke": {"steps": -1}}}, ["/scales/smoke/steps", "-1"]),
-            ({"cells": [{"scene": "plate_paper", "variants": ["scalar"], "models": ["flat"]}]}, ["/cells/models", "flat"]),
+            ({"cells": [{"scene": "plate_paper", "variants": ["scalar"], "models": ["flat"]}]}, ["/cells/0/models", "flat"]),
         ):
             self.study(**changes)
             self.assert_refused(2, words, "experiment", self.path("tiny.json"), "--scale", "smoke", "--out", self.path("out"))

@@ -1,0 +1,90 @@
+/// Observed orders and errors of the compiled variants on shipped scenes: what a user gets, rounding included.
+#include "solver/scene/scene.hpp"
+#include "tests/equivalence/comparison.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dss::test {
+namespace {
+
+State at_rest(const Problem& problem) { return State(problem.lattice.element_count * field_count, 0.0); }
+
+/// The plate of n = 10 after 2 ms, by the oracle in long double with a step 16 times shorter than the paper's: converged to 1e-12.
+class PlateAfterTwoMilliseconds : public testing::Test {
+protected:
+  static const Scene& scene() {
+    static const Scene plate = load_scene("plate_paper", {{"n", "10"}});
+    return plate;
+  }
+  static const State& reference() {
+    static const State state = [] {
+      Problem problem = scene().problem;
+      problem.dt = 1e-6 / 16;
+      return oracle_after(problem, *find_method("rk4"), at_rest(problem), 32000);
+    }();
+    return state;
+  }
+  static State run(const Plugin& plugin, const char* method, double dt, Precision precision, Model model = Model::spatial) {
+    return VariantRun{plugin, scene().problem, *find_method(method), model, precision, 1, dt}.after(at_rest(scene().problem),
+                                                                                                    std::lround(2e-3 / dt));
+  }
+  /// Largest displacement error relative to the largest displacement.
+  static double error(const State& state) {
+    double difference = 0, scale = 0;
+    for (std::size_t at = 0; at < state.size(); at += field_count)
+      for (std::size_t f = at + ux; f <= at + uz; ++f) {
+        difference = std::max(difference, std::abs(state[f] - reference()[f]));
+        scale = std::max(scale, std::abs(reference()[f]));
+      }
+    return difference / scale;
+  }
+  static double order(const Plugin& plugin, const char* method, double dt) {
+    return std::log2(error(run(plugin, method, dt, Precision::f64)) / error(run(plugin, method, dt / 2, Precision::f64)));
+  }
+};
+
+TEST_F(PlateAfterTwoMilliseconds, rk4_has_observed_order_four) {
+  for (const char* variant : {"scalar", "auto"}) EXPECT_NEAR(order(load_variant(variant), "rk4", 1e-6), 4, 0.1) << variant;
+}
+
+TEST_F(PlateAfterTwoMilliseconds, velocity_verlet_has_observed_order_two_with_the_papers_damping) {
+  for (const char* variant : {"scalar", "auto"}) EXPECT_NEAR(order(load_variant(variant), "velocity_verlet", 5e-7), 2, 0.1) << variant;
+}
+
+TEST_F(PlateAfterTwoMilliseconds, float32_keeps_a_relative_error_below_1e_4_at_the_papers_step) {
+  for (const char* variant : {"scalar", "auto"}) {
+    const double e = error(run(load_variant(variant), "rk4", 1e-6, Precision::f32));
+    RecordProperty(variant, std::to_string(e));
+    EXPECT_LE(e, 1e-4) << variant;
+    EXPECT_GT(e, 1e-8) << "this is not float32";
+  }
+}
+
+TEST_F(PlateAfterTwoMilliseconds, planar_and_spatial_agree_to_1e_12) {
+  for (const char* variant : {"scalar", "auto"}) {
+    const Plugin& plugin = load_variant(variant);
+    EXPECT_LE(relative_error(run(plugin, "rk4", 1e-6, Precision::f64, Model::planar), run(plugin, "rk4", 1e-6, Precision::f64)), 1e-12)
+        << variant;
+  }
+}
+
+/// u = u0 exp(-g t) (cos w t + g/w sin w t), g = d/2m, w^2 = k/m - g^2 (the scene says so).
+TEST(TwoElements, approach_their_closed_form_at_the_order_of_each_method) {
+  const Scene scene = load_scene("two_elements");
+  const double g = scene.parameters.at("d") / (2 * scene.parameters.at("mass")), u0 = scene.parameters.at("stretch");
+  const double w = std::sqrt(scene.parameters.at("k") / scene.parameters.at("mass") - g * g), t = 0.1;
+  const double exact = u0 * std::exp(-g * t) * (std::cos(w * t) + g / w * std::sin(w * t));
+  State start(2 * field_count);
+  initial_state(scene.problem, 0, 2, start.data());
+  for (const char* variant : {"scalar", "auto"})
+    for (const Method& method : methods()) {
+      const auto error = [&](double dt) {
+        const VariantRun run{load_variant(variant), scene.problem, method, Model::spatial, Precision::f64, 1, dt};
+        return std::abs(run.after(start, std::lround(t / dt))[field_count + ux] - exact);
+      };
+      EXPECT_NEAR(std::log2(error(5e-4) / error(2.5e-4)), method.order, 0.1) << variant << ' ' << method.name;
+    }
+}
+
+} // namespace
+} // namespace dss::test

@@ -1,0 +1,69 @@
+/// Deliberately wrong variants: each has one small fault over a right one, and `verify` must catch every one of them.
+#include "experiments/runner/verify.hpp"
+#include "variants/loader.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace dss {
+namespace {
+
+enum class Fault { none, rate, last_element, lost_step, threads, not_a_number, unwritten };
+Fault fault = Fault::none;
+
+/// The right executor with the fault put in.
+class WrongExecutor final : public Executor {
+public:
+  explicit WrongExecutor(const Setup& setup) : setup_(setup), right_(load_variant("avx2").create(setup)) {}
+  void write(std::size_t first, std::span<const double> fields) override { right_->write(first, fields); }
+  void read(std::size_t first, std::span<double> fields) override {
+    if (fault == Fault::unwritten) return; // leaves what the caller's buffer held
+    right_->read(first, fields);
+    double& last = fields[fields.size() - field_count + ux];
+    if (fault == Fault::last_element) last *= 1 + (setup_.precision == Precision::f64 ? 1e-8 : 1e-3);
+    if (fault == Fault::threads && setup_.threads == 3) last = std::nextafter(float(last), 1.0f);
+    if (fault == Fault::not_a_number) last = std::nan("");
+  }
+  void derivative(std::span<const double> signals, std::span<double> rates) override {
+    right_->derivative(signals, rates);
+    if (fault == Fault::rate) rates[rates.size() - field_count + vx] *= 1 + (setup_.precision == Precision::f64 ? 1e-12 : 1e-4);
+  }
+  Outcome advance(long steps, std::span<const double> signals) override {
+    const std::size_t row = 3 + setup_.problem.loads.size();
+    const bool is_short = fault == Fault::lost_step && steps > 1;
+    return right_->advance(is_short ? steps - 1 : steps, is_short ? signals.first(signals.size() - row * std::size_t(setup_.method.stages)) : signals);
+  }
+  std::string schedule() const override { return right_->schedule(); }
+  std::size_t bytes() const override { return right_->bytes(); }
+
+private:
+  Setup setup_;
+  std::unique_ptr<Executor> right_;
+};
+
+constexpr Plugin wrong{plugin_abi, "wrong", "x86-64-v3", true, true,
+                       [](const Setup& setup) -> std::unique_ptr<Executor> { return std::make_unique<WrongExecutor>(setup); }, nullptr};
+
+std::size_t failures(Fault injected) {
+  fault = injected;
+  const Scene scene = load_scene("two_elements");
+  std::size_t count = 0;
+  for (const VerifyRow& row : verify_scene(scene, 60, {&load_variant("avx2"), &wrong}))
+    if (row.verdict == VerifyRow::Verdict::failed) {
+      EXPECT_EQ(row.variant, "wrong");
+      EXPECT_NE(injected, Fault::none) << row.check << ": " << row.reason;
+      ++count;
+    }
+  return count;
+}
+
+TEST(Verify, catches_every_injected_fault_and_blames_nobody_else) {
+  for (const VariantStatus& variant : variants())
+    if (variant.name == "avx2" && !variant.is_usable()) GTEST_SKIP() << variant.unusable;
+  EXPECT_EQ(failures(Fault::none), 0u);
+  for (const Fault injected : {Fault::rate, Fault::last_element, Fault::lost_step, Fault::threads, Fault::not_a_number, Fault::unwritten})
+    EXPECT_GT(failures(injected), 0u) << "fault " << int(injected);
+}
+
+} // namespace
+} // namespace dss
