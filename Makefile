@@ -25,7 +25,8 @@ reproduce: build
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT) --program $(BUILD)/dssbench
 
 bench: build
-	@$(BUILD)/kernel_benchmark
+	@$(BUILD)/kernel_benchmark --benchmark_min_time=0.05 --benchmark_repetitions=3 --benchmark_report_aggregates_only=true \
+	  --benchmark_enable_random_interleaving=true $(BENCH_FLAGS)
 
 clean:
 	@rm -rf build

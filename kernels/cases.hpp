@@ -1,5 +1,6 @@
 #pragma once
-/// The table of kernel cases: one table feeds the tests (C++ against packs against OpenCL), the declared costs and the microbenchmarks.
+/// The table of kernel cases: one table feeds the tests (C++ against packs against OpenCL), the declared costs and the
+/// microbenchmarks.
 #include "kernels/physics.hpp"
 #include "solver/model/model.hpp"
 
@@ -24,17 +25,28 @@ std::span<const KernelCase<Real>> kernel_cases() {
   using P = PlanarPhysics<Real>;
   constexpr Model spatial = Model::spatial, planar = Model::planar;
   static constexpr KernelCase<Real> cases[] = {
-      {"paper_link_x", spatial, 26, 9, 118, S::case_paper_link_x},       {"paper_link_y", spatial, 26, 9, 118, S::case_paper_link_y},
-      {"paper_link_z", spatial, 26, 9, 118, S::case_paper_link_z},       {"material_link_x", spatial, 26, 9, 402, S::case_material_link_x},
-      {"material_link_y", spatial, 26, 9, 402, S::case_material_link_y},   {"material_link_z", spatial, 26, 9, 402, S::case_material_link_z},
-      {"elastic_link_x", spatial, 26, 9, 296, S::case_elastic_link_x},     {"elastic_link_y", spatial, 26, 9, 296, S::case_elastic_link_y},
-      {"elastic_link_z", spatial, 26, 9, 296, S::case_elastic_link_z},     {"rotation_rate", spatial, 13, 4, 24, S::case_rotation_rate},
-      {"rotation_cayley", spatial, 13, 4, 47, S::case_rotation_cayley},   {"euler", spatial, 13, 3, 102, S::case_euler},
-      {"rk_update", spatial, 5, 2, 13, S::case_rk_update},                {"stress", spatial, 12, 7, 37, S::case_stress},
-      {"paper_link_x", planar, 14, 4, 45, P::case_paper_link_x},          {"paper_link_y", planar, 14, 4, 45, P::case_paper_link_y},
-      {"material_link_x", planar, 14, 4, 159, P::case_material_link_x},    {"material_link_y", planar, 14, 4, 159, P::case_material_link_y},
-      {"elastic_link_x", planar, 14, 4, 112, P::case_elastic_link_x},      {"elastic_link_y", planar, 14, 4, 112, P::case_elastic_link_y},
-      {"rotation_rate", planar, 7, 2, 4, P::case_rotation_rate},         {"rotation_cayley", planar, 7, 2, 15, P::case_rotation_cayley},
+      {"paper_link_x", spatial, 26, 9, 118, S::case_paper_link_x},
+      {"paper_link_y", spatial, 26, 9, 118, S::case_paper_link_y},
+      {"paper_link_z", spatial, 26, 9, 118, S::case_paper_link_z},
+      {"material_link_x", spatial, 26, 9, 402, S::case_material_link_x},
+      {"material_link_y", spatial, 26, 9, 402, S::case_material_link_y},
+      {"material_link_z", spatial, 26, 9, 402, S::case_material_link_z},
+      {"elastic_link_x", spatial, 26, 9, 296, S::case_elastic_link_x},
+      {"elastic_link_y", spatial, 26, 9, 296, S::case_elastic_link_y},
+      {"elastic_link_z", spatial, 26, 9, 296, S::case_elastic_link_z},
+      {"rotation_rate", spatial, 13, 4, 24, S::case_rotation_rate},
+      {"rotation_cayley", spatial, 13, 4, 47, S::case_rotation_cayley},
+      {"euler", spatial, 13, 3, 102, S::case_euler},
+      {"rk_update", spatial, 5, 2, 13, S::case_rk_update},
+      {"stress", spatial, 12, 7, 37, S::case_stress},
+      {"paper_link_x", planar, 14, 4, 45, P::case_paper_link_x},
+      {"paper_link_y", planar, 14, 4, 45, P::case_paper_link_y},
+      {"material_link_x", planar, 14, 4, 159, P::case_material_link_x},
+      {"material_link_y", planar, 14, 4, 159, P::case_material_link_y},
+      {"elastic_link_x", planar, 14, 4, 112, P::case_elastic_link_x},
+      {"elastic_link_y", planar, 14, 4, 112, P::case_elastic_link_y},
+      {"rotation_rate", planar, 7, 2, 4, P::case_rotation_rate},
+      {"rotation_cayley", planar, 7, 2, 15, P::case_rotation_cayley},
   };
   return cases;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// The shared physics as C++: each model is the same headers over its own algebra, instantiated for a scalar or a pack of lanes.
+/// The shared physics as C++: each model is the same headers over its own algebra, instantiated for a scalar or a pack
+/// of lanes.
 #include "kernels/simd/simd.hpp"
 
 DSS_INLINE_BEGIN
@@ -16,8 +17,9 @@ struct Terms {
   /// Forces depend on velocities: leapfrog then carries a prediction of them.
   constexpr bool is_velocity_dependent() const { return is_damped || is_gyroscopic || is_tied; }
   constexpr bool covers(const Terms& need) const {
-    return is_material == need.is_material && is_damped >= need.is_damped && (is_material || is_bending >= need.is_bending) &&
-           is_gyroscopic >= need.is_gyroscopic && is_tied >= need.is_tied;
+    return is_material == need.is_material && is_damped >= need.is_damped &&
+           (is_material || is_bending >= need.is_bending) && is_gyroscopic >= need.is_gyroscopic &&
+           is_tied >= need.is_tied;
   }
 };
 
@@ -31,11 +33,11 @@ struct SpatialPhysics {
   using real = Real;
   static constexpr int fields = 13;
 #include "kernels/algebra/spatial.h"
+#include "kernels/cases.h"
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"
 #include "kernels/rk_update/rk_update.h"
 #include "kernels/stress/stress.h"
-#include "kernels/cases.h"
 };
 
 template <class Real>
@@ -44,10 +46,10 @@ struct PlanarPhysics {
   static constexpr int fields = 7;
 #define PLANAR
 #include "kernels/algebra/planar.h"
+#include "kernels/cases.h"
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"
 #include "kernels/rk_update/rk_update.h"
-#include "kernels/cases.h"
 #undef PLANAR
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The whole interface between the program and an execution target. A variant is one MODULE library that exports dss_plugin().
+/// The whole interface between the program and an execution target. A variant is one MODULE library that exports
+/// dss_plugin().
 #include "kernels/compiled_kernel.hpp"
 #include "solver/model/model.hpp"
 #include "solver/model/problem.hpp"
@@ -36,7 +37,8 @@ public:
   /// Sets or gets the fields of elements [first, first + fields.size() / 13); a write restarts the method.
   virtual void write(std::size_t first, std::span<const double> fields) = 0;
   virtual void read(std::size_t first, std::span<double> fields) = 0;
-  /// Time derivative of all fields of all elements at the present state. `signals`: one row, see solver/numerics/signal_rows.hpp.
+  /// Time derivative of all fields of all elements at the present state. `signals`: one row, see
+  /// solver/numerics/signal_rows.hpp.
   virtual void derivative(std::span<const double> signals, std::span<double> rates) = 0;
   /// Advances by `steps` steps; stops at the first step that leaves a non-finite state.
   /// `signals`: steps * method.stages + 1 rows, see solver/numerics/signal_rows.hpp.
@@ -50,8 +52,8 @@ public:
 struct Plugin {
   int abi;
   const char* name;
-  const char* isa;   ///< of the code that runs, reported by that code: "avx512", "avx2", "x86-64-v2", ...
-  bool has_fma;      ///< results are bitwise equal to every other variant that says so
+  const char* isa; ///< of the code that runs, reported by that code: "avx512", "avx2", "x86-64-v2", ...
+  bool has_fma;    ///< results are bitwise equal to every other variant that says so
   bool is_threaded;
   std::unique_ptr<Executor> (*create)(const Setup& setup);
   std::span<const CompiledKernel> (*kernels)(); ///< null if the variant has no kernels of its own

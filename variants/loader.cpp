@@ -25,7 +25,7 @@ constexpr Entry registry[] = {
 
 /// __builtin_cpu_supports takes literals only; this is every feature that a variant may need.
 bool cpu_has(std::string_view feature) {
-#define DSS_FEATURE(name)                                                                                                                  \
+#define DSS_FEATURE(name)                                                                                              \
   if (feature == name) return __builtin_cpu_supports(name) != 0
   DSS_FEATURE("sse4.2");
   DSS_FEATURE("avx");
@@ -45,10 +45,13 @@ bool cpu_has(std::string_view feature) {
   return false;
 }
 
-/// First feature that this CPU lacks, or that DSSBENCH_HIDE_CPU_FEATURES hides (to try the refusal where the CPU has everything).
+/// First feature that this CPU lacks, or that DSSBENCH_HIDE_CPU_FEATURES hides (to try the refusal where the CPU has
+/// everything).
 std::string missing_feature(std::string_view needs) {
   const char* hidden = std::getenv("DSSBENCH_HIDE_CPU_FEATURES");
-  const auto is_hidden = [&](std::string_view f) { return hidden != nullptr && fmt::format(",{},", hidden).find(fmt::format(",{},", f)) != std::string::npos; };
+  const auto is_hidden = [&](std::string_view f) {
+    return hidden != nullptr && fmt::format(",{},", hidden).find(fmt::format(",{},", f)) != std::string::npos;
+  };
   while (!needs.empty()) {
     const std::size_t comma = std::min(needs.find(','), needs.size());
     const std::string_view feature = needs.substr(0, comma);
@@ -72,10 +75,12 @@ const Plugin& open_module(const VariantStatus& variant) {
   void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) throw InputError(fmt::format("variant {}: {}", variant.name, dlerror()));
   const auto entry = reinterpret_cast<PluginEntry>(dlsym(module, plugin_symbol));
-  if (entry == nullptr) throw InputError(fmt::format("variant {}: {} does not export {}", variant.name, path.string(), plugin_symbol));
+  if (entry == nullptr)
+    throw InputError(fmt::format("variant {}: {} does not export {}", variant.name, path.string(), plugin_symbol));
   const Plugin* plugin = entry();
   if (plugin->abi != plugin_abi)
-    throw InputError(fmt::format("variant {}: {} speaks interface {}, this program {}", variant.name, path.string(), plugin->abi, plugin_abi));
+    throw InputError(fmt::format("variant {}: {} speaks interface {}, this program {}", variant.name, path.string(),
+                                 plugin->abi, plugin_abi));
   if (plugin->name != variant.name)
     throw InputError(fmt::format("variant {}: {} holds variant {}", variant.name, path.string(), plugin->name));
   return *plugin;
@@ -104,8 +109,11 @@ const Plugin& load_variant(const std::string& name) {
     names.push_back(variant.name);
     if (variant.name == name || (name == "auto" && variant.is_usable())) found = &variant;
   }
-  if (found == nullptr) throw InputError(fmt::format("variant \"{}\" does not exist; {}", name, nearest_name(name, names)));
-  if (!found->is_usable()) throw InputError(fmt::format("variant {} cannot run here: {}; `dssbench list variants` shows those that can", name, found->unusable));
+  if (found == nullptr)
+    throw InputError(fmt::format("variant \"{}\" does not exist; {}", name, nearest_name(name, names)));
+  if (!found->is_usable())
+    throw InputError(fmt::format("variant {} cannot run here: {}; `dssbench list variants` shows those that can", name,
+                                 found->unusable));
   const std::lock_guard lock(mutex);
   const Plugin*& plugin = opened[found->name];
   if (plugin == nullptr) plugin = &open_module(*found);

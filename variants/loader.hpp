@@ -1,5 +1,6 @@
 #pragma once
-/// Finds, checks and opens variants. The feature check is compiled for the baseline CPU and runs before a module is opened.
+/// Finds, checks and opens variants. The feature check is compiled for the baseline CPU and runs before a module is
+/// opened.
 #include "variants/api.hpp"
 
 #include <string>
@@ -10,8 +11,8 @@ namespace dss {
 /// A variant this build knows, and whether it can run here.
 struct VariantStatus {
   std::string name;
-  std::string isa;            ///< what the module is compiled for
-  std::string unusable;       ///< empty if it can run here, else the reason: "this CPU lacks avx512f"
+  std::string isa;      ///< what the module is compiled for
+  std::string unusable; ///< empty if it can run here, else the reason: "this CPU lacks avx512f"
   bool is_usable() const { return unusable.empty(); }
 };
 
@@ -19,7 +20,8 @@ struct VariantStatus {
 const std::vector<VariantStatus>& variants();
 
 /// Opens a variant ("auto": the fastest usable one). The result stays valid until the program ends.
-/// @throws InputError for an unknown name (naming the known ones), a CPU that lacks a feature, or a module that does not load.
+/// @throws InputError for an unknown name (naming the known ones), a CPU that lacks a feature, or a module that does
+/// not load.
 const Plugin& load_variant(const std::string& name);
 
 } // namespace dss

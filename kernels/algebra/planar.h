@@ -1,14 +1,33 @@
-/* Algebra of the planar model in the shared subset: spatial.h restricted to motions in the plane z = const, where it is exact.
- * Vectors have two components, a spin is the one about z, a rotor is (1 + s, 0, 0, z). Operations and their meaning as there. */
+/* Algebra of the planar model in the shared subset: spatial.h restricted to motions in the plane z = const, where it is
+ * exact. Vectors have two components, a spin is the one about z, a rotor is (1 + s, 0, 0, z). Operations and their
+ * meaning as there. */
 
-typedef struct { REAL x, y; } vec;
-typedef struct { REAL z; } spin;
-typedef struct { REAL s, z; } rotor;
+typedef struct {
+  REAL x, y;
+} vec;
+typedef struct {
+  REAL z;
+} spin;
+typedef struct {
+  REAL s, z;
+} rotor;
 
-static inline vec vec_add(vec a, vec b) { vec r = {a.x + b.x, a.y + b.y}; return r; }
-static inline vec vec_sub(vec a, vec b) { vec r = {a.x - b.x, a.y - b.y}; return r; }
-static inline vec vec_scale(REAL k, vec a) { vec r = {k * a.x, k * a.y}; return r; }
-static inline vec vec_axpy(REAL k, vec a, vec b) { vec r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y)}; return r; }
+static inline vec vec_add(vec a, vec b) {
+  vec r = {a.x + b.x, a.y + b.y};
+  return r;
+}
+static inline vec vec_sub(vec a, vec b) {
+  vec r = {a.x - b.x, a.y - b.y};
+  return r;
+}
+static inline vec vec_scale(REAL k, vec a) {
+  vec r = {k * a.x, k * a.y};
+  return r;
+}
+static inline vec vec_axpy(REAL k, vec a, vec b) {
+  vec r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y)};
+  return r;
+}
 static inline REAL vec_dot(vec a, vec b) { return FMA(a.y, b.y, a.x * b.x); }
 static inline vec vec_along(vec a, const int axis, REAL c) {
   if (axis == 0) a.x = a.x + c;
@@ -16,21 +35,61 @@ static inline vec vec_along(vec a, const int axis, REAL c) {
   return a;
 }
 
-static inline spin spin_zero(void) { spin r = {SPLAT(0)}; return r; }
-static inline spin spin_add(spin a, spin b) { spin r = {a.z + b.z}; return r; }
-static inline spin spin_sub(spin a, spin b) { spin r = {a.z - b.z}; return r; }
-static inline spin spin_scale(REAL k, spin a) { spin r = {k * a.z}; return r; }
-static inline spin spin_axpy(REAL k, spin a, spin b) { spin r = {FMA(k, a.z, b.z)}; return r; }
-static inline spin spin_scaled(spin a, spin k) { spin r = {a.z * k.z}; return r; }
+static inline spin spin_zero(void) {
+  spin r = {SPLAT(0)};
+  return r;
+}
+static inline spin spin_add(spin a, spin b) {
+  spin r = {a.z + b.z};
+  return r;
+}
+static inline spin spin_sub(spin a, spin b) {
+  spin r = {a.z - b.z};
+  return r;
+}
+static inline spin spin_scale(REAL k, spin a) {
+  spin r = {k * a.z};
+  return r;
+}
+static inline spin spin_axpy(REAL k, spin a, spin b) {
+  spin r = {FMA(k, a.z, b.z)};
+  return r;
+}
+static inline spin spin_scaled(spin a, spin k) {
+  spin r = {a.z * k.z};
+  return r;
+}
 static inline REAL spin_norm2(spin a) { return a.z * a.z; }
-/* A spin about z has no part along a direction in the plane, and turns none into another spin: the twist terms vanish. */
-static inline REAL spin_dot(spin a, vec n) { (void)a; (void)n; return SPLAT(0); }
-static inline spin spin_about(REAL k, vec n, spin t) { (void)k; (void)n; return t; }
-static inline spin spin_turn(spin a, vec n, spin t) { (void)a; (void)n; return t; }
+/* A spin about z has no part along a direction in the plane, and turns none into another spin: the twist terms vanish.
+ */
+static inline REAL spin_dot(spin a, vec n) {
+  (void)a;
+  (void)n;
+  return SPLAT(0);
+}
+static inline spin spin_about(REAL k, vec n, spin t) {
+  (void)k;
+  (void)n;
+  return t;
+}
+static inline spin spin_turn(spin a, vec n, spin t) {
+  (void)a;
+  (void)n;
+  return t;
+}
 
-static inline vec spin_cross(spin w, vec a) { vec r = {-(w.z * a.y), w.z * a.x}; return r; }
-static inline vec spin_cross_add(spin w, vec a, vec t) { vec r = {FMA(-w.z, a.y, t.x), FMA(w.z, a.x, t.y)}; return r; }
-static inline spin vec_moment(vec a, vec f, spin t) { spin r = {FMA(a.x, f.y, FMA(-a.y, f.x, t.z))}; return r; }
+static inline vec spin_cross(spin w, vec a) {
+  vec r = {-(w.z * a.y), w.z * a.x};
+  return r;
+}
+static inline vec spin_cross_add(spin w, vec a, vec t) {
+  vec r = {FMA(-w.z, a.y, t.x), FMA(w.z, a.x, t.y)};
+  return r;
+}
+static inline spin vec_moment(vec a, vec f, spin t) {
+  spin r = {FMA(a.x, f.y, FMA(-a.y, f.x, t.z))};
+  return r;
+}
 
 static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
   REAL q0 = q.s + SPLAT(1), z = edge * q.z;
@@ -42,7 +101,9 @@ static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
     return r;
   }
 }
-static inline vec rotor_column(rotor q, const int axis) { return vec_along(rotor_turn(q, axis, SPLAT(2)), axis, SPLAT(1)); }
+static inline vec rotor_column(rotor q, const int axis) {
+  return vec_along(rotor_turn(q, axis, SPLAT(2)), axis, SPLAT(1));
+}
 
 static inline spin rotor_relative(rotor i, rotor j) {
   REAL i0 = i.s + SPLAT(1), j0 = j.s + SPLAT(1);
@@ -50,11 +111,17 @@ static inline spin rotor_relative(rotor i, rotor j) {
   return r;
 }
 static inline REAL rotor_relative_s(rotor i, rotor j) { return FMA(i.s, j.s, i.s + j.s) + i.z * j.z; }
-static inline spin rotor_vector(rotor q) { spin r = {q.z}; return r; }
+static inline spin rotor_vector(rotor q) {
+  spin r = {q.z};
+  return r;
+}
 
-/* In the plane a face of the y axis is a face of the x axis turned by a right angle and scaled by the ratio k of the edges:
- * k turned(a) + b, and t + k turned(a) x f. */
-static inline vec vec_axpy_turned(REAL k, vec a, vec b) { vec r = {FMA(-k, a.y, b.x), FMA(k, a.x, b.y)}; return r; }
+/* In the plane a face of the y axis is a face of the x axis turned by a right angle and scaled by the ratio k of the
+ * edges: k turned(a) + b, and t + k turned(a) x f. */
+static inline vec vec_axpy_turned(REAL k, vec a, vec b) {
+  vec r = {FMA(-k, a.y, b.x), FMA(k, a.x, b.y)};
+  return r;
+}
 static inline spin vec_moment_turned(REAL k, vec a, vec f, spin t) {
   spin r = {FMA(-a.x, k * f.x, FMA(-a.y, k * f.y, t.z))};
   return r;
@@ -73,7 +140,9 @@ static inline rotor rotor_cayley(rotor q, spin b) {
 
 /* The axis of rotation is a principal axis: no gyroscopic term. */
 static inline spin spin_euler(spin t, spin w, rotor q, spin inertia, spin inverse_inertia) {
-  (void)w; (void)q; (void)inertia;
+  (void)w;
+  (void)q;
+  (void)inertia;
   spin r = {inverse_inertia.z * t.z};
   return r;
 }

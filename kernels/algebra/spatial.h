@@ -1,16 +1,34 @@
-/* Algebra of the spatial model in the shared subset: vectors and spins have three components, a rotor is a unit quaternion.
- * Words from the includer: REAL, FMA(a, b, c) = a * b + c, SPLAT(scalar). The laws of motion are written in these operations alone
- * (kernels/README.md), so a model is an algebra: planar.h is the same list in the plane. */
+/* Algebra of the spatial model in the shared subset: vectors and spins have three components, a rotor is a unit
+ * quaternion. Words from the includer: REAL, FMA(a, b, c) = a * b + c, SPLAT(scalar). The laws of motion are written in
+ * these operations alone (kernels/README.md), so a model is an algebra: planar.h is the same list in the plane. */
 
-typedef struct { REAL x, y, z; } vec;      /* displacement, velocity, force */
-typedef struct { REAL x, y, z; } spin;     /* angular velocity, moment; twice a small rotor's vector part */
-typedef struct { REAL s, x, y, z; } rotor; /* unit quaternion (1 + s, x, y, z): the rest state is all zeros */
+typedef struct {
+  REAL x, y, z;
+} vec; /* displacement, velocity, force */
+typedef struct {
+  REAL x, y, z;
+} spin; /* angular velocity, moment; twice a small rotor's vector part */
+typedef struct {
+  REAL s, x, y, z;
+} rotor; /* unit quaternion (1 + s, x, y, z): the rest state is all zeros */
 
-static inline vec vec_add(vec a, vec b) { vec r = {a.x + b.x, a.y + b.y, a.z + b.z}; return r; }
-static inline vec vec_sub(vec a, vec b) { vec r = {a.x - b.x, a.y - b.y, a.z - b.z}; return r; }
-static inline vec vec_scale(REAL k, vec a) { vec r = {k * a.x, k * a.y, k * a.z}; return r; }
+static inline vec vec_add(vec a, vec b) {
+  vec r = {a.x + b.x, a.y + b.y, a.z + b.z};
+  return r;
+}
+static inline vec vec_sub(vec a, vec b) {
+  vec r = {a.x - b.x, a.y - b.y, a.z - b.z};
+  return r;
+}
+static inline vec vec_scale(REAL k, vec a) {
+  vec r = {k * a.x, k * a.y, k * a.z};
+  return r;
+}
 /* k a + b */
-static inline vec vec_axpy(REAL k, vec a, vec b) { vec r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y), FMA(k, a.z, b.z)}; return r; }
+static inline vec vec_axpy(REAL k, vec a, vec b) {
+  vec r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y), FMA(k, a.z, b.z)};
+  return r;
+}
 static inline REAL vec_dot(vec a, vec b) { return FMA(a.z, b.z, FMA(a.y, b.y, a.x * b.x)); }
 /* a + c e_axis; axis is a constant at every call */
 static inline vec vec_along(vec a, const int axis, REAL c) {
@@ -20,18 +38,39 @@ static inline vec vec_along(vec a, const int axis, REAL c) {
   return a;
 }
 
-static inline spin spin_zero(void) { spin r = {SPLAT(0), SPLAT(0), SPLAT(0)}; return r; }
-static inline spin spin_add(spin a, spin b) { spin r = {a.x + b.x, a.y + b.y, a.z + b.z}; return r; }
-static inline spin spin_sub(spin a, spin b) { spin r = {a.x - b.x, a.y - b.y, a.z - b.z}; return r; }
-static inline spin spin_scale(REAL k, spin a) { spin r = {k * a.x, k * a.y, k * a.z}; return r; }
-static inline spin spin_axpy(REAL k, spin a, spin b) { spin r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y), FMA(k, a.z, b.z)}; return r; }
+static inline spin spin_zero(void) {
+  spin r = {SPLAT(0), SPLAT(0), SPLAT(0)};
+  return r;
+}
+static inline spin spin_add(spin a, spin b) {
+  spin r = {a.x + b.x, a.y + b.y, a.z + b.z};
+  return r;
+}
+static inline spin spin_sub(spin a, spin b) {
+  spin r = {a.x - b.x, a.y - b.y, a.z - b.z};
+  return r;
+}
+static inline spin spin_scale(REAL k, spin a) {
+  spin r = {k * a.x, k * a.y, k * a.z};
+  return r;
+}
+static inline spin spin_axpy(REAL k, spin a, spin b) {
+  spin r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y), FMA(k, a.z, b.z)};
+  return r;
+}
 /* component by component */
-static inline spin spin_scaled(spin a, spin k) { spin r = {a.x * k.x, a.y * k.y, a.z * k.z}; return r; }
+static inline spin spin_scaled(spin a, spin k) {
+  spin r = {a.x * k.x, a.y * k.y, a.z * k.z};
+  return r;
+}
 static inline REAL spin_norm2(spin a) { return FMA(a.z, a.z, FMA(a.y, a.y, a.x * a.x)); }
 /* n.a of a spin along a direction */
 static inline REAL spin_dot(spin a, vec n) { return FMA(a.z, n.z, FMA(a.y, n.y, a.x * n.x)); }
 /* t + k n, a spin about a direction */
-static inline spin spin_about(REAL k, vec n, spin t) { spin r = {FMA(k, n.x, t.x), FMA(k, n.y, t.y), FMA(k, n.z, t.z)}; return r; }
+static inline spin spin_about(REAL k, vec n, spin t) {
+  spin r = {FMA(k, n.x, t.x), FMA(k, n.y, t.y), FMA(k, n.z, t.z)};
+  return r;
+}
 
 /* w x a, the velocity of a point at a; and t + w x a */
 static inline vec spin_cross(spin w, vec a) {
@@ -53,7 +92,8 @@ static inline spin spin_turn(spin a, vec n, spin t) {
   return r;
 }
 
-/* (A - I) (edge / 2) e_axis: how far the rotation moves the centre of a face. Column of A - I = 2 (q0 [r]x + [r]x^2). */
+/* (A - I) (edge / 2) e_axis: how far the rotation moves the centre of a face. Column of A - I = 2 (q0 [r]x + [r]x^2).
+ */
 static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
   REAL q0 = q.s + SPLAT(1);
   if (axis == 0) {
@@ -71,12 +111,15 @@ static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
   }
 }
 /* A e_axis */
-static inline vec rotor_column(rotor q, const int axis) { return vec_along(rotor_turn(q, axis, SPLAT(2)), axis, SPLAT(1)); }
+static inline vec rotor_column(rotor q, const int axis) {
+  return vec_along(rotor_turn(q, axis, SPLAT(2)), axis, SPLAT(1));
+}
 
 /* Vector part and s of p = q_j conj(q_i), the rotation from i to j in global axes. */
 static inline spin rotor_relative(rotor i, rotor j) {
   REAL i0 = i.s + SPLAT(1), j0 = j.s + SPLAT(1);
-  spin r = {FMA(j.x, i0, FMA(-j0, i.x, FMA(j.z, i.y, -(j.y * i.z)))), FMA(j.y, i0, FMA(-j0, i.y, FMA(j.x, i.z, -(j.z * i.x)))),
+  spin r = {FMA(j.x, i0, FMA(-j0, i.x, FMA(j.z, i.y, -(j.y * i.z)))),
+            FMA(j.y, i0, FMA(-j0, i.y, FMA(j.x, i.z, -(j.z * i.x)))),
             FMA(j.z, i0, FMA(-j0, i.z, FMA(j.y, i.x, -(j.x * i.y))))};
   return r;
 }
@@ -84,28 +127,36 @@ static inline REAL rotor_relative_s(rotor i, rotor j) {
   return FMA(i.s, j.s, i.s + j.s) + FMA(i.x, j.x, FMA(i.y, j.y, i.z * j.z));
 }
 /* Vector part of a rotor: half the rotation vector where the rotation is small. */
-static inline spin rotor_vector(rotor q) { spin r = {q.x, q.y, q.z}; return r; }
+static inline spin rotor_vector(rotor q) {
+  spin r = {q.x, q.y, q.z};
+  return r;
+}
 
 /* q' = 1/2 w q, w in global axes */
 static inline rotor rotor_rate(rotor q, spin w) {
   REAL q0 = q.s + SPLAT(1), x = SPLAT(0.5) * w.x, y = SPLAT(0.5) * w.y, z = SPLAT(0.5) * w.z;
-  rotor r = {FMA(-x, q.x, FMA(-y, q.y, -(z * q.z))), FMA(x, q0, FMA(y, q.z, -(z * q.y))), FMA(y, q0, FMA(z, q.x, -(x * q.z))),
-             FMA(z, q0, FMA(x, q.y, -(y * q.x)))};
+  rotor r = {FMA(-x, q.x, FMA(-y, q.y, -(z * q.z))), FMA(x, q0, FMA(y, q.z, -(z * q.y))),
+             FMA(y, q0, FMA(z, q.x, -(x * q.z))), FMA(z, q0, FMA(x, q.y, -(y * q.x)))};
   return r;
 }
-/* dq q with dq = (1 - |b|^2, 2 b) / (1 + |b|^2): the Cayley map of the spin 4 b, a rotation by 4 atan |b| that keeps |q| = 1 */
+/* dq q with dq = (1 - |b|^2, 2 b) / (1 + |b|^2): the Cayley map of the spin 4 b, a rotation by 4 atan |b| that keeps
+ * |q| = 1 */
 static inline rotor rotor_cayley(rotor q, spin b) {
   REAL q0 = q.s + SPLAT(1), n2 = spin_norm2(b), c = SPLAT(2) / (SPLAT(1) + n2), ds = -(c * n2);
   spin d = spin_scale(c, b);
-  rotor r = {q.s + FMA(ds, q0, -FMA(d.x, q.x, FMA(d.y, q.y, d.z * q.z))), q.x + FMA(ds, q.x, FMA(d.x, q0, FMA(d.y, q.z, -(d.z * q.y)))),
-             q.y + FMA(ds, q.y, FMA(d.y, q0, FMA(d.z, q.x, -(d.x * q.z)))), q.z + FMA(ds, q.z, FMA(d.z, q0, FMA(d.x, q.y, -(d.y * q.x))))};
+  rotor r = {q.s + FMA(ds, q0, -FMA(d.x, q.x, FMA(d.y, q.y, d.z * q.z))),
+             q.x + FMA(ds, q.x, FMA(d.x, q0, FMA(d.y, q.z, -(d.z * q.y)))),
+             q.y + FMA(ds, q.y, FMA(d.y, q0, FMA(d.z, q.x, -(d.x * q.z)))),
+             q.z + FMA(ds, q.z, FMA(d.z, q0, FMA(d.x, q.y, -(d.y * q.x))))};
   return r;
 }
 
-/* Angular acceleration J^-1 (t - w x J w) of a box with principal moments inertia about its own axes, J = A diag(inertia) A^T. */
+/* Angular acceleration J^-1 (t - w x J w) of a box with principal moments inertia about its own axes, J = A
+ * diag(inertia) A^T. */
 static inline spin spin_euler(spin t, spin w, rotor q, spin inertia, spin inverse_inertia) {
   vec cx = rotor_column(q, 0), cy = rotor_column(q, 1), cz = rotor_column(q, 2);
-  spin wb = {spin_dot(w, cx), spin_dot(w, cy), spin_dot(w, cz)}, tb = {spin_dot(t, cx), spin_dot(t, cy), spin_dot(t, cz)};
+  spin wb = {spin_dot(w, cx), spin_dot(w, cy), spin_dot(w, cz)},
+       tb = {spin_dot(t, cx), spin_dot(t, cy), spin_dot(t, cz)};
   spin a = {inverse_inertia.x * FMA(wb.y * wb.z, inertia.y - inertia.z, tb.x),
             inverse_inertia.y * FMA(wb.z * wb.x, inertia.z - inertia.x, tb.y),
             inverse_inertia.z * FMA(wb.x * wb.y, inertia.x - inertia.y, tb.z)};

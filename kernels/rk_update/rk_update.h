@@ -2,14 +2,19 @@
 
 /* Runge-Kutta in increment form: y + sum alpha_m (Y_m - y) + beta f = y + alpha_1 t with
  *   t = (beta / alpha_1) f + (Y_1 - y) + sum_{m > 1} (alpha_m / alpha_1) (Y_m - y).
- * Increments are summed before they meet y, whose rounding then happens once, and a state at rest stays at rest to the last bit. */
+ * Increments are summed before they meet y, whose rounding then happens once, and a state at rest stays at rest to the
+ * last bit. */
 static inline REAL rk_increment(REAL ratio, REAL stage, REAL y, REAL t) { return FMA(ratio, stage - y, t); }
 static inline REAL rk_finish(REAL alpha_1, REAL t, REAL y) { return FMA(alpha_1, t, y); }
 /* y + beta f; the first term of t is the same operation on Y_1 - y */
 static inline REAL rk_first(REAL y, REAL beta, REAL rate) { return FMA(beta, rate, y); }
 
 /* Leapfrog: v_{n+1/2} = v_{n-1/2} + h a, x_{n+1} = x_n + h v_{n+1/2}, prediction p_{n+1} = v_{n+1/2} + h/2 a. */
-typedef struct { vec u, v_half, v_next; rotor q; spin w_half, w_next; } leap;
+typedef struct {
+  vec u, v_half, v_next;
+  rotor q;
+  spin w_half, w_next;
+} leap;
 static inline leap leapfrog(vec u, rotor q, vec v_half, spin w_half, vec a, spin alpha, REAL h) {
   leap r;
   r.v_half = vec_axpy(h, a, v_half);

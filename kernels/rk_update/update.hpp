@@ -30,16 +30,26 @@ struct RungeKuttaUpdate {
   FiniteCheck<R, T> check{};
 
   RungeKuttaUpdate(const RowTask<T>& task, bool last)
-      : base(task.base), increment{task.increment[0], task.increment[1], task.increment[2]}, out(task.out), beta(task.beta),
-        alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, increments(task.increments), is_last(last) {}
+      : base(task.base), increment{task.increment[0], task.increment[1], task.increment[2]}, out(task.out),
+        beta(task.beta), alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, increments(task.increments),
+        is_last(last) {}
 
-  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a, const typename P::spin& angular) {
+  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a,
+                  const typename P::spin& angular) {
     typename P::element rate{e.v, a, P::rotor_rate(e.q, e.w), angular};
     switch (increments) {
-    case 0: finish<0>(place, rate); break;
-    case 1: finish<1>(place, rate); break;
-    case 2: finish<2>(place, rate); break;
-    default: finish<3>(place, rate); break;
+    case 0:
+      finish<0>(place, rate);
+      break;
+    case 1:
+      finish<1>(place, rate);
+      break;
+    case 2:
+      finish<2>(place, rate);
+      break;
+    default:
+      finish<3>(place, rate);
+      break;
     }
     if (is_last) check.add(rate.v), check.add(rate.w);
   }
@@ -63,8 +73,9 @@ struct RungeKuttaUpdate {
   }
 };
 
-/// One leapfrog step in place. With velocity-dependent forces the fields v and w of a row hold the prediction p that the links see, and the
-/// half-step velocities follow the 13 (7) fields of the pack; without them v and w are the half-step velocities themselves.
+/// One leapfrog step in place. With velocity-dependent forces the fields v and w of a row hold the prediction p that
+/// the links see, and the half-step velocities follow the 13 (7) fields of the pack; without them v and w are the
+/// half-step velocities themselves.
 template <class P, class T, bool is_predicted>
 struct LeapfrogUpdate {
   using R = typename P::real;
@@ -74,13 +85,15 @@ struct LeapfrogUpdate {
   const R h;
   FiniteCheck<R, T> check{};
 
-  explicit LeapfrogUpdate(const RowTask<T>& task) : half_velocities(task.base + P::fields * W), out(task.out), h(task.beta) {}
+  explicit LeapfrogUpdate(const RowTask<T>& task)
+      : half_velocities(task.base + P::fields * W), out(task.out), h(task.beta) {}
 
   template <class Tuple>
   static void store_all(T*& p, Tuple t) {
     each_component(t, [&](R& c) { simd::store(p, c), p += W; });
   }
-  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a, const typename P::spin& angular) {
+  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a,
+                  const typename P::spin& angular) {
     T* p = out + place;
     auto v_half = e.v;
     auto w_half = e.w;

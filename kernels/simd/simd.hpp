@@ -15,7 +15,8 @@
 #include <xsimd/xsimd.hpp>
 #endif
 
-// Every call in the hot loop must be inlined: GCC does so for a flattened row kernel, Clang wants it said at each function.
+// Every call in the hot loop must be inlined: GCC does so for a flattened row kernel, Clang wants it said at each
+// function.
 #ifdef __clang__
 #define DSS_INLINE_BEGIN _Pragma("clang attribute push(__attribute__((always_inline)), apply_to = function)")
 #define DSS_INLINE_END _Pragma("clang attribute pop")
@@ -38,7 +39,8 @@ using Batch = xsimd::batch<T, xsimd::avx512dq>;
 template <class T>
 using Batch = xsimd::batch<T, xsimd::avx2>;
 #endif
-/// xsimd's batch with a unary minus that the compiler can fold into a fused multiply-add (xsimd's is 0 - a, an instruction of its own).
+/// xsimd's batch with a unary minus that the compiler can fold into a fused multiply-add (xsimd's is 0 - a, an
+/// instruction of its own).
 template <class T>
 struct Pack {
   using Register = typename Batch<T>::register_type;
@@ -64,7 +66,8 @@ constexpr int lanes = DSS_VECTOR_BITS > 0 ? DSS_VECTOR_BITS / 8 / int(sizeof(T))
 template <class T>
 constexpr LaneMask all_lanes = LaneMask((1u << lanes<T>)-1);
 
-/// Scalar a * b + c: fused exactly where the module's instruction set has FMA (never a call of the C library's software fma).
+/// Scalar a * b + c: fused exactly where the module's instruction set has FMA (never a call of the C library's software
+/// fma).
 template <class T>
 inline T scalar_fma(T a, T b, T c) {
 #ifdef __FMA__

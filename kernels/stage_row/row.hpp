@@ -4,23 +4,25 @@
 
 namespace dss {
 
-/// Which lanes of a pack have a link across each face; `below` looks to the lower neighbour row, `link` to the upper one.
+/// Which lanes of a pack have a link across each face; `below` looks to the lower neighbour row, `link` to the upper
+/// one.
 struct PackMasks {
   simd::LaneMask link_x = 0, link_y = 0, link_z = 0, below_y = 0, below_z = 0;
 };
 
-/// Constants of a body as the laws need them (kernels/link_force/link_force.h, kernels/motion/motion.h). Forces and moments of the row kernel
-/// are in units of `unit` newtons: the paper's k, 1 for the material law. Masses and ties are scaled to match.
+/// Constants of a body as the laws need them (kernels/link_force/link_force.h, kernels/motion/motion.h). Forces and
+/// moments of the row kernel are in units of `unit` newtons: the paper's k, 1 for the material law. Masses and ties are
+/// scaled to match.
 template <class T>
 struct BodyConstants {
   T edge[3];
-  T inverse_unit;                                                     // 1 / unit
-  T tau, kt2, dt;                                                     // paper's law
+  T inverse_unit; // 1 / unit
+  T tau, kt2, dt; // paper's law
   struct Axis {
     T k_s, k_ns, d_s, d_ns, k_z, k_xz, k_yz, d_z, d_xz, d_yz;
-  } axis[3];                                                         // material law
+  } axis[3]; // material law
   T inverse_mass, inertia[3], inverse_inertia[3];
-  T tie_k, tie_d, tie_k2_rot, tie_d_rot;                             // stabilization
+  T tie_k, tie_d, tie_k2_rot, tie_d_rot; // stabilization
 };
 
 /// Wrenches and clamps of a row that has any, on the packs [first, first + packs).
@@ -34,7 +36,8 @@ struct Applied {
   int first = 0, packs = 0;
   const Pattern* patterns = nullptr;
   int pattern_count = 0;
-  const simd::LaneMask* free_lanes = nullptr; ///< pack by pack from `first`, one mask a degree of freedom: lanes that may accelerate; or null
+  const simd::LaneMask* free_lanes =
+      nullptr; ///< pack by pack from `first`, one mask a degree of freedom: lanes that may accelerate; or null
 };
 
 /// One stage of one row. Pointers start at the row's first pack; neighbours are already aligned with it.
@@ -47,10 +50,11 @@ struct RowTask {
   const T* signals = nullptr;          ///< frame acceleration x, y, z, then the loads' values
   const T* in = nullptr;               ///< the stage's input; one readable pack follows the row
   const T *upper_y = nullptr, *upper_z = nullptr;
-  T *carry_y = nullptr, *carry_z = nullptr;      ///< link forces and couples for the upper rows
-  const T *from_y = nullptr, *from_z = nullptr;  ///< those that the lower rows left
-  // No increments: out = base + beta f(in). With: out = base + alpha_0 [beta f(in) + (increment_0 - base) + sum_{m > 0} alpha_m (increment_m -
-  // base)], so beta and the later alpha are ratios to alpha_0 (rk_update.h). Leapfrog: beta = h, in == base == out.
+  T *carry_y = nullptr, *carry_z = nullptr;     ///< link forces and couples for the upper rows
+  const T *from_y = nullptr, *from_z = nullptr; ///< those that the lower rows left
+  // No increments: out = base + beta f(in). With: out = base + alpha_0 [beta f(in) + (increment_0 - base) + sum_{m > 0}
+  // alpha_m (increment_m - base)], so beta and the later alpha are ratios to alpha_0 (rk_update.h). Leapfrog: beta = h,
+  // in == base == out.
   const T* base = nullptr;
   T* out = nullptr;
   T beta = 0;

@@ -1,6 +1,7 @@
 #pragma once
 /// The fused hot loop: one stage of one row of packs, from the stage's input to its output (README.md of this folder).
-/// Order of summation per element, whatever the threads and the lanes: x, y, z, each upper link before lower link; ties; wrenches.
+/// Order of summation per element, whatever the threads and the lanes: x, y, z, each upper link before lower link;
+/// ties; wrenches.
 #include "kernels/physics.hpp"
 #include "kernels/rk_update/update.hpp"
 #include "kernels/stage_row/row.hpp"
@@ -10,7 +11,8 @@
 DSS_INLINE_BEGIN
 namespace dss {
 
-/// P: a model's physics over packs of T. terms: what is compiled in. stride: fields a pack of the rows holds, the model's or more.
+/// P: a model's physics over packs of T. terms: what is compiled in. stride: fields a pack of the rows holds, the
+/// model's or more.
 template <class P, class T, Terms terms, int stride = P::fields>
 struct StageRow {
   using R = typename P::real;
@@ -23,7 +25,8 @@ struct StageRow {
   /// Scalars a pack of link forces (and couples) takes in a carry buffer.
   static constexpr int carry_size = (terms.has_couples() ? wrench_components : component_count<vec>()) * W;
 
-  /// What a link hands to the element behind it: the force on i, and the couple that is added there (paper's law: subtracted).
+  /// What a link hands to the element behind it: the force on i, and the couple that is added there (paper's law:
+  /// subtracted).
   struct Carry {
     vec force;
     spin couple;
@@ -74,10 +77,12 @@ struct StageRow {
     each_component(t, [&](R& c) { c = simd::keep(mask, c); });
   }
 
-  typename P::paper_law paper_law(int axis) const { return {R(body.edge[axis]), R(body.edge[axis] / 2), R(body.tau), R(body.kt2), R(body.dt)}; }
+  typename P::paper_law paper_law(int axis) const {
+    return {R(body.edge[axis]), R(body.edge[axis] / 2), R(body.tau), R(body.kt2), R(body.dt)};
+  }
   typename P::material_law material(int axis) const {
     const auto& a = body.axis[axis];
-    return {R(body.edge[axis]), R(body.edge[axis]), R(a.k_s),  R(a.k_ns), R(a.d_s), R(a.d_ns),
+    return {R(body.edge[axis]), R(body.edge[axis]), R(a.k_s),  R(a.k_ns), R(a.d_s),  R(a.d_ns),
             R(a.k_z),           R(a.k_xz),          R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
   }
 
@@ -97,18 +102,21 @@ struct StageRow {
     }
     return r;
   }
-  /// Upper or lower face of an element on axis 1 or 2, and the moment of a force on it; the plane's are turned from the x axis.
+  /// Upper or lower face of an element on axis 1 or 2, and the moment of a force on it; the plane's are turned from the
+  /// x axis.
   vec upper_across(const vec& pull, const typename P::face& x, const typename P::face& own) const {
     if constexpr (is_planar) return P::vec_axpy_turned(edge_ratio, x.swing, pull);
     return P::upper_face(pull, own);
   }
   vec lower_across(const element& e, const vec& pull, const int axis) const {
-    if constexpr (is_planar) return P::vec_axpy_turned(-edge_ratio, P::element_face(e, 0, laws[0], terms.is_damped).swing, pull);
+    if constexpr (is_planar)
+      return P::vec_axpy_turned(-edge_ratio, P::element_face(e, 0, laws[0], terms.is_damped).swing, pull);
     return P::lower_face(pull, P::element_face(e, axis, laws[std::size_t(axis)], terms.is_damped));
   }
 
   /// Exchange over the link from i to j on `axis`; `lower` is j's lower face (paper's law), `upper` i's upper face.
-  typename P::exchange link(const element& i, const vec& upper, const element& j, const vec& lower, const int axis) const {
+  typename P::exchange link(const element& i, const vec& upper, const element& j, const vec& lower,
+                            const int axis) const {
     if constexpr (terms.is_material) return P::material_link(i, j, axis, material(axis), terms.is_damped);
     typename P::exchange x;
     x.force = P::vec_sub(lower, upper);
@@ -143,7 +151,8 @@ struct StageRow {
     return c;
   }
 
-  /// Link between element i and the element at `upper` across a y or z face, for rows and for the first rows of a block alike.
+  /// Link between element i and the element at `upper` across a y or z face, for rows and for the first rows of a block
+  /// alike.
   typename P::exchange link_across(const element& i, const vec& upper_face, const T* upper, const int axis) const {
     const element j = load_element(upper);
     vec lower_face;
@@ -152,8 +161,8 @@ struct StageRow {
     return link(i, upper_face, j, lower_face, axis);
   }
 
-  void add_across(const Prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper, T* carry,
-                  const T* from, Wrench& sum) const {
+  void add_across(const Prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper,
+                  T* carry, const T* from, Wrench& sum) const {
     if ((above | below) == 0) return;
     typename P::face own;
     vec upper_face;
@@ -178,7 +187,9 @@ struct StageRow {
       sum.moment = P::vec_moment(own.arm, both, sum.moment);
     add_couples(up, low, sum.couple);
   }
-  vec arm(const element& e, const int axis) const { return P::face_arm(e.q, axis, R(body.edge[axis]), R(body.edge[axis] / 2)); }
+  vec arm(const element& e, const int axis) const {
+    return P::face_arm(e.q, axis, R(body.edge[axis]), R(body.edge[axis] / 2));
+  }
 
   Wrench links_x(const Prepared& i, const Prepared& next, simd::LaneMask mask, Carry& previous) const {
     element j;
@@ -201,7 +212,8 @@ struct StageRow {
     previous = carry;
     vec arm_x = i.x.arm;
     if constexpr (terms.is_material) arm_x = arm(i.e, 0);
-    Wrench sum{P::vec_sub(up.force, low.force), P::vec_moment(arm_x, P::vec_add(up.force, low.force), zero<spin>()), zero<spin>()};
+    Wrench sum{P::vec_sub(up.force, low.force), P::vec_moment(arm_x, P::vec_add(up.force, low.force), zero<spin>()),
+               zero<spin>()};
     add_couples(up, low, sum.couple);
     return sum;
   }
@@ -219,23 +231,27 @@ struct StageRow {
   }
   void hold_clamped(int pack, vec& acceleration, spin& angular) const {
     if (task.applied->free_lanes == nullptr) return;
-    const simd::LaneMask* mask = task.applied->free_lanes + std::ptrdiff_t(pack - task.applied->first) * wrench_components;
+    const simd::LaneMask* mask =
+        task.applied->free_lanes + std::ptrdiff_t(pack - task.applied->first) * wrench_components;
     const auto hold = [&](R& c) { c = simd::keep(*mask++, c); };
     each_component(acceleration, hold);
     each_component(angular, hold);
   }
   template <class Tuple>
-  static Tuple splat(const T* values) { // components x, y, z of which the model has some; a spin in the plane has z alone
+  static Tuple
+  splat(const T* values) { // components x, y, z of which the model has some; a spin in the plane has z alone
     Tuple t;
     if constexpr (requires { t.x; }) t.x = R(values[0]), t.y = R(values[1]);
     if constexpr (requires { t.z; }) t.z = R(values[2]);
     return t;
   }
   Mass mass() const {
-    return {R(body.inverse_mass), splat<vec>(task.signals), splat<spin>(body.inertia), splat<spin>(body.inverse_inertia)};
+    return {R(body.inverse_mass), splat<vec>(task.signals), splat<spin>(body.inertia),
+            splat<spin>(body.inverse_inertia)};
   }
 
-  /// Only the links across `axis` from this row to the upper one, into the carry buffer. `fields` a pack of the rows holds.
+  /// Only the links across `axis` from this row to the upper one, into the carry buffer. `fields` a pack of the rows
+  /// holds.
   void prime(const int axis, int fields) const {
     for (int pack = 0; pack < task.packs; ++pack) {
       const simd::LaneMask above = axis == 1 ? task.masks[pack].link_y : task.masks[pack].link_z;
@@ -257,7 +273,8 @@ struct StageRow {
   /// Runs update(pack, element, acceleration, angular acceleration) for every pack of the row.
   template <class Update>
   void run(Update&& update) const {
-    // Local copies: stores of packs may alias anything, and would force what is behind a reference to be read again for every pack.
+    // Local copies: stores of packs may alias anything, and would force what is behind a reference to be read again for
+    // every pack.
     const PackMasks* all_masks = task.masks;
     const T *const in = task.in, *const upper_y = task.upper_y, *const upper_z = task.upper_z;
     T *const carry_y = task.carry_y, *const carry_z = task.carry_z;

@@ -1,12 +1,16 @@
 /* Stress of an element from the forces of its links, in the shared subset (spatial algebra).
- * Mean stress of a body under forces F_f at points a_f: sigma = (1 / V) sym sum_f a_f (x) F_f (virial theorem, no body forces). An axis has its
- * upper link at +a with force F_up on the element and its lower link at -a with -F_low, so it adds a (x) (F_up + F_low); a face
- * without a link is free of traction. */
+ * Mean stress of a body under forces F_f at points a_f: sigma = (1 / V) sym sum_f a_f (x) F_f (virial theorem, no body
+ * forces). An axis has its upper link at +a with force F_up on the element and its lower link at -a with -F_low, so it
+ * adds a (x) (F_up + F_low); a face without a link is free of traction. */
 
-typedef struct { REAL xx, yy, zz, yz, xz, xy; } stress_tensor; /* [Pa], global axes */
+typedef struct {
+  REAL xx, yy, zz, yz, xz, xy;
+} stress_tensor; /* [Pa], global axes */
 
 static inline stress_tensor stress_add(stress_tensor s, vec arm, vec forces) {
-  stress_tensor r = {FMA(arm.x, forces.x, s.xx), FMA(arm.y, forces.y, s.yy), FMA(arm.z, forces.z, s.zz),
+  stress_tensor r = {FMA(arm.x, forces.x, s.xx),
+                     FMA(arm.y, forces.y, s.yy),
+                     FMA(arm.z, forces.z, s.zz),
                      FMA(SPLAT(0.5), FMA(arm.y, forces.z, arm.z * forces.y), s.yz),
                      FMA(SPLAT(0.5), FMA(arm.x, forces.z, arm.z * forces.x), s.xz),
                      FMA(SPLAT(0.5), FMA(arm.x, forces.y, arm.y * forces.x), s.xy)};

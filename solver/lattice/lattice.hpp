@@ -1,5 +1,6 @@
 #pragma once
-/// Geometry as rows: every body is a set of cells of a regular grid, kept as rows of fixed (y, z) (design.md section 4).
+/// Geometry as rows: every body is a set of cells of a regular grid, kept as rows of fixed (y, z) (design.md section
+/// 4).
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,18 +11,19 @@ namespace dss {
 struct Row {
   int body = 0;
   int y = 0, z = 0;
-  int x_begin = 0, x_end = 0;      ///< first present cell, one past the last present cell
-  std::size_t first_element = 0;   ///< global number of the first present cell of the row
-  std::size_t first_cell = 0;      ///< place of cell x_begin in Lattice::present
-  int lower_y = -1, upper_y = -1;  ///< row at y - 1, y + 1 of the same body and z, or -1
-  int lower_z = -1, upper_z = -1;  ///< row at z - 1, z + 1 of the same body and y, or -1
+  int x_begin = 0, x_end = 0;     ///< first present cell, one past the last present cell
+  std::size_t first_element = 0;  ///< global number of the first present cell of the row
+  std::size_t first_cell = 0;     ///< place of cell x_begin in Lattice::present
+  int lower_y = -1, upper_y = -1; ///< row at y - 1, y + 1 of the same body and z, or -1
+  int lower_z = -1, upper_z = -1; ///< row at z - 1, z + 1 of the same body and y, or -1
 };
 
 /// All bodies' rows, body by body, in each body by z, then y. Rows without a present cell do not exist.
 /// Elements are the present cells, numbered in the order of rows, x fastest.
 struct Lattice {
   std::vector<Row> rows;
-  std::vector<std::uint8_t> present; ///< 1 for each present cell, 0 for each hole between x_begin and x_end, row after row
+  std::vector<std::uint8_t>
+      present; ///< 1 for each present cell, 0 for each hole between x_begin and x_end, row after row
   std::size_t element_count = 0;
 
   bool is_present(const Row& row, int x) const {

@@ -1,6 +1,6 @@
 #pragma once
-/// What is to be computed, with every number resolved: the output of a scene, the input of every variant and of the oracle.
-/// SI units throughout. Nothing here knows how or where it is computed.
+/// What is to be computed, with every number resolved: the output of a scene, the input of every variant and of the
+/// oracle. SI units throughout. Nothing here knows how or where it is computed.
 #include "solver/lattice/lattice.hpp"
 #include "solver/model/fields.hpp"
 #include "solver/model/signal.hpp"
@@ -18,7 +18,8 @@ enum class LinkLaw { paper, material };
 
 /// Constants of a link across the faces normal to one body axis.
 /// Rotational constants are about the body's x, y, z axes: for a link along x, k_rot[0] is the twist, the others bend.
-/// The paper's law is isotropic: k_normal == k_shear > 0, d_normal == d_shear, all k_rot equal, all d_rot equal, and the same on all axes.
+/// The paper's law is isotropic: k_normal == k_shear > 0, d_normal == d_shear, all k_rot equal, all d_rot equal, and
+/// the same on all axes.
 struct AxisConstants {
   double k_normal = 0, k_shear = 0; ///< [N/m]
   double d_normal = 0, d_shear = 0; ///< [N s/m]
@@ -43,15 +44,17 @@ struct Clamp {
   std::uint8_t dofs = 0; ///< bits of Dof
 };
 
-/// A wrench on each of some elements, the same on all, scaled by a signal. Global axes, dead (does not follow rotation).
+/// A wrench on each of some elements, the same on all, scaled by a signal. Global axes, dead (does not follow
+/// rotation).
 struct Load {
   std::vector<std::size_t> elements; ///< ascending
   Vec3 force{}, torque{};            ///< on each element [N], [N m], at signal value 1
   Signal signal;
 };
 
-/// A link outside the grid between the upper (+axis) face of element i and the lower (-axis) face of element j, unstrained at rest
-/// wherever the two elements are. Its arms are the half edges of each element's own body. Laws as in Body.
+/// A link outside the grid between the upper (+axis) face of element i and the lower (-axis) face of element j,
+/// unstrained at rest wherever the two elements are. Its arms are the half edges of each element's own body. Laws as in
+/// Body.
 struct ExtraLink {
   std::size_t i = 0, j = 0;
   int axis = 0;
@@ -59,7 +62,8 @@ struct ExtraLink {
   AxisConstants constants;
 };
 
-/// Weak springs and dampers that tie every element to the frame: force -k u - d v, moment -k_rot * 2 (qx, qy, qz) - d_rot w.
+/// Weak springs and dampers that tie every element to the frame: force -k u - d v, moment -k_rot * 2 (qx, qy, qz) -
+/// d_rot w.
 struct Stabilization {
   double k = 0, d = 0, k_rot = 0, d_rot = 0;
   bool is_present() const { return k != 0 || d != 0 || k_rot != 0 || d_rot != 0; }
@@ -68,10 +72,10 @@ struct Stabilization {
 /// A rigid or uniform initial motion of a set of elements.
 struct InitialMotion {
   std::vector<std::size_t> elements;
-  Vec3 displacement{}, rotation{};        ///< [m], rotation vector [rad] (each element about its own centre)
-  Vec3 velocity{}, angular_velocity{};    ///< [m/s], [rad/s]
-  bool is_rigid = false;                  ///< true: the set also turns about `centre` as one body (u and v get the rigid field)
-  Vec3 centre{};                          ///< [m]
+  Vec3 displacement{}, rotation{};     ///< [m], rotation vector [rad] (each element about its own centre)
+  Vec3 velocity{}, angular_velocity{}; ///< [m/s], [rad/s]
+  bool is_rigid = false; ///< true: the set also turns about `centre` as one body (u and v get the rigid field)
+  Vec3 centre{};         ///< [m]
 };
 
 /// Tolerances of a scene for one precision: relative errors, after one right-hand-side evaluation and after the run.
@@ -80,18 +84,19 @@ struct Tolerance {
 };
 
 struct Problem {
-  std::string name;                  ///< scene name
+  std::string name; ///< scene name
   Lattice lattice;
   std::vector<Body> bodies;
-  std::vector<Clamp> clamps;         ///< ascending by element, at most one each
+  std::vector<Clamp> clamps; ///< ascending by element, at most one each
   std::vector<Load> loads;
   std::vector<ExtraLink> extra_links;
   Stabilization stabilization;
-  std::array<Signal, 3> frame_acceleration; ///< uniform acceleration of every element: gravity minus the frame's a(t) [m/s^2]
+  std::array<Signal, 3>
+      frame_acceleration; ///< uniform acceleration of every element: gravity minus the frame's a(t) [m/s^2]
   std::vector<InitialMotion> initial_motions;
-  double dt = 0;                     ///< default step [s]
-  long steps = 0;                    ///< default number of steps
-  std::string integrator;            ///< default method
+  double dt = 0;          ///< default step [s]
+  long steps = 0;         ///< default number of steps
+  std::string integrator; ///< default method
   Tolerance tolerance_f64, tolerance_f32;
 
   std::size_t link_count() const { return lattice.link_count() + extra_links.size(); }
@@ -103,8 +108,8 @@ void initial_state(const Problem& problem, std::size_t first, std::size_t count,
 /// Rest position of the centre of cell (x, row.y, row.z) [m].
 Vec3 rest_position(const Problem& problem, const Row& row, int x);
 
-/// Empty if the planar model is exact for the problem (one element thick; clamps, loads, acceleration and initial state symmetric
-/// about the plane z = const), else one line that says what leaves the plane.
+/// Empty if the planar model is exact for the problem (one element thick; clamps, loads, acceleration and initial state
+/// symmetric about the plane z = const), else one line that says what leaves the plane.
 std::string why_not_planar(const Problem& problem);
 
 } // namespace dss

@@ -16,18 +16,22 @@ P::element element_at(std::span<const double> state, std::size_t e) {
 
 /// Force of a link on element i [N]. The axis is a constant in each case, as the shared laws want it.
 template <int axis>
-P::vec link_force(const P::element& i, const P::element& j, double edge_i, double edge_j, LinkLaw law, const AxisConstants& c) {
+P::vec link_force(const P::element& i, const P::element& j, double edge_i, double edge_j, LinkLaw law,
+                  const AxisConstants& c) {
   if (law == LinkLaw::material)
     return P::material_link(i, j, axis,
-                            {edge_i, edge_j, c.k_shear, c.k_normal - c.k_shear, c.d_shear, c.d_normal - c.d_shear, 2 * c.k_rot[2],
-                             2 * (c.k_rot[0] - c.k_rot[2]), 2 * (c.k_rot[1] - c.k_rot[2]), c.d_rot[2], c.d_rot[0] - c.d_rot[2],
-                             c.d_rot[1] - c.d_rot[2]},
+                            {edge_i, edge_j, c.k_shear, c.k_normal - c.k_shear, c.d_shear, c.d_normal - c.d_shear,
+                             2 * c.k_rot[2], 2 * (c.k_rot[0] - c.k_rot[2]), 2 * (c.k_rot[1] - c.k_rot[2]), c.d_rot[2],
+                             c.d_rot[0] - c.d_rot[2], c.d_rot[1] - c.d_rot[2]},
                             true)
         .force;
   const double k = c.k_normal, tau = c.d_normal / k;
-  return P::vec_scale(k, P::paper_link(i, j, axis, {edge_i, edge_i / 2, tau, 0, 0}, {edge_j, edge_j / 2, tau, 0, 0}, false, true).force);
+  return P::vec_scale(
+      k,
+      P::paper_link(i, j, axis, {edge_i, edge_i / 2, tau, 0, 0}, {edge_j, edge_j / 2, tau, 0, 0}, false, true).force);
 }
-P::vec link_force(const P::element& i, const P::element& j, int axis, double edge_i, double edge_j, LinkLaw law, const AxisConstants& c) {
+P::vec link_force(const P::element& i, const P::element& j, int axis, double edge_i, double edge_j, LinkLaw law,
+                  const AxisConstants& c) {
   if (axis == 0) return link_force<0>(i, j, edge_i, edge_j, law, c);
   if (axis == 1) return link_force<1>(i, j, edge_i, edge_j, law, c);
   return link_force<2>(i, j, edge_i, edge_j, law, c);
@@ -43,10 +47,13 @@ std::vector<ElementStress> element_stress(const Problem& problem, std::span<cons
   std::vector<std::array<P::vec, 3>> forces(lattice.element_count, {P::vec{0, 0, 0}, P::vec{0, 0, 0}, P::vec{0, 0, 0}});
   const auto add_link = [&](std::size_t i, std::size_t j, int axis, LinkLaw law, const AxisConstants& c) {
     const std::size_t a = std::size_t(axis);
-    const P::vec f = link_force(element_at(state, i), element_at(state, j), axis, body(i).edge[a], body(j).edge[a], law, c);
+    const P::vec f =
+        link_force(element_at(state, i), element_at(state, j), axis, body(i).edge[a], body(j).edge[a], law, c);
     for (const std::size_t e : {i, j}) forces[e][a] = P::vec_add(forces[e][a], f);
   };
-  lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) { add_link(i, j, axis, body(i).law, body(i).axis[std::size_t(axis)]); });
+  lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
+    add_link(i, j, axis, body(i).law, body(i).axis[std::size_t(axis)]);
+  });
   for (const ExtraLink& link : problem.extra_links) add_link(link.i, link.j, link.axis, link.law, link.constants);
 
   std::vector<ElementStress> stress(lattice.element_count);
@@ -58,8 +65,13 @@ std::vector<ElementStress> element_stress(const Problem& problem, std::span<cons
     s = P::stress_add(s, P::face_arm(q, 1, edge[1], edge[1] / 2), forces[e][1]);
     s = P::stress_add(s, P::face_arm(q, 2, edge[2], edge[2] / 2), forces[e][2]);
     const double volume = edge[0] * edge[1] * edge[2];
-    stress[e] = {s.xx / volume, s.yy / volume, s.zz / volume, s.yz / volume,
-                 s.xz / volume, s.xy / volume, std::sqrt(P::von_mises_squared(s)) / volume};
+    stress[e] = {s.xx / volume,
+                 s.yy / volume,
+                 s.zz / volume,
+                 s.yz / volume,
+                 s.xz / volume,
+                 s.xy / volume,
+                 std::sqrt(P::von_mises_squared(s)) / volume};
   }
   return stress;
 }

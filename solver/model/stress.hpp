@@ -11,7 +11,8 @@ namespace dss {
 /// xx, yy, zz, yz, xz, xy and von Mises [Pa], global axes.
 using ElementStress = std::array<double, 7>;
 
-/// Stress of every element from the forces of all its links, damping included, at the given state (13 doubles an element).
+/// Stress of every element from the forces of all its links, damping included, at the given state (13 doubles an
+/// element).
 std::vector<ElementStress> element_stress(const Problem& problem, std::span<const double> state);
 
 } // namespace dss

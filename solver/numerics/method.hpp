@@ -1,5 +1,6 @@
 #pragma once
-/// Time integration methods as data. One engine runs them all (variants/engine), the oracle runs them in classical form.
+/// Time integration methods as data. One engine runs them all (variants/engine), the oracle runs them in classical
+/// form.
 #include <array>
 #include <string_view>
 #include <vector>
@@ -14,8 +15,8 @@ namespace dss {
 ///
 /// Family leapfrog (velocity Verlet with one evaluation a step; see solver/numerics/README.md):
 ///     v_{n+1/2} = v_{n-1/2} + h a(x_n, p_n),  x_{n+1} = x_n + h v_{n+1/2},  p_{n+1} = v_{n+1/2} + (h/2) a(x_n, p_n)
-/// where p_n predicts v_n for velocity-dependent terms (damping, gyroscopic), started by v_{-1/2} = v_0 - (h/2) a_0, p_0 = v_0, and
-/// read as v_n = v_{n-1/2} + (h/2) a(x_n, p_n). Rotations move by the Cayley map, which keeps |q| = 1.
+/// where p_n predicts v_n for velocity-dependent terms (damping, gyroscopic), started by v_{-1/2} = v_0 - (h/2) a_0,
+/// p_0 = v_0, and read as v_n = v_{n-1/2} + (h/2) a(x_n, p_n). Rotations move by the Cayley map, which keeps |q| = 1.
 struct Method {
   static constexpr int max_stages = 4;
   enum class Family { runge_kutta, leapfrog };

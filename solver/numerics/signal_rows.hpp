@@ -10,8 +10,8 @@ namespace dss {
 /// Width of a row: frame acceleration x, y, z, then one value for each of problem.loads.
 inline std::size_t signal_count(const Problem& problem) { return 3 + problem.loads.size(); }
 
-/// Values at the stage times (first_step + n + node[s]) * dt of steps n = 0 .. steps - 1, step after step, one row each, and a last row at
-/// (first_step + steps) * dt.
+/// Values at the stage times (first_step + n + node[s]) * dt of steps n = 0 .. steps - 1, step after step, one row
+/// each, and a last row at (first_step + steps) * dt.
 std::vector<double> signal_rows(const Problem& problem, const Method& method, double dt, long first_step, long steps);
 
 } // namespace dss

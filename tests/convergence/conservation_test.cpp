@@ -1,4 +1,5 @@
-/// Balances of free bodies with open gaps and large rotations, for every variant: what each evaluation must keep, and what runs keep.
+/// Balances of free bodies with open gaps and large rotations, for every variant: what each evaluation must keep, and
+/// what runs keep.
 #include "solver/model/energy.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
@@ -56,7 +57,8 @@ protected:
 
 TEST_P(EveryFreeBody, feels_no_net_force_and_no_net_moment_from_its_own_links_damping_included) {
   const Problem box = fixture::make_block(6, 5, 3, LinkLaw::material, 1);
-  const State state = fixture::random_state(box, 11), rates = VariantRun{plugin, box, *find_method("rk4")}.derivative(state);
+  const State state = fixture::random_state(box, 11),
+              rates = VariantRun{plugin, box, *find_method("rk4")}.derivative(state);
   Balance force, moment;
   each(box, state, [&](std::size_t e, const Body& body, const double* y, const Vector& place) {
     const double* r = &rates[e * field_count];
@@ -75,7 +77,8 @@ TEST_P(EveryFreeBody, keeps_its_linear_momentum_over_10000_steps) {
   State start(box.lattice.element_count * field_count);
   initial_state(box, 0, box.lattice.element_count, start.data());
   for (const Method& method : methods()) {
-    const Momenta before = momenta(box, start), after = momenta(box, VariantRun{plugin, box, method}.after(start, 10000));
+    const Momenta before = momenta(box, start),
+                  after = momenta(box, VariantRun{plugin, box, method}.after(start, 10000));
     EXPECT_LE((after.linear.sum - before.linear.sum).norm(), 1e-13 * before.linear.magnitudes) << method.name;
   }
 }
@@ -88,8 +91,10 @@ TEST_P(EveryFreeBody, loses_angular_momentum_and_energy_at_the_order_of_the_meth
   const double energy = total_energy(box, start);
   for (const Method& method : methods()) {
     const auto errors = [&](int refinement) {
-      const State end = VariantRun{plugin, box, method, Model::spatial, Precision::f64, 1, 4e-4 / refinement}.after(start, 250 * refinement);
-      return std::pair((momenta(box, end).angular.sum - before.angular.sum).norm(), std::abs(total_energy(box, end) - energy));
+      const State end = VariantRun{plugin, box, method, Model::spatial, Precision::f64, 1, 4e-4 / refinement}.after(
+          start, 250 * refinement);
+      return std::pair((momenta(box, end).angular.sum - before.angular.sum).norm(),
+                       std::abs(total_energy(box, end) - energy));
     };
     const auto coarse = errors(4), fine = errors(8);
     EXPECT_GE(std::log2(coarse.first / fine.first), method.order - 0.2) << "angular momentum, " << method.name;

@@ -9,7 +9,8 @@ namespace {
 
 State at_rest(const Problem& problem) { return State(problem.lattice.element_count * field_count, 0.0); }
 
-/// The plate of n = 10 after 2 ms, by the oracle in long double with a step 16 times shorter than the paper's: converged to 1e-12.
+/// The plate of n = 10 after 2 ms, by the oracle in long double with a step 16 times shorter than the paper's:
+/// converged to 1e-12.
 class PlateAfterTwoMilliseconds : public testing::Test {
 protected:
   static const Scene& scene() {
@@ -24,9 +25,10 @@ protected:
     }();
     return state;
   }
-  static State run(const Plugin& plugin, const char* method, double dt, Precision precision, Model model = Model::spatial) {
-    return VariantRun{plugin, scene().problem, *find_method(method), model, precision, 1, dt}.after(at_rest(scene().problem),
-                                                                                                    std::lround(2e-3 / dt));
+  static State run(const Plugin& plugin, const char* method, double dt, Precision precision,
+                   Model model = Model::spatial) {
+    return VariantRun{plugin, scene().problem, *find_method(method), model, precision, 1, dt}.after(
+        at_rest(scene().problem), std::lround(2e-3 / dt));
   }
   /// Largest displacement error relative to the largest displacement.
   static double error(const State& state) {
@@ -39,16 +41,19 @@ protected:
     return difference / scale;
   }
   static double order(const Plugin& plugin, const char* method, double dt) {
-    return std::log2(error(run(plugin, method, dt, Precision::f64)) / error(run(plugin, method, dt / 2, Precision::f64)));
+    return std::log2(error(run(plugin, method, dt, Precision::f64)) /
+                     error(run(plugin, method, dt / 2, Precision::f64)));
   }
 };
 
 TEST_F(PlateAfterTwoMilliseconds, rk4_has_observed_order_four) {
-  for (const char* variant : {"scalar", "auto"}) EXPECT_NEAR(order(load_variant(variant), "rk4", 1e-6), 4, 0.1) << variant;
+  for (const char* variant : {"scalar", "auto"})
+    EXPECT_NEAR(order(load_variant(variant), "rk4", 1e-6), 4, 0.1) << variant;
 }
 
 TEST_F(PlateAfterTwoMilliseconds, velocity_verlet_has_observed_order_two_with_the_papers_damping) {
-  for (const char* variant : {"scalar", "auto"}) EXPECT_NEAR(order(load_variant(variant), "velocity_verlet", 5e-7), 2, 0.1) << variant;
+  for (const char* variant : {"scalar", "auto"})
+    EXPECT_NEAR(order(load_variant(variant), "velocity_verlet", 5e-7), 2, 0.1) << variant;
 }
 
 TEST_F(PlateAfterTwoMilliseconds, float32_keeps_a_relative_error_below_1e_4_at_the_papers_step) {
@@ -63,7 +68,9 @@ TEST_F(PlateAfterTwoMilliseconds, float32_keeps_a_relative_error_below_1e_4_at_t
 TEST_F(PlateAfterTwoMilliseconds, planar_and_spatial_agree_to_1e_12) {
   for (const char* variant : {"scalar", "auto"}) {
     const Plugin& plugin = load_variant(variant);
-    EXPECT_LE(relative_error(run(plugin, "rk4", 1e-6, Precision::f64, Model::planar), run(plugin, "rk4", 1e-6, Precision::f64)), 1e-12)
+    EXPECT_LE(relative_error(run(plugin, "rk4", 1e-6, Precision::f64, Model::planar),
+                             run(plugin, "rk4", 1e-6, Precision::f64)),
+              1e-12)
         << variant;
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// Runs a problem on a variant and compares states: by tolerance with the oracle, to the last bit among variants with FMA.
+/// Runs a problem on a variant and compares states: by tolerance with the oracle, to the last bit among variants with
+/// FMA.
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
 #include "variants/loader.hpp"
@@ -82,8 +83,8 @@ inline State oracle_after(const Problem& problem, const Method& method, const St
   return result;
 }
 
-/// Largest difference over a group of fields (u, v, q, w), relative to the group's largest magnitude in `expected`; the worst group.
-/// NaN anywhere gives infinity.
+/// Largest difference over a group of fields (u, v, q, w), relative to the group's largest magnitude in `expected`; the
+/// worst group. NaN anywhere gives infinity.
 inline double relative_error(const State& actual, const State& expected) {
   constexpr int groups[][2] = {{ux, uz}, {vx, vz}, {qs, qz}, {wx, wz}};
   double worst = 0;
@@ -95,7 +96,8 @@ inline double relative_error(const State& actual, const State& expected) {
         difference = std::isnan(d) ? std::numeric_limits<double>::infinity() : std::max(difference, d);
         scale = std::max(scale, std::abs(expected[at + std::size_t(f)]));
       }
-    if (difference > 0) worst = std::max(worst, scale > 0 ? difference / scale : std::numeric_limits<double>::infinity());
+    if (difference > 0)
+      worst = std::max(worst, scale > 0 ? difference / scale : std::numeric_limits<double>::infinity());
   }
   return worst;
 }

@@ -1,4 +1,5 @@
-/// The kernel cases as C++: declared costs against counted ones, and every compiled module against long double and against each other.
+/// The kernel cases as C++: declared costs against counted ones, and every compiled module against long double and
+/// against each other.
 #include "kernels/simd/simd.hpp"
 
 #include <cmath>
@@ -18,7 +19,9 @@ struct Counted {
   friend Counted operator-(Counted a) { return Counted(-a.value); }
 };
 namespace simd { // before the physics is included: it calls simd::fma by its qualified name
-inline Counted fma(Counted a, Counted b, Counted c) { return Counted::flops += 2, Counted(a.value * b.value + c.value); }
+inline Counted fma(Counted a, Counted b, Counted c) {
+  return Counted::flops += 2, Counted(a.value * b.value + c.value);
+}
 inline long double fma(long double a, long double b, long double c) { return a * b + c; }
 } // namespace simd
 } // namespace dss
@@ -81,7 +84,8 @@ TEST(StageRow, makes_the_flops_that_its_readme_declares) {
 std::vector<const Plugin*> plugins_with_kernels() {
   std::vector<const Plugin*> list;
   for (const VariantStatus& variant : variants())
-    if (variant.is_usable() && load_variant(variant.name).kernels != nullptr) list.push_back(&load_variant(variant.name));
+    if (variant.is_usable() && load_variant(variant.name).kernels != nullptr)
+      list.push_back(&load_variant(variant.name));
   return list;
 }
 
@@ -128,7 +132,8 @@ TEST(CompiledKernels, are_bitwise_equal_over_the_variants_with_fma) {
     for (std::size_t k = 0; k < plugin->kernels().size(); ++k) {
       const CompiledKernel &a = first->kernels()[k], &b = plugin->kernels()[k];
       EXPECT_EQ(a.precision == Precision::f64 ? differing<double>(a, b) : differing<float>(a, b), 0u)
-          << a.name << ' ' << name(a.model) << ' ' << name(a.precision) << ": " << first->name << " and " << plugin->name;
+          << a.name << ' ' << name(a.model) << ' ' << name(a.precision) << ": " << first->name << " and "
+          << plugin->name;
     }
     ++compared;
   }

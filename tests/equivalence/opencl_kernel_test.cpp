@@ -1,4 +1,5 @@
-/// The OpenCL flavour of the shared physics: every kernel case is built as OpenCL C for the CPU device and gives the same bits as packs.
+/// The OpenCL flavour of the shared physics: every kernel case is built as OpenCL C for the CPU device and gives the
+/// same bits as packs.
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
@@ -25,11 +26,13 @@ std::string shared_header(const std::string& path) {
 std::string program_source(const CompiledKernel& kernel) {
   const std::string scalar = kernel.precision == Precision::f64 ? "double" : "float";
   std::string source = "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#pragma OPENCL FP_CONTRACT OFF\n";
-  source += fmt::format("#define REAL {0}8\n#define SPLAT(a) (({0}8)({0})(a))\n#define FMA(a, b, c) fma(a, b, c)\n", scalar);
+  source +=
+      fmt::format("#define REAL {0}8\n#define SPLAT(a) (({0}8)({0})(a))\n#define FMA(a, b, c) fma(a, b, c)\n", scalar);
   const bool is_planar = kernel.model == Model::planar;
   if (is_planar) source += "#define PLANAR\n";
   source += shared_header(is_planar ? "algebra/planar.h" : "algebra/spatial.h");
-  for (const char* header : {"link_force/link_force.h", "motion/motion.h", "rk_update/rk_update.h"}) source += shared_header(header);
+  for (const char* header : {"link_force/link_force.h", "motion/motion.h", "rk_update/rk_update.h"})
+    source += shared_header(header);
   if (!is_planar) source += shared_header("stress/stress.h");
   source += shared_header("cases.h");
   source += fmt::format(R"(
@@ -50,7 +53,8 @@ protected:
     cl_platform_id platform;
     cl_uint count = 0;
     if (clGetPlatformIDs(1, &platform, &count) != CL_SUCCESS || count == 0) GTEST_SKIP() << "no OpenCL platform";
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_CPU, 1, &device, nullptr) != CL_SUCCESS) GTEST_SKIP() << "no OpenCL CPU device";
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_CPU, 1, &device, nullptr) != CL_SUCCESS)
+      GTEST_SKIP() << "no OpenCL CPU device";
     context = clCreateContext(nullptr, 1, &device, nullptr, nullptr, &error);
     ASSERT_EQ(error, CL_SUCCESS);
     queue = clCreateCommandQueue(context, device, 0, &error);
@@ -78,8 +82,10 @@ protected:
     EXPECT_EQ(error, CL_SUCCESS);
     if (error != CL_SUCCESS) return {};
     std::vector<T> results(operands.output_count(), std::numeric_limits<T>::quiet_NaN());
-    const std::size_t in_bytes = std::size_t(kernel.inputs) * Operands<T>::elements * sizeof(T), out_bytes = results.size() * sizeof(T);
-    cl_mem in = clCreateBuffer(context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, in_bytes, const_cast<T*>(operands.inputs()), &error);
+    const std::size_t in_bytes = std::size_t(kernel.inputs) * Operands<T>::elements * sizeof(T),
+                      out_bytes = results.size() * sizeof(T);
+    cl_mem in = clCreateBuffer(context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, in_bytes,
+                               const_cast<T*>(operands.inputs()), &error);
     cl_mem out = clCreateBuffer(context, CL_MEM_WRITE_ONLY, out_bytes, nullptr, &error);
     const cl_int stride = Operands<T>::elements;
     clSetKernelArg(entry, 0, sizeof in, &in);

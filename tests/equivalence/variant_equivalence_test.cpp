@@ -1,5 +1,6 @@
-/// Every variant against the oracle, and against each other: one parametrised test over the registry, so that a new variant is tested
-/// because it exists. Problems are built in code and cover every term; the shipped scenes are covered by `dssbench verify`.
+/// Every variant against the oracle, and against each other: one parametrised test over the registry, so that a new
+/// variant is tested because it exists. Problems are built in code and cover every term; the shipped scenes are covered
+/// by `dssbench verify`.
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
 
@@ -24,7 +25,8 @@ std::vector<Case> cases() {
     const std::string suffix = law == LinkLaw::paper ? "_paper" : "_material";
     all.push_back({"undamped" + suffix, fixture::make_block(5, 4, 3, law, 0)});
     all.push_back({"sheet" + suffix, fixture::make_block(19, 6, 1, law), true});
-    for (const int n : {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31}) // awkward sizes: around the lanes of every variant, and primes
+    for (const int n :
+         {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31}) // awkward sizes: around the lanes of every variant, and primes
       all.push_back({"row_of_" + std::to_string(n) + suffix, fixture::make_block(n, 2, n < 6 ? n : 1, law)});
   }
   return all;
@@ -40,7 +42,9 @@ std::vector<std::string> usable_variants() {
 class EveryVariant : public testing::TestWithParam<std::string> {
 protected:
   const Plugin& plugin = load_variant(GetParam());
-  std::vector<Model> models(const Case& c) const { return c.is_planar ? std::vector{Model::spatial, Model::planar} : std::vector{Model::spatial}; }
+  std::vector<Model> models(const Case& c) const {
+    return c.is_planar ? std::vector{Model::spatial, Model::planar} : std::vector{Model::spatial};
+  }
   State start(const Case& c, Model model, Precision precision, unsigned seed) const {
     State state = fixture::random_state(c.problem, seed, c.gap);
     return rounded(model == Model::planar ? flattened(state) : state, precision);
@@ -55,7 +59,8 @@ TEST_P(EveryVariant, agrees_with_the_oracle_after_one_evaluation_of_a_random_sta
           const State state = start(c, model, precision, 1);
           const double error = relative_error(VariantRun{plugin, c.problem, method, model, precision}.derivative(state),
                                               oracle_derivative(c.problem, method, state));
-          EXPECT_LE(error, precision == Precision::f64 ? 1e-13 : 1e-5) << c.name << ' ' << name(model) << ' ' << name(precision);
+          EXPECT_LE(error, precision == Precision::f64 ? 1e-13 : 1e-5)
+              << c.name << ' ' << name(model) << ' ' << name(precision);
         }
 }
 
@@ -68,7 +73,8 @@ TEST_P(EveryVariant, agrees_with_the_oracle_after_a_run_from_a_moderate_state) {
           state = rounded(model == Model::planar ? flattened(state) : state, precision);
           const double error = relative_error(VariantRun{plugin, c.problem, method, model, precision}.after(state, 60),
                                               oracle_after(c.problem, method, state, 60));
-          EXPECT_LE(error, precision == Precision::f64 ? 1e-10 : 2e-3) << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name;
+          EXPECT_LE(error, precision == Precision::f64 ? 1e-10 : 2e-3)
+              << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name;
         }
 }
 
@@ -80,7 +86,11 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
         const State state = rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
         const State one = VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
         for (const int threads : {2, 3, 4, 7})
-          EXPECT_EQ(differing_bits(one, (VariantRun{plugin, c.problem, method, Model::spatial, precision, threads}).after(state, 20), precision), 0u)
+          EXPECT_EQ(differing_bits(
+                        one,
+                        (VariantRun{plugin, c.problem, method, Model::spatial, precision, threads}).after(state, 20),
+                        precision),
+                    0u)
               << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << threads << " threads";
       }
 }
@@ -99,12 +109,14 @@ TEST_P(EveryVariant, reports_the_step_and_element_of_the_first_non_finite_state)
     for (const int threads : {1, 3}) {
       State state(problem.lattice.element_count * field_count, 0.0);
       state[13 * field_count + uy] = std::numeric_limits<double>::infinity();
-      const auto run = plugin.create({problem, method, Model::spatial, Precision::f64, problem.dt, plugin.is_threaded ? threads : 1});
+      const auto run = plugin.create(
+          {problem, method, Model::spatial, Precision::f64, problem.dt, plugin.is_threaded ? threads : 1});
       run->write(0, state);
       const Outcome outcome = run->advance(10, signal_rows(problem, method, problem.dt, 0, 10));
       EXPECT_FALSE(outcome.is_finite) << method.name;
       EXPECT_EQ(outcome.step, 0) << method.name;
-      EXPECT_LE(outcome.element, 13u + 9u) << method.name; // the element itself or a neighbour that it reached within the step
+      EXPECT_LE(outcome.element, 13u + 9u)
+          << method.name; // the element itself or a neighbour that it reached within the step
       EXPECT_GE(outcome.element, 13u - 9u - 4u) << method.name;
     }
 }
@@ -129,7 +141,9 @@ TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
           state = rounded(model == Model::planar ? flattened(state) : state, precision);
           const State first = VariantRun{*fused[0], c.problem, method, model, precision}.after(state, 60);
           for (const Plugin* other : fused)
-            EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60), precision), 0u)
+            EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60),
+                                     precision),
+                      0u)
                 << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name << ' ' << other->name;
         }
 }

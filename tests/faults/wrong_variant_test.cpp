@@ -26,12 +26,15 @@ public:
   }
   void derivative(std::span<const double> signals, std::span<double> rates) override {
     right_->derivative(signals, rates);
-    if (fault == Fault::rate) rates[rates.size() - field_count + vx] *= 1 + (setup_.precision == Precision::f64 ? 1e-12 : 1e-4);
+    if (fault == Fault::rate)
+      rates[rates.size() - field_count + vx] *= 1 + (setup_.precision == Precision::f64 ? 1e-12 : 1e-4);
   }
   Outcome advance(long steps, std::span<const double> signals) override {
     const std::size_t row = 3 + setup_.problem.loads.size();
     const bool is_short = fault == Fault::lost_step && steps > 1;
-    return right_->advance(is_short ? steps - 1 : steps, is_short ? signals.first(signals.size() - row * std::size_t(setup_.method.stages)) : signals);
+    return right_->advance(is_short ? steps - 1 : steps,
+                           is_short ? signals.first(signals.size() - row * std::size_t(setup_.method.stages))
+                                    : signals);
   }
   std::string schedule() const override { return right_->schedule(); }
   std::size_t bytes() const override { return right_->bytes(); }
@@ -41,8 +44,11 @@ private:
   std::unique_ptr<Executor> right_;
 };
 
-constexpr Plugin wrong{plugin_abi, "wrong", "x86-64-v3", true, true,
-                       [](const Setup& setup) -> std::unique_ptr<Executor> { return std::make_unique<WrongExecutor>(setup); }, nullptr};
+constexpr Plugin wrong{
+    plugin_abi,  "wrong",
+    "x86-64-v3", true,
+    true,        [](const Setup& setup) -> std::unique_ptr<Executor> { return std::make_unique<WrongExecutor>(setup); },
+    nullptr};
 
 std::size_t failures(Fault injected) {
   fault = injected;
@@ -61,7 +67,8 @@ TEST(Verify, catches_every_injected_fault_and_blames_nobody_else) {
   for (const VariantStatus& variant : variants())
     if (variant.name == "avx2" && !variant.is_usable()) GTEST_SKIP() << variant.unusable;
   EXPECT_EQ(failures(Fault::none), 0u);
-  for (const Fault injected : {Fault::rate, Fault::last_element, Fault::lost_step, Fault::threads, Fault::not_a_number, Fault::unwritten})
+  for (const Fault injected :
+       {Fault::rate, Fault::last_element, Fault::lost_step, Fault::threads, Fault::not_a_number, Fault::unwritten})
     EXPECT_GT(failures(injected), 0u) << "fault " << int(injected);
 }
 

@@ -15,7 +15,8 @@ template <class T>
   const KernelCase<R>& c = kernel_cases<R>()[std::size_t(kernel)];
   R operands[most], results[most];
   for (std::size_t e = 0; e < elements; e += std::size_t(simd::lanes<T>)) {
-    for (int n = 0; n < c.inputs; ++n) operands[n] = simd::load(static_cast<const T*>(in) + std::size_t(n) * stride + e);
+    for (int n = 0; n < c.inputs; ++n)
+      operands[n] = simd::load(static_cast<const T*>(in) + std::size_t(n) * stride + e);
     c.evaluate(operands, results);
     for (int n = 0; n < c.outputs; ++n) simd::store(static_cast<T*>(out) + std::size_t(n) * stride + e, results[n]);
   }

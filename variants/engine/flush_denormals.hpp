@@ -1,5 +1,6 @@
 #pragma once
-/// Denormal numbers count as zero while this lives, on the calling thread (design.md section 5): MXCSR bits FTZ and DAZ.
+/// Denormal numbers count as zero while this lives, on the calling thread (design.md section 5): MXCSR bits FTZ and
+/// DAZ.
 #include <xmmintrin.h>
 
 namespace dss {

@@ -35,7 +35,8 @@ struct RowKernels {
   }
 
   using S = Physics<T>;
-  static void extra_link(const ExtraLinkConstants<T>& link, const T* fields_i, const T* fields_j, T* wrench_i, T* wrench_j) {
+  static void extra_link(const ExtraLinkConstants<T>& link, const T* fields_i, const T* fields_j, T* wrench_i,
+                         T* wrench_j) {
     typename S::element i, j;
     each_component(i, [&](T& c) { c = *fields_i++; });
     each_component(j, [&](T& c) { c = *fields_j++; });
@@ -44,10 +45,13 @@ struct RowKernels {
       const auto& a = b.axis[axis];
       typename S::exchange x;
       if (link.is_material)
-        x = S::material_link(i, j, axis,
-                             {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns, a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz}, true);
+        x = S::material_link(
+            i, j, axis,
+            {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns, a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz},
+            true);
       else
-        x = S::paper_link(i, j, axis, {link.edge_i, link.edge_i / 2, b.tau, b.kt2, b.dt}, {link.edge_j, link.edge_j / 2, b.tau, b.kt2, b.dt}, true, true);
+        x = S::paper_link(i, j, axis, {link.edge_i, link.edge_i / 2, b.tau, b.kt2, b.dt},
+                          {link.edge_j, link.edge_j / 2, b.tau, b.kt2, b.dt}, true, true);
       const auto add = [&](T* wrench, T sign, typename S::spin moment) {
         each_component(x.force, [&](T& c) { *wrench = simd::fma(sign * link.unit, c, *wrench), ++wrench; });
         each_component(moment, [&](T& c) { *wrench = simd::fma(link.unit, c, *wrench), ++wrench; });

@@ -1,5 +1,6 @@
 #pragma once
-/// The compiled row kernels of one (model, precision, terms), behind function pointers: the engine around them is compiled once a precision.
+/// The compiled row kernels of one (model, precision, terms), behind function pointers: the engine around them is
+/// compiled once a precision.
 #include "kernels/physics.hpp"
 #include "kernels/stage_row/row.hpp"
 #include "solver/model/model.hpp"
@@ -12,8 +13,9 @@ namespace dss {
 /// One more row costs about 5 s of compile time a module.
 inline constexpr std::array compiled_terms{
     // material, damped, bending, gyroscopic, tied
-    Terms{false, false, false, false, false}, Terms{false, true, false, false, false}, Terms{false, true, true, true, true},
-    Terms{true, false, false, false, false},  Terms{true, true, false, false, false},  Terms{true, true, true, true, true},
+    Terms{false, false, false, false, false}, Terms{false, true, false, false, false},
+    Terms{false, true, true, true, true},     Terms{true, false, false, false, false},
+    Terms{true, true, false, false, false},   Terms{true, true, true, true, true},
 };
 
 /// Constants of one link outside the grid; T-valued, both laws.
@@ -34,8 +36,8 @@ struct KernelSet {
   bool (*stage)(const RowTask<T>& task, bool is_last);
   /// One leapfrog step of a row in place; false if it left a non-finite velocity.
   bool (*leapfrog)(const RowTask<T>& task);
-  /// Only the links from a row (its `in`, `upper_*`, `carry_*`) across an axis (1 or 2): what a block of rows needs from the row before it.
-  /// `fields`: fields a pack of the rows holds.
+  /// Only the links from a row (its `in`, `upper_*`, `carry_*`) across an axis (1 or 2): what a block of rows needs
+  /// from the row before it. `fields`: fields a pack of the rows holds.
   void (*prime)(const RowTask<T>& task, int axis, int fields);
   /// A link outside the grid: fields of both elements in, wrenches (force then moment) added to both.
   void (*extra_link)(const ExtraLinkConstants<T>& link, const T* i, const T* j, T* wrench_i, T* wrench_j);

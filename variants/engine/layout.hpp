@@ -1,5 +1,6 @@
 #pragma once
-/// Which of the 13 fields, six wrench components and six clamp bits a model keeps, in the order in which its packs hold them.
+/// Which of the 13 fields, six wrench components and six clamp bits a model keeps, in the order in which its packs hold
+/// them.
 #include "solver/model/fields.hpp"
 #include "solver/model/model.hpp"
 

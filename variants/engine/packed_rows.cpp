@@ -16,7 +16,8 @@ Place place_of(const PackedRows<T>& packed, std::size_t element) {
   const std::size_t r = row_of(packed.lattice, element);
   Place place{r, 0, 0};
   const Row& row = packed.lattice.rows[r];
-  const std::size_t end = r + 1 < packed.rows.size() ? packed.lattice.rows[r + 1].first_element : packed.lattice.element_count;
+  const std::size_t end =
+      r + 1 < packed.rows.size() ? packed.lattice.rows[r + 1].first_element : packed.lattice.element_count;
   if (end - row.first_element == std::size_t(row.x_end - row.x_begin)) { // no holes
     const int x = row.x_begin + int(element - row.first_element);
     return {r, x / W - packed.rows[r].first_pack, x % W};
@@ -29,7 +30,8 @@ Place place_of(const PackedRows<T>& packed, std::size_t element) {
 
 template <class T>
 PackedRows<T>::PackedRows(const Problem& problem, Model model)
-    : lattice(problem.lattice), layout(model_layout(model)), rows(lattice.rows.size()), applied_index_(lattice.rows.size(), -1) {
+    : lattice(problem.lattice), layout(model_layout(model)), rows(lattice.rows.size()),
+      applied_index_(lattice.rows.size(), -1) {
   reach = lattice.row_reach();
   choose_kernels(problem, model);
   std::size_t packs = 0;
@@ -94,7 +96,8 @@ void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
     }
     return is_velocity_dependent;
   };
-  if (choose() && !common.is_velocity_dependent()) common.is_damped = true, choose(); // one width of leapfrog rows for all bodies
+  if (choose() && !common.is_velocity_dependent())
+    common.is_damped = true, choose(); // one width of leapfrog rows for all bodies
   for (const Body& body : problem.bodies) bodies_.push_back(body_constants<T>(body, problem.stabilization));
   for (const KernelSet<T>* set : kernels_) {
     carry_size = std::max(carry_size, set->carry_size);
@@ -106,7 +109,9 @@ template <class T>
 void PackedRows<T>::mark_links() {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Row& row = lattice.rows[r];
-    const auto links_to = [&](int other, int x) { return other >= 0 && lattice.is_present(lattice.rows[std::size_t(other)], x); };
+    const auto links_to = [&](int other, int x) {
+      return other >= 0 && lattice.is_present(lattice.rows[std::size_t(other)], x);
+    };
     each_cell(lattice, row, [&](std::size_t, int x) {
       PackMasks& masks = masks_[rows[r].pack_offset + std::size_t(x / W - rows[r].first_pack)];
       const auto bit = simd::LaneMask(1u << (x % W));
@@ -173,7 +178,8 @@ void PackedRows<T>::apply_clamps(const Problem& problem) {
   for (const Clamp& clamp : problem.clamps) {
     const Place place = place_of(*this, clamp.element);
     AppliedRow& row = applied_row(place.row);
-    if (row.free_lanes.empty()) row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, simd::all_lanes<T>);
+    if (row.free_lanes.empty())
+      row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, simd::all_lanes<T>);
     for (std::size_t c = 0; c < components; ++c)
       if ((clamp.dofs >> layout.wrench[c] & 1) != 0)
         row.free_lanes[std::size_t(place.pack) * components + c] &= simd::LaneMask(~(1u << place.lane));
@@ -182,7 +188,8 @@ void PackedRows<T>::apply_clamps(const Problem& problem) {
 
 template <class T>
 std::size_t PackedRows<T>::bytes() const {
-  std::size_t sum = rows.size() * sizeof(PackedRow<T>) + masks_.size() * sizeof(PackMasks) + applied_index_.size() * sizeof(int);
+  std::size_t sum =
+      rows.size() * sizeof(PackedRow<T>) + masks_.size() * sizeof(PackMasks) + applied_index_.size() * sizeof(int);
   for (const auto& row : applied_) {
     sum += sizeof(AppliedRow) + row->free_lanes.size() * sizeof(simd::LaneMask);
     for (const Buffer<T>& values : row->values) sum += values.bytes();
@@ -193,12 +200,21 @@ std::size_t PackedRows<T>::bytes() const {
 
 template <class T>
 static void set_link_constants(BodyConstants<T>& c, std::size_t axis, const AxisConstants& a) {
-  c.axis[axis] = {T(a.k_shear), T(a.k_normal - a.k_shear), T(a.d_shear), T(a.d_normal - a.d_shear),
-                  T(2 * a.k_rot[2]), T(2 * (a.k_rot[0] - a.k_rot[2])), T(2 * (a.k_rot[1] - a.k_rot[2])),
-                  T(a.d_rot[2]), T(a.d_rot[0] - a.d_rot[2]), T(a.d_rot[1] - a.d_rot[2])};
+  c.axis[axis] = {T(a.k_shear),
+                  T(a.k_normal - a.k_shear),
+                  T(a.d_shear),
+                  T(a.d_normal - a.d_shear),
+                  T(2 * a.k_rot[2]),
+                  T(2 * (a.k_rot[0] - a.k_rot[2])),
+                  T(2 * (a.k_rot[1] - a.k_rot[2])),
+                  T(a.d_rot[2]),
+                  T(a.d_rot[0] - a.d_rot[2]),
+                  T(a.d_rot[1] - a.d_rot[2])};
 }
 /// Unit of force of a link law: the paper's law is computed in units of k.
-static double force_unit(LinkLaw law, const AxisConstants& a) { return law == LinkLaw::paper && a.k_normal > 0 ? a.k_normal : 1; }
+static double force_unit(LinkLaw law, const AxisConstants& a) {
+  return law == LinkLaw::paper && a.k_normal > 0 ? a.k_normal : 1;
+}
 template <class T>
 static void set_paper_constants(BodyConstants<T>& c, const AxisConstants& a) {
   c.tau = T(a.d_normal / a.k_normal);
@@ -219,7 +235,8 @@ BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
     c.inverse_inertia[a] = T(unit / body.inertia[a]);
   }
   c.inverse_mass = T(unit / body.mass);
-  c.tie_k = T(tie.k / unit), c.tie_d = T(tie.d / unit), c.tie_k2_rot = T(2 * tie.k_rot / unit), c.tie_d_rot = T(tie.d_rot / unit);
+  c.tie_k = T(tie.k / unit), c.tie_d = T(tie.d / unit), c.tie_k2_rot = T(2 * tie.k_rot / unit),
+  c.tie_d_rot = T(tie.d_rot / unit);
   return c;
 }
 

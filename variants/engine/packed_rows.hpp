@@ -31,14 +31,15 @@ public:
   const Lattice& lattice;
   const ModelLayout layout;
   std::vector<PackedRow<T>> rows;
-  int reach = 0;              ///< largest distance in rows of two linked elements
-  int packs_across = 0;       ///< packs of the widest body's grid
-  int max_packs = 0;          ///< packs of the longest row
-  int carry_size = 0;         ///< scalars a pack of a carry buffer, largest over the bodies
+  int reach = 0;        ///< largest distance in rows of two linked elements
+  int packs_across = 0; ///< packs of the widest body's grid
+  int max_packs = 0;    ///< packs of the longest row
+  int carry_size = 0;   ///< scalars a pack of a carry buffer, largest over the bodies
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
 
-  /// Where a row's extra wrenches go (links outside the grid), or null; six (three) components a pack, in newtons. Signal: constant 1.
+  /// Where a row's extra wrenches go (links outside the grid), or null; six (three) components a pack, in newtons.
+  /// Signal: constant 1.
   T* extra_wrench(std::size_t row) { return extra_.empty() ? nullptr : extra_[row].data(); }
   std::size_t bytes() const;
 

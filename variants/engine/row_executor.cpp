@@ -17,7 +17,8 @@ RowExecutor<T>::RowExecutor(const Setup& setup) : setup_(setup), packed_(setup.p
   }
   const std::vector<int> cuts = cut_rows(packed_, setup_.threads);
   for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-    blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), method.stages * packed_.reach, !is_leapfrog(), method.stages);
+    blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), method.stages * packed_.reach, !is_leapfrog(),
+                         method.stages);
 }
 
 template <class T>
@@ -73,7 +74,8 @@ void RowExecutor<T>::read(std::size_t first, std::span<double> fields) {
   std::fill(fields.begin(), fields.end(), 0.0);
   each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
     const std::span<double> out = fields.subspan((element - first) * field_count, field_count);
-    for (int f = 0; f < packed_.fields(); ++f) out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
+    for (int f = 0; f < packed_.fields(); ++f)
+      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
     if (is_started_) read_synchronised(element, lane, out);
   });
 }
@@ -85,7 +87,8 @@ void RowExecutor<T>::read_synchronised(std::size_t element, const T* lane, std::
   const std::size_t pack = packed_.rows[place.row].pack_offset + std::size_t(place.pack);
   const T* rates = end_rates_.data() + pack * std::size_t(packed_.fields() * W) + place.lane;
   each_velocity([&](int f, int half) {
-    out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(simd::fma(T(setup_.dt / 2), rates[f * W], lane[half * W]));
+    out[std::size_t(packed_.layout.fields[std::size_t(f)])] =
+        double(simd::fma(T(setup_.dt / 2), rates[f * W], lane[half * W]));
   });
 }
 
@@ -139,7 +142,8 @@ void RowExecutor<T>::start_leapfrog(std::span<const double> signals) {
         T* lane = row(r) + std::ptrdiff_t(p) * stored_fields() * W + l;
         const std::size_t pack = packed_.rows[std::size_t(r)].pack_offset + std::size_t(p);
         const T* rate = rates.data() + pack * std::size_t(packed_.fields() * W) + l;
-        each_velocity([&](int f, int half) { lane[half * W] = simd::fma(T(-setup_.dt / 2), rate[f * W], lane[f * W]); });
+        each_velocity(
+            [&](int f, int half) { lane[half * W] = simd::fma(T(-setup_.dt / 2), rate[f * W], lane[f * W]); });
       }
   for (Block<T>& block : blocks_)
     for (int r = block.begin; r < block.end; ++r)
@@ -225,7 +229,8 @@ std::size_t RowExecutor<T>::first_failed_element(int r) {
   bool is_found = false;
   const Row& lattice_row = packed_.lattice.rows[std::size_t(r)];
   each_cell(packed_.lattice, lattice_row, [&](std::size_t element, int x) {
-    const T* lane = row(r) + std::ptrdiff_t(x / W - packed_.rows[std::size_t(r)].first_pack) * stored_fields() * W + x % W;
+    const T* lane =
+        row(r) + std::ptrdiff_t(x / W - packed_.rows[std::size_t(r)].first_pack) * stored_fields() * W + x % W;
     for (int f = 0; f < packed_.fields() && !is_found; ++f)
       if (!std::isfinite(lane[f * W])) failed = element, is_found = true;
   });

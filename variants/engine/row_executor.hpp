@@ -1,5 +1,6 @@
 #pragma once
-/// The executor of every CPU variant: converts states, starts and reads the methods, runs the schedule on a team of threads.
+/// The executor of every CPU variant: converts states, starts and reads the methods, runs the schedule on a team of
+/// threads.
 #include "solver/numerics/signal_rows.hpp"
 #include "variants/api.hpp"
 #include "variants/engine/staged.hpp"
@@ -42,12 +43,12 @@ private:
 
   const Setup setup_;
   PackedRows<T> packed_;
-  std::vector<Block<T>> blocks_;             ///< wavefront
-  std::optional<StagedRows<T>> staged_;      ///< or stage by stage
+  std::vector<Block<T>> blocks_;        ///< wavefront
+  std::optional<StagedRows<T>> staged_; ///< or stage by stage
   int parity_ = 0;
-  bool is_started_ = false;                  ///< leapfrog: stored velocities are those of the half step before
+  bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before
   std::vector<double> end_signals_;
-  Buffer<T> end_rates_;                      ///< leapfrog: rates at the end of the last advance, made when first read
+  Buffer<T> end_rates_; ///< leapfrog: rates at the end of the last advance, made when first read
 };
 
 /// The plug-in record of a module built over this engine.

@@ -9,7 +9,8 @@
 namespace dss {
 
 /// Carry buffers of one stage of one block: the link forces that rows leave for their upper neighbours.
-/// Across y the upper row is the next one; across z it is at most `reach` rows ahead, so rings of 2 and reach + 1 rows do.
+/// Across y the upper row is the next one; across z it is at most `reach` rows ahead, so rings of 2 and reach + 1 rows
+/// do.
 template <class T>
 class CarryRings {
 public:

@@ -3,9 +3,11 @@
 namespace dss {
 
 template <class T>
-StagedRows<T>::StagedRows(PackedRows<T>& packed, const Problem& problem, const Method& method, double dt, int fields, int threads)
-    : packed_(packed), method_(method), fields_(fields), pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)),
-      cuts_(cut_rows(packed, threads)), failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, dt)), extra_links_(problem, packed) {
+StagedRows<T>::StagedRows(PackedRows<T>& packed, const Problem& problem, const Method& method, double dt, int fields,
+                          int threads)
+    : packed_(packed), method_(method), fields_(fields),
+      pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)), cuts_(cut_rows(packed, threads)),
+      failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, dt)), extra_links_(problem, packed) {
   const PackedRow<T>& last = packed.rows.back();
   const std::size_t packs = last.pack_offset + std::size_t(last.packs) + 1; // rows look one pack ahead
   const int copies = method.family == Method::Family::leapfrog ? 2 : method.stages;

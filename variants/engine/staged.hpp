@@ -1,10 +1,12 @@
 #pragma once
-/// Stage by stage: the fallback for scenes whose extra links break the order of rows. Every stage keeps all rows; threads meet twice a stage.
+/// Stage by stage: the fallback for scenes whose extra links break the order of rows. Every stage keeps all rows;
+/// threads meet twice a stage.
 #include "variants/engine/wavefront.hpp"
 
 namespace dss {
 
-/// Links outside the grid: evaluated one by one, always in the same order, into the wrench rows that the row kernels add.
+/// Links outside the grid: evaluated one by one, always in the same order, into the wrench rows that the row kernels
+/// add.
 template <class T>
 class ExtraLinks {
 public:
@@ -40,7 +42,9 @@ public:
   int threads() const { return int(cuts_.size()) - 1; }
 
 private:
-  T* stage_row(int stage, int r) { return stages_[std::size_t(stage)].data() + packed_.rows[std::size_t(r)].pack_offset * pack_size_; }
+  T* stage_row(int stage, int r) {
+    return stages_[std::size_t(stage)].data() + packed_.rows[std::size_t(r)].pack_offset * pack_size_;
+  }
   PackedRows<T>& packed_;
   const Method& method_;
   const int fields_;

@@ -34,7 +34,8 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
       if (first == 0) first = alpha;
     }
     update.beta = T(dt * method.beta[s] / (first == 0 ? 1 : first));
-    if (update.increments.size() > std::size(RowTask<T>{}.alpha)) throw std::logic_error("method with more increments than a row task holds");
+    if (update.increments.size() > std::size(RowTask<T>{}.alpha))
+      throw std::logic_error("method with more increments than a row task holds");
     updates.push_back(std::move(update));
   }
   return updates;
@@ -43,9 +44,11 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
 template <class T>
 Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, int halo, bool has_rings, int stages)
     : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)),
-      row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo), published_index_(std::size_t(last - first), -1) {
+      row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo),
+      published_index_(std::size_t(last - first), -1) {
   const PackedRow<T>& last_row = packed.rows[std::size_t(end - 1)];
-  const std::size_t packs = last_row.pack_offset + std::size_t(last_row.packs) - packed.rows[std::size_t(begin)].pack_offset;
+  const std::size_t packs =
+      last_row.pack_offset + std::size_t(last_row.packs) - packed.rows[std::size_t(begin)].pack_offset;
   state_ = Buffer<T>((packs + 1) * pack_size_); // one pack more: rows look one pack ahead
   int count = 0;
   for (int r = begin; r < end; ++r)
@@ -54,7 +57,8 @@ Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, in
   for (int s = 0; s < stages; ++s) carry.emplace_back(packed);
   if (!has_rings) return;
   for (int s = 0; s + 1 < stages; ++s) {
-    // Y_{s + 1} is written by stage s and last read by the final stage, (stages - 1 - s) reaches behind; priming reads two reaches back.
+    // Y_{s + 1} is written by stage s and last read by the final stage, (stages - 1 - s) reaches behind; priming reads
+    // two reaches back.
     const int reaches = begin > 0 ? std::max(stages - 1 - s, 2) : stages - 1 - s;
     ring_rows_.push_back(std::min(reaches * packed.reach + 1, int(packed.rows.size())));
     rings_.emplace_back(std::size_t(ring_rows_.back()) * row_size_ + pack_size_);
@@ -76,13 +80,15 @@ std::size_t Block<T>::bytes() const {
 }
 
 template <class T>
-WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields, std::vector<Block<T>>& blocks)
+WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
+                                std::vector<Block<T>>& blocks)
     : packed_(packed), method_(method), fields_(fields), updates_(stage_updates<T>(method, dt)), blocks_(blocks) {}
 
 template <class T>
 T* WavefrontStep<T>::state_row(Block<T>& block, int r, int parity) const {
   if (block.owns(r)) return block.row(r);
-  for (Block<T>* other = &block; other >= &blocks_.front() && other <= &blocks_.back(); other += r < block.begin ? -1 : 1)
+  for (Block<T>* other = &block; other >= &blocks_.front() && other <= &blocks_.back();
+       other += r < block.begin ? -1 : 1)
     if (other->owns(r)) return other->published(r, parity);
   throw std::logic_error("row outside every block");
 }
@@ -91,13 +97,17 @@ template <class T>
 void WavefrontStep<T>::stage_row(Block<T>& block, int stage, int r, const StepSignals<T>& signals, int parity) const {
   const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
   const bool is_last = stage + 1 == method_.stages;
-  const auto input = [&](int row) { return stage == 0 ? state_row(block, row, parity) : block.ring_row(stage - 1, row); };
+  const auto input = [&](int row) {
+    return stage == 0 ? state_row(block, row, parity) : block.ring_row(stage - 1, row);
+  };
   RowTask<T> task;
   set_row(task, packed_, r, fields_, block.carry[std::size_t(stage)], input);
   task.signals = signals.stage(stage);
   T* const base = state_row(block, r, parity);
-  updates_[std::size_t(stage)].set(task, base, is_last ? base : block.ring_row(stage, r), [&](int m) { return block.ring_row(m, r); });
-  const bool is_finite = method_.family == Method::Family::leapfrog ? kernels.leapfrog(task) : kernels.stage(task, is_last);
+  updates_[std::size_t(stage)].set(task, base, is_last ? base : block.ring_row(stage, r),
+                                   [&](int m) { return block.ring_row(m, r); });
+  const bool is_finite =
+      method_.family == Method::Family::leapfrog ? kernels.leapfrog(task) : kernels.stage(task, is_last);
   if (!is_finite && block.failed_row < 0) block.failed_row = r;
   if (is_last && block.is_published(r)) block.publish(r, parity ^ 1);
 }
@@ -119,10 +129,10 @@ void WavefrontStep<T>::operator()(Block<T>& block, const StepSignals<T>& signals
     }
 }
 
-#define DSS_INSTANTIATE(T)                                                                                                                 \
-  template std::vector<int> cut_rows(const PackedRows<T>&, int);                                                                           \
-  template class Block<T>;                                                                                                                 \
-  template class WavefrontStep<T>;                                                                                                         \
+#define DSS_INSTANTIATE(T)                                                                                             \
+  template std::vector<int> cut_rows(const PackedRows<T>&, int);                                                       \
+  template class Block<T>;                                                                                             \
+  template class WavefrontStep<T>;                                                                                     \
   template std::vector<StageUpdate<T>> stage_updates(const Method&, double);
 DSS_INSTANTIATE(double)
 DSS_INSTANTIATE(float)

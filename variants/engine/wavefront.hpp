@@ -1,27 +1,38 @@
 #pragma once
-/// The wavefront over rows (design.md section 4): stage s runs `reach` rows behind stage s - 1, intermediate stages live in rings of a few
-/// rows, the state is updated in place, threads recompute a halo of stages * reach rows and meet once a step.
+/// The wavefront over rows (design.md section 4): stage s runs `reach` rows behind stage s - 1, intermediate stages
+/// live in rings of a few rows, the state is updated in place, threads recompute a halo of stages * reach rows and meet
+/// once a step.
 #include "variants/engine/schedule.hpp"
 
 #include <atomic>
 
 namespace dss {
 
-/// A contiguous block of rows with its own storage. What other blocks need of it is published twice over, by parity of the step, so that
-/// one synchronisation a step is enough: while step n reads one copy, the other is written for step n + 1.
+/// A contiguous block of rows with its own storage. What other blocks need of it is published twice over, by parity of
+/// the step, so that one synchronisation a step is enough: while step n reads one copy, the other is written for step n
+/// + 1.
 template <class T>
 class Block {
 public:
   Block(const PackedRows<T>& packed, int begin, int end, int fields, int halo, bool has_rings, int stages);
 
   int begin, end;
-  T* row(int r) { return state_.data() + (packed_->rows[std::size_t(r)].pack_offset - packed_->rows[std::size_t(begin)].pack_offset) * pack_size_; }
+  T* row(int r) {
+    return state_.data() +
+           (packed_->rows[std::size_t(r)].pack_offset - packed_->rows[std::size_t(begin)].pack_offset) * pack_size_;
+  }
   bool owns(int r) const { return r >= begin && r < end; }
-  bool is_published(int r) const { return (r < begin + halo_ && begin > 0) || (r >= end - halo_ && end < int(packed_->rows.size())); }
-  T* published(int r, int parity) { return published_[std::size_t(parity)].data() + std::size_t(published_index_[std::size_t(r - begin)]) * row_size_; }
+  bool is_published(int r) const {
+    return (r < begin + halo_ && begin > 0) || (r >= end - halo_ && end < int(packed_->rows.size()));
+  }
+  T* published(int r, int parity) {
+    return published_[std::size_t(parity)].data() + std::size_t(published_index_[std::size_t(r - begin)]) * row_size_;
+  }
   void publish(int r, int parity);
   /// Row r of Y_{stage + 1}, in a ring that holds what stages up to the last still read.
-  T* ring_row(int stage, int r) { return rings_[std::size_t(stage)].data() + std::size_t(r % ring_rows_[std::size_t(stage)]) * row_size_; }
+  T* ring_row(int stage, int r) {
+    return rings_[std::size_t(stage)].data() + std::size_t(r % ring_rows_[std::size_t(stage)]) * row_size_;
+  }
 
   std::vector<CarryRings<T>> carry; ///< one a stage
   int failed_row = -1;
@@ -54,7 +65,8 @@ private:
   std::vector<T> values_;
 };
 
-/// How a stage updates the state, in T: beta f plus terms alpha (Y_m - y), the later ones as ratios to the first (kernels/stage_row/row.hpp).
+/// How a stage updates the state, in T: beta f plus terms alpha (Y_m - y), the later ones as ratios to the first
+/// (kernels/stage_row/row.hpp).
 template <class T>
 struct StageUpdate {
   T beta = 0;
@@ -72,16 +84,19 @@ struct StageUpdate {
     }
   }
 };
-/// One for each stage of the method. @throws std::logic_error for more terms in a stage than the three that a task holds.
+/// One for each stage of the method. @throws std::logic_error for more terms in a stage than the three that a task
+/// holds.
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt);
 
-/// Runs one step of one block; `blocks` are all blocks, `parity` says which published copies are current. The block's own rows end up
-/// updated in place and published under the other parity. Sets failed_row when a row leaves a non-finite state.
+/// Runs one step of one block; `blocks` are all blocks, `parity` says which published copies are current. The block's
+/// own rows end up updated in place and published under the other parity. Sets failed_row when a row leaves a
+/// non-finite state.
 template <class T>
 class WavefrontStep {
 public:
-  WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields, std::vector<Block<T>>& blocks);
+  WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
+                std::vector<Block<T>>& blocks);
   void operator()(Block<T>& block, const StepSignals<T>& signals, int parity) const;
 
 private:
