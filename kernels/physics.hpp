@@ -32,13 +32,14 @@ template <class Real>
 struct SpatialPhysics {
   using real = Real;
   static constexpr int fields = 13;
-  // clang-format off: the order counts
+  // The order counts.
+  // clang-format off
 #include "kernels/algebra/spatial.h"
-#include "kernels/cases.h"
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"
 #include "kernels/rk_update/rk_update.h"
 #include "kernels/stress/stress.h"
+#include "kernels/cases.h"
   // clang-format on
 };
 
@@ -47,12 +48,13 @@ struct PlanarPhysics {
   using real = Real;
   static constexpr int fields = 7;
 #define PLANAR
-  // clang-format off: the order counts
+  // The order counts.
+  // clang-format off
 #include "kernels/algebra/planar.h"
-#include "kernels/cases.h"
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"
 #include "kernels/rk_update/rk_update.h"
+#include "kernels/cases.h"
   // clang-format on
 #undef PLANAR
 };

@@ -53,7 +53,7 @@ void add_experiment_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--out", arguments->out, "Directory of raw/, tables/ and oracle/")->capture_default_str();
   command->add_flag("--resume", arguments->resumes, "Keep the records present and measure what is missing");
   command->add_flag("--dry-run", arguments->is_dry, "Print the cells and stop");
-  command->footer("Example: dssbench experiment table1_host --scale smoke --out /tmp/results\nExit code 1 if a cell "
+  command->footer("Example: dssbench experiment table1_host --scale smoke --out smoke-results\nExit code 1 if a cell "
                   "failed or was wrong.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return experiment(*arguments); }; });
 }
