@@ -65,10 +65,11 @@ function(dss_native_needs out)
   set(${out} ${needs} PARENT_SCOPE)
 endfunction()
 
-# dss_test(name source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself.
+# dss_test(name source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself, labelled with its folder.
 function(dss_test name)
   add_executable(${name} ${ARGN})
   target_link_libraries(${name} PRIVATE dss_options dss_solver dss_variants GTest::gtest_main)
   add_dependencies(${name} dss_all_variants)
-  gtest_discover_tests(${name} PROPERTIES LABELS test DISCOVERY_MODE PRE_TEST)
+  get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  gtest_discover_tests(${name} PROPERTIES LABELS ${kind} DISCOVERY_MODE PRE_TEST)
 endfunction()
