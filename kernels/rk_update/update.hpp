@@ -17,59 +17,38 @@ struct FiniteCheck {
   bool passed() const { return simd::is_zero(sum); }
 };
 
-/// out = base + sum alpha_m (increment_m - base) + beta f(in), as rk_update.h computes it.
-template <class P, class T>
+/// out = base + sum alpha_m (increment_m - base) + beta f(in), as rk_update.h computes it, with three increments or none (a task with
+/// fewer repeats one with the ratio 0). Only a last stage, which has increments in every method, looks for non-finite velocities.
+template <class P, class T, bool has_increments>
 struct RungeKuttaUpdate {
   using R = typename P::real;
   static constexpr int W = simd::lanes<T>;
   const T *const base, *const increment[3];
   T* const out;
   const R beta, alpha[3];
-  const int increments;
-  const bool is_last;
   FiniteCheck<R, T> check{};
 
-  RungeKuttaUpdate(const RowTask<T>& task, bool last)
+  explicit RungeKuttaUpdate(const RowTask<T>& task)
       : base(task.base), increment{task.increment[0], task.increment[1], task.increment[2]}, out(task.out),
-        beta(task.beta), alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, increments(task.increments),
-        is_last(last) {}
+        beta(task.beta), alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])} {}
 
   void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a,
                   const typename P::spin& angular) {
     typename P::element rate{e.v, a, P::rotor_rate(e.q, e.w), angular};
-    switch (increments) {
-    case 0:
-      finish<0>(place, rate);
-      break;
-    case 1:
-      finish<1>(place, rate);
-      break;
-    case 2:
-      finish<2>(place, rate);
-      break;
-    default:
-      finish<3>(place, rate);
-      break;
-    }
-    if (is_last) check.add(rate.v), check.add(rate.w);
-  }
-
-  /// Stores the new fields of a pack and leaves them in `rate`.
-  template <int count>
-  void finish(std::ptrdiff_t place, typename P::element& rate) const {
     std::ptrdiff_t at = place;
     each_component(rate, [&](R& k) {
       const R y = simd::load(base + at);
-      if constexpr (count == 0) {
-        k = P::rk_first(y, beta, k);
-      } else {
+      if constexpr (has_increments) {
         R t = P::rk_first(simd::load(increment[0] + at) - y, beta, k);
-        for (int m = 1; m < count; ++m) t = P::rk_increment(alpha[m], simd::load(increment[m] + at), y, t);
+        for (int m = 1; m < 3; ++m) t = P::rk_increment(alpha[m], simd::load(increment[m] + at), y, t);
         k = P::rk_finish(alpha[0], t, y);
+      } else {
+        k = P::rk_first(y, beta, k);
       }
       simd::store(out + at, k);
       at += W;
     });
+    if constexpr (has_increments) check.add(rate.v), check.add(rate.w);
   }
 };
 

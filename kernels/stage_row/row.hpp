@@ -58,7 +58,7 @@ struct RowTask {
   const T* base = nullptr;
   T* out = nullptr;
   T beta = 0;
-  int increments = 0;
+  bool has_increments = false;
   const T* increment[3] = {};
   T alpha[3] = {};
 };

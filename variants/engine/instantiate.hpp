@@ -15,11 +15,12 @@ struct RowKernels {
       terms.is_velocity_dependent() ? component_count<typename P::vec>() + component_count<typename P::spin>() : 0;
   static constexpr int leapfrog_fields = P::fields + half_velocities;
 
-  [[gnu::flatten]] static bool stage(const RowTask<T>& task, bool is_last) {
+  template <bool has_increments>
+  [[gnu::flatten]] static bool stage(const RowTask<T>& task) {
     const StageRow<P, T, terms> row{task};
-    RungeKuttaUpdate<P, T> update(task, is_last);
+    RungeKuttaUpdate<P, T, has_increments> update(task);
     row.run(update);
-    return !is_last || update.check.passed();
+    return update.check.passed();
   }
   [[gnu::flatten]] static bool leapfrog(const RowTask<T>& task) {
     const StageRow<P, T, terms, leapfrog_fields> row{task};
@@ -66,7 +67,8 @@ struct RowKernels {
   }
 
   static constexpr KernelSet<T> set{
-      terms, StageRow<P, T, terms>::carry_size, leapfrog_fields, stage, leapfrog, prime, extra_link};
+      terms,     StageRow<P, T, terms>::carry_size, leapfrog_fields, stage<false>, stage<true>, leapfrog, prime,
+      extra_link};
 };
 
 template <template <class> class Physics, class T, std::size_t... index>

@@ -32,8 +32,11 @@ struct KernelSet {
   Terms terms;
   int carry_size;      ///< scalars a pack in a carry buffer
   int leapfrog_fields; ///< fields a pack of a leapfrog row holds
-  /// One Runge-Kutta stage of a row; false if it `is_last` and left a non-finite velocity.
-  bool (*stage)(const RowTask<T>& task, bool is_last);
+  /// One Runge-Kutta stage of a row, without and with increments; false if a stage with increments left a non-finite
+  /// velocity.
+  bool (*first_stage)(const RowTask<T>& task);
+  bool (*later_stage)(const RowTask<T>& task);
+  bool stage(const RowTask<T>& task) const { return task.has_increments ? later_stage(task) : first_stage(task); }
   /// One leapfrog step of a row in place; false if it left a non-finite velocity.
   bool (*leapfrog)(const RowTask<T>& task);
   /// Only the links from a row (its `in`, `upper_*`, `carry_*`) across an axis (1 or 2): what a block of rows needs

@@ -114,7 +114,7 @@ Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
     task.base = zero.data(); // out = 0 + 1 f
     task.out = rates.data() + packed_.rows[std::size_t(r)].pack_offset * pack_size;
     task.beta = 1;
-    packed_.rows[std::size_t(r)].kernels->stage(task, false);
+    packed_.rows[std::size_t(r)].kernels->stage(task);
   }
   return rates;
 }

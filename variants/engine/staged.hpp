@@ -108,7 +108,7 @@ void StagedRows<T>::step(int thread, const StepSignals<T>& signals, Synchronise&
       T* const out = is_leapfrog ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(s + 1, r);
       updates_[std::size_t(s)].set(task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); });
       const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
-      const bool is_finite = is_leapfrog ? kernels.leapfrog(task) : kernels.stage(task, is_last);
+      const bool is_finite = is_leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
       if (!is_finite && failed_rows_[std::size_t(thread)] < 0) failed_rows_[std::size_t(thread)] = r;
     }
     synchronise();

@@ -33,6 +33,7 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
       update.increments.push_back({int(m) - 1, T(first == 0 ? alpha : alpha / first)});
       if (first == 0) first = alpha;
     }
+    if (update.increments.empty() && int(s) + 1 == method.stages) update.increments.push_back({-1, T(1)});
     update.beta = T(dt * method.beta[s] / (first == 0 ? 1 : first));
     if (update.increments.size() > std::size(RowTask<T>{}.alpha))
       throw std::logic_error("method with more increments than a row task holds");
@@ -60,8 +61,11 @@ Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, in
     // Y_{s + 1} is written by stage s and last read by the final stage, (stages - 1 - s) reaches behind; priming reads
     // two reaches back.
     const int reaches = begin > 0 ? std::max(stages - 1 - s, 2) : stages - 1 - s;
-    ring_rows_.push_back(std::min(reaches * packed.reach + 1, int(packed.rows.size())));
-    rings_.emplace_back(std::size_t(ring_rows_.back()) * row_size_ + pack_size_);
+    const int rows = std::min(reaches * packed.reach + 1, int(packed.rows.size()));
+    rings_.emplace_back(std::size_t(rows) * row_size_ + pack_size_);
+    ring_rows_.emplace_back();
+    for (int r = 0; r < int(packed.rows.size()); ++r)
+      ring_rows_.back().push_back(rings_.back().data() + std::size_t(r % rows) * row_size_);
   }
 }
 
@@ -82,15 +86,17 @@ std::size_t Block<T>::bytes() const {
 template <class T>
 WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
                                 std::vector<Block<T>>& blocks)
-    : packed_(packed), method_(method), fields_(fields), updates_(stage_updates<T>(method, dt)), blocks_(blocks) {}
-
-template <class T>
-T* WavefrontStep<T>::state_row(Block<T>& block, int r, int parity) const {
-  if (block.owns(r)) return block.row(r);
-  for (Block<T>* other = &block; other >= &blocks_.front() && other <= &blocks_.back();
-       other += r < block.begin ? -1 : 1)
-    if (other->owns(r)) return other->published(r, parity);
-  throw std::logic_error("row outside every block");
+    : packed_(packed), method_(method), fields_(fields), updates_(stage_updates<T>(method, dt)), blocks_(blocks) {
+  const int halo = method.stages * packed.reach;
+  for (Block<T>& block : blocks) {
+    auto& rows = state_rows_.emplace_back();
+    for (int parity : {0, 1}) {
+      rows[std::size_t(parity)].assign(packed.rows.size(), nullptr);
+      for (Block<T>& other : blocks)
+        for (int r = std::max(other.begin, block.begin - halo); r < std::min(other.end, block.end + halo); ++r)
+          rows[std::size_t(parity)][std::size_t(r)] = &other == &block ? block.row(r) : other.published(r, parity);
+    }
+  }
 }
 
 template <class T>
@@ -106,8 +112,7 @@ void WavefrontStep<T>::stage_row(Block<T>& block, int stage, int r, const StepSi
   T* const base = state_row(block, r, parity);
   updates_[std::size_t(stage)].set(task, base, is_last ? base : block.ring_row(stage, r),
                                    [&](int m) { return block.ring_row(m, r); });
-  const bool is_finite =
-      method_.family == Method::Family::leapfrog ? kernels.leapfrog(task) : kernels.stage(task, is_last);
+  const bool is_finite = method_.family == Method::Family::leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
   if (!is_finite && block.failed_row < 0) block.failed_row = r;
   if (is_last && block.is_published(r)) block.publish(r, parity ^ 1);
 }

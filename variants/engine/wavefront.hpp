@@ -30,9 +30,7 @@ public:
   }
   void publish(int r, int parity);
   /// Row r of Y_{stage + 1}, in a ring that holds what stages up to the last still read.
-  T* ring_row(int stage, int r) {
-    return rings_[std::size_t(stage)].data() + std::size_t(r % ring_rows_[std::size_t(stage)]) * row_size_;
-  }
+  T* ring_row(int stage, int r) { return ring_rows_[std::size_t(stage)][std::size_t(r)]; }
 
   std::vector<CarryRings<T>> carry; ///< one a stage
   int failed_row = -1;
@@ -46,7 +44,8 @@ private:
   std::array<Buffer<T>, 2> published_;
   std::vector<int> published_index_;
   std::vector<Buffer<T>> rings_;
-  std::vector<int> ring_rows_;
+  std::vector<std::vector<T*>>
+      ring_rows_; ///< stage, row of the lattice: looked up, since divisions cost as much as a short row
 };
 
 /// Signals of one step as the kernels take them: row s of stage s, in T, and a constant 1 behind them.
@@ -70,22 +69,24 @@ private:
 template <class T>
 struct StageUpdate {
   T beta = 0;
-  std::vector<std::pair<int, T>> increments; ///< (stage whose output Y_m is, alpha or ratio)
+  std::vector<std::pair<int, T>> increments; ///< (stage whose output Y_m is, or -1 for y itself; alpha or ratio)
   /// The part of a task that it determines; `stage_output(m)` is the row of the output of stage m.
   template <class StageOutput>
   void set(RowTask<T>& task, T* base, T* out, StageOutput&& stage_output) const {
     task.base = base;
     task.out = out;
     task.beta = beta;
-    task.increments = int(increments.size());
-    for (std::size_t m = 0; m < increments.size(); ++m) {
-      task.increment[m] = stage_output(increments[m].first);
-      task.alpha[m] = increments[m].second;
+    task.has_increments = !increments.empty();
+    for (std::size_t m = 0; task.has_increments && m < std::size(task.alpha); ++m) {
+      const bool is_used = m < increments.size();
+      const int stage = increments[is_used ? m : 0].first;
+      task.increment[m] = stage < 0 ? base : stage_output(stage);
+      task.alpha[m] = is_used ? increments[m].second : T(0);
     }
   }
 };
-/// One for each stage of the method. @throws std::logic_error for more terms in a stage than the three that a task
-/// holds.
+/// One for each stage of the method; a last stage without increments gets y - y, for its check. @throws
+/// std::logic_error for more terms in a stage than the three that a task holds.
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt);
 
@@ -100,7 +101,9 @@ public:
   void operator()(Block<T>& block, const StepSignals<T>& signals, int parity) const;
 
 private:
-  T* state_row(Block<T>& block, int r, int parity) const;
+  T* state_row(const Block<T>& block, int r, int parity) const {
+    return state_rows_[std::size_t(&block - blocks_.data())][std::size_t(parity)][std::size_t(r)];
+  }
   void stage_row(Block<T>& block, int stage, int r, const StepSignals<T>& signals, int parity) const;
 
   const PackedRows<T>& packed_;
@@ -108,6 +111,8 @@ private:
   const int fields_;
   const std::vector<StageUpdate<T>> updates_;
   std::vector<Block<T>>& blocks_;
+  std::vector<std::array<std::vector<T*>, 2>>
+      state_rows_; ///< block, parity, row: its own rows and its neighbours' published ones
 };
 
 } // namespace dss
