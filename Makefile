@@ -14,11 +14,13 @@ dependencies:
 build: dependencies
 	@cmake --preset $(PRESET) >$(PRESET).configure.log 2>&1 || { cat $(PRESET).configure.log; exit 1; }
 	@rm -f $(PRESET).configure.log
-	@cmake --build --preset $(PRESET)
+	@cmake --build --preset $(PRESET) $(TARGETS)
 
 test: build
 	@ctest --preset $(PRESET)
 
+# The program and its variants alone: no tests to build.
+reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(BUILD)/dssbench verify --quiet
 	@for study in table1_host table3_cpu; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done

@@ -28,7 +28,14 @@ function(dss_add_variant name)
   add_library(${target} MODULE ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE dss_options dss_solver OpenMP::OpenMP_CXX)
   target_compile_options(${target} PRIVATE -march=${arg_MARCH} ${arg_OPTIONS})
-  target_compile_definitions(${target} PRIVATE DSS_VARIANT="${name}" DSS_ISA="${arg_MARCH}" DSS_VECTOR_BITS=${arg_VECTOR_BITS})
+  set(isa ${arg_MARCH})
+  if(isa STREQUAL native) # what the compiler takes the build host for, as its -march= would say
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -E -v -x c++ /dev/null ERROR_VARIABLE verbose OUTPUT_QUIET)
+    if(verbose MATCHES "(-march=|\"?-target-cpu\"? \"?)([a-mo-z][a-z0-9_.-]+|nehalem)")
+      set(isa "native: ${CMAKE_MATCH_2}")
+    endif()
+  endif()
+  target_compile_definitions(${target} PRIVATE DSS_VARIANT="${name}" DSS_ISA="${isa}" DSS_VECTOR_BITS=${arg_VECTOR_BITS})
   # Weak symbols of templates stay inside: otherwise link order decides which instruction set runs (shared/platform.md).
   target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/variants/exports.map)
   set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/variants

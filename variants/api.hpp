@@ -45,6 +45,8 @@ public:
   virtual Outcome advance(long steps, std::span<const double> signals) = 0;
   /// One line for the record: "wavefront, reach 1" or "stage by stage: extra links".
   virtual std::string schedule() const = 0;
+  /// Threads that compute: what Setup asks for, or fewer where the problem has fewer rows.
+  virtual int workers() const = 0;
   /// Bytes held for state, halos, rings and masks.
   virtual std::size_t bytes() const = 0;
 };

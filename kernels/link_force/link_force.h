@@ -16,12 +16,14 @@ typedef struct {
 } exchange;
 
 /* Paper's law
- * ------------------------------------------------------------------------------------------------------------ It is
- * isotropic, so the force k D + d V is a difference of one quantity, k (x + tau x') with tau = d / k, at the two face
- * points that the link joins:  upper face of i: x = u + (A - I) c, x' = v + w x a;   lower face of j: x = u - (A - I)
- * c, x' = v - w x a;   a = A c F = k (lower_j - upper_i). An element's two faces on an axis differ by one sign, and
- * need one cross product for both moments. Forces and couples are in units of k (so forces are lengths): k meets the
- * mass and the inertia in the constants, never in the loop. */
+ * -----------
+ * It is isotropic, so the force k D + d V is a difference of one quantity, k (x + tau x') with tau = d / k, at the two
+ * face points that the link joins:
+ *   upper face of i:  x = u + (A - I) c,  x' = v + w x a,  a = A c
+ *   lower face of j:  x = u - (A - I) c,  x' = v - w x a
+ *   F = k (lower_j - upper_i)
+ * An element's two faces on an axis differ by one sign, and need one cross product for both moments. Forces and couples
+ * are in units of k (so forces are lengths): k meets the mass and the inertia in the constants, never in the loop. */
 
 typedef struct {
   REAL edge, half_edge, tau, kt2, dt;
@@ -60,14 +62,17 @@ static inline spin couple_moment(spin couples, paper_law law, const int is_bendi
 }
 
 /* Material law
- * ----------------------------------------------------------------------------------------------------------- With n_m
- * = (A_i e_m + A_j e_m) / 2 for the body axes m (n: the link's own), p = q_j conj(q_i) = (p0, r), and b = a + D / 2 the
- * common point, U = k_s |D|^2 / 2 + (k_n - k_s) (n.D)^2 / 2 + 4 k_z (1 - p0) + 2 (k_x - k_z) (n_x.r)^2 + 2 (k_y - k_z)
- * (n_y.r)^2 is the elastic energy; its virtual work gives F = k_s D + (k_n - k_s) (n.D) n,   T = 2 k_z r + sum over x,
- * y of 2 (k_m - k_z) (n_m.r) [p0 n_m + r x (n_mi - n_mj) / 2] moment on i: b_i x F + X + T,   on j: b_j x F - X - T, X
- * = (k_n - k_s) (n.D) D x (n_i - n_j) / 4. Damping: F_d = d_s V + (d_n - d_s) (n.V) n with V = v_j - v_i - w_i x b_i -
- * w_j x b_j, moments b x F_d; couples d_m along n_m on w_j - w_i. A link exchanges no net moment, and its damping takes
- * the power V.F_d + W.T_d >= 0. */
+ * ------------
+ * With n_m = (A_i e_m + A_j e_m) / 2 for the body axes m (n: the link's own), p = q_j conj(q_i) = (p0, r), and the common
+ * point b = a + D / 2, the elastic energy is
+ *   U = k_s |D|^2 / 2 + (k_n - k_s) (n.D)^2 / 2 + 4 k_z (1 - p0) + 2 (k_x - k_z) (n_x.r)^2 + 2 (k_y - k_z) (n_y.r)^2.
+ * Its virtual work gives
+ *   F = k_s D + (k_n - k_s) (n.D) n
+ *   X = (k_n - k_s) (n.D) D x (n_i - n_j) / 4
+ *   T = 2 k_z r + sum over x, y of 2 (k_m - k_z) (n_m.r) [p0 n_m + r x (n_mi - n_mj) / 2]
+ *   moment on i: b_i x F + X + T,   on j: b_j x F - X - T.
+ * Damping: F_d = d_s V + (d_n - d_s) (n.V) n with V = v_j - v_i - w_i x b_i - w_j x b_j, moments b x F_d; couples d_m along
+ * n_m on w_j - w_i. A link exchanges no net moment, and its damping takes the power V.F_d + W.T_d >= 0. */
 
 typedef struct {
   REAL edge_i, edge_j;       /* along the link [m] */

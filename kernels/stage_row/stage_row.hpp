@@ -161,8 +161,9 @@ struct StageRow {
     return link(i, upper_face, j, lower_face, axis);
   }
 
+  /// `upper`: the upper row; `carry`, `from`: carry buffers; each may be null where no mask needs it.
   void add_across(const Prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper,
-                  T* carry, const T* from, Wrench& sum) const {
+                  T* carry, const T* from, int pack, Wrench& sum) const {
     if ((above | below) == 0) return;
     typename P::face own;
     vec upper_face;
@@ -173,12 +174,12 @@ struct StageRow {
     if constexpr (!terms.is_material) upper_face = upper_across(i.pull, i.x, own);
     typename P::exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (above != 0) {
-      up = link_across(i.e, upper_face, upper, axis);
+      up = link_across(i.e, upper_face, upper + std::ptrdiff_t(pack) * (stride * W), axis);
       mask_links(above, up);
-      store_carry(carry, carry_of(up));
+      store_carry(carry + std::ptrdiff_t(pack) * carry_size, carry_of(up));
     }
     Carry low{zero<vec>(), zero<spin>()};
-    if (below != 0) low = load_carry(from);
+    if (below != 0) low = load_carry(from + std::ptrdiff_t(pack) * carry_size);
     sum.force = P::vec_sub(P::vec_add(sum.force, up.force), low.force);
     const vec both = P::vec_add(up.force, low.force);
     if constexpr (is_planar && !terms.is_material)
@@ -288,14 +289,14 @@ struct StageRow {
     Carry previous{zero<vec>(), zero<spin>()};
     for (int pack = 0; pack < packs; ++pack) {
       const PackMasks& masks = all_masks[pack];
-      const std::ptrdiff_t place = std::ptrdiff_t(pack) * (stride * W), carry = std::ptrdiff_t(pack) * carry_size;
+      const std::ptrdiff_t place = std::ptrdiff_t(pack) * (stride * W);
       Prepared i = next;
       i.e = load_element(in + place);
       next = prepare(in + place + stride * W);
       Wrench sum = links_x(i, next, masks.link_x, previous);
-      add_across(i, 1, masks.link_y, masks.below_y, upper_y + place, carry_y + carry, from_y + carry, sum);
+      add_across(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack, sum);
       if constexpr (component_count<vec>() == 3)
-        add_across(i, 2, masks.link_z, masks.below_z, upper_z + place, carry_z + carry, from_z + carry, sum);
+        add_across(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, sum);
       if constexpr (terms.is_material)
         sum.moment = P::spin_add(sum.moment, sum.couple);
       else if constexpr (terms.has_couples())

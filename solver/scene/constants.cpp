@@ -27,7 +27,7 @@ Vec3 read_non_negative_vector(const Node& node) {
 /// The published constants are the defaults.
 AxisConstants read_paper_link(ObjectNode& constants) {
   AxisConstants link;
-  link.k_normal = link.k_shear = constants.non_negative_or("k", 1e11);
+  link.k_normal = link.k_shear = constants.positive_or("k", 1e11);
   link.d_normal = link.d_shear = constants.non_negative_or("d", 1e5);
   link.k_rot.fill(constants.non_negative_or("kt", 0));
   link.d_rot.fill(constants.non_negative_or("dt", 1e2));

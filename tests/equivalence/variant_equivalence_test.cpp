@@ -20,6 +20,10 @@ std::vector<Case> cases() {
   std::vector<Case> all{{"plate", fixture::make_plate(12), true, 1e-3},
                         {"everything", fixture::make_everything()},
                         {"pair", fixture::make_pair(LinkLaw::paper)},
+                        {"damped_joint", fixture::make_damped_joint()},
+                        {"sponge", fixture::make_sponge(21, 6, 5, LinkLaw::paper, 1)},
+                        {"material_sponge", fixture::make_sponge(13, 7, 3, LinkLaw::material, 2)},
+                        {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::paper, 3), true},
                         {"tumbling_box", fixture::make_tumbling_box(1)}};
   for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material}) {
     const std::string suffix = law == LinkLaw::paper ? "_paper" : "_material";

@@ -38,6 +38,7 @@ public:
                                     : signals);
   }
   std::string schedule() const override { return right_->schedule(); }
+  int workers() const override { return right_->workers(); }
   std::size_t bytes() const override { return right_->bytes(); }
 
 private:

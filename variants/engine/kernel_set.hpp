@@ -54,10 +54,20 @@ const KernelSet<float>& planar_f32_kernels(const Terms& need);
 
 template <class T>
 const KernelSet<T>& find_kernels(Model model, const Terms& need) {
-  if constexpr (sizeof(T) == sizeof(double))
-    return model == Model::planar ? planar_f64_kernels(need) : spatial_f64_kernels(need);
+  constexpr bool is_f64 = sizeof(T) == sizeof(double);
+  switch (model) { // no default: a model without kernels is a warning here
+  case Model::planar:
+    if constexpr (is_f64)
+      return planar_f64_kernels(need);
+    else
+      return planar_f32_kernels(need);
+  case Model::spatial:
+    break;
+  }
+  if constexpr (is_f64)
+    return spatial_f64_kernels(need);
   else
-    return model == Model::planar ? planar_f32_kernels(need) : spatial_f32_kernels(need);
+    return spatial_f32_kernels(need);
 }
 
 } // namespace dss

@@ -85,6 +85,9 @@ void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
     }
     common.is_gyroscopic |= body.has_tensor_inertia() && model == Model::spatial;
   }
+  // The row kernels do not compute extra links, but leapfrog must carry predicted velocities for them.
+  for (const ExtraLink& link : problem.extra_links)
+    common.is_damped |= link.constants.d_normal != 0 || link.constants.d_shear != 0 || link.constants.d_rot != Vec3{};
   const auto choose = [&] {
     kernels_.clear();
     bool is_velocity_dependent = false;
@@ -212,9 +215,7 @@ static void set_link_constants(BodyConstants<T>& c, std::size_t axis, const Axis
                   T(a.d_rot[1] - a.d_rot[2])};
 }
 /// Unit of force of a link law: the paper's law is computed in units of k.
-static double force_unit(LinkLaw law, const AxisConstants& a) {
-  return law == LinkLaw::paper && a.k_normal > 0 ? a.k_normal : 1;
-}
+static double force_unit(LinkLaw law, const AxisConstants& a) { return law == LinkLaw::paper ? a.k_normal : 1; }
 template <class T>
 static void set_paper_constants(BodyConstants<T>& c, const AxisConstants& a) {
   c.tau = T(a.d_normal / a.k_normal);
@@ -227,7 +228,7 @@ BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
   BodyConstants<T> c{};
   const double unit = force_unit(body.law, body.axis[0]);
   c.inverse_unit = T(1 / unit);
-  if (body.law == LinkLaw::paper && body.axis[0].k_normal > 0) set_paper_constants(c, body.axis[0]);
+  if (body.law == LinkLaw::paper) set_paper_constants(c, body.axis[0]);
   for (std::size_t a = 0; a < 3; ++a) {
     c.edge[a] = T(body.edge[a]);
     set_link_constants(c, a, body.axis[a]);

@@ -1,5 +1,6 @@
 #include "variants/engine/row_executor.hpp"
 
+#include "solver/error.hpp"
 #include "variants/engine/flush_denormals.hpp"
 
 #include <algorithm>
@@ -7,6 +8,32 @@
 #include <omp.h>
 
 namespace dss {
+
+/// Runs work(thread, synchronise) on a team of exactly `threads` threads; with fewer, blocks of rows would silently stay behind.
+/// @throws InputError if OpenMP grants fewer
+template <class Work>
+static void run_team(int threads, Work&& work) {
+  if (threads == 1) {
+    work(0, [] {});
+    return;
+  }
+  int granted = threads;
+  omp_set_dynamic(0);
+#pragma omp parallel num_threads(threads)
+  {
+    if (omp_get_num_threads() == threads) {
+      work(omp_get_thread_num(), [] {
+#pragma omp barrier
+      });
+    } else {
+#pragma omp single
+      granted = omp_get_num_threads();
+    }
+  }
+  if (granted != threads)
+    throw InputError("--threads " + std::to_string(threads) + ": OpenMP grants only " + std::to_string(granted) +
+                     " (OMP_THREAD_LIMIT?); give at most that");
+}
 
 template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup) : setup_(setup), packed_(setup.problem, setup.model) {
@@ -56,8 +83,7 @@ void RowExecutor<T>::each_velocity(Visit&& visit) const {
 
 template <class T>
 void RowExecutor<T>::write(std::size_t first, std::span<const double> fields) {
-  is_started_ = false;
-  end_rates_ = {};
+  stop_leapfrog();
   parity_ = 0;
   each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
     const double* from = &fields[(element - first) * field_count];
@@ -121,6 +147,7 @@ Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
 
 template <class T>
 void RowExecutor<T>::derivative(std::span<const double> signals, std::span<double> rates) {
+  stop_leapfrog();
   const Buffer<T> values = evaluate(signals);
   std::fill(rates.begin(), rates.end(), 0.0);
   for (std::size_t r = 0; r < packed_.rows.size(); ++r)
@@ -130,6 +157,16 @@ void RowExecutor<T>::derivative(std::span<const double> signals, std::span<doubl
       for (int f = 0; f < packed_.fields(); ++f)
         rates[element * field_count + std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
     });
+}
+
+template <class T>
+void RowExecutor<T>::stop_leapfrog() {
+  if (!is_started_) return;
+  std::vector<double> state(packed_.lattice.element_count * field_count);
+  read(0, state);
+  is_started_ = false;
+  end_rates_ = {};
+  write(0, state);
 }
 
 /// v_{-1/2} = v_0 - (h / 2) a_0, and p_0 = v_0, which the rows hold already.
@@ -179,14 +216,7 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
       if (failed_step >= 0 && failed_step <= n) break; // a faster thread may already have failed in step n + 1
     }
   };
-  if (threads == 1) {
-    work(0, [] {});
-  } else {
-#pragma omp parallel num_threads(threads)
-    work(omp_get_thread_num(), [] {
-#pragma omp barrier
-    });
-  }
+  run_team(threads, work);
   parity_ = (parity_ + int(steps & 1)) & 1;
   for (const Block<T>& block : blocks_)
     if (block.failed_row >= 0) return {false, failed_step, first_failed_element(block.failed_row)};
@@ -197,6 +227,7 @@ template <class T>
 Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) {
   const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
   const int threads = staged_->threads();
+  staged_->forget_failures();
   long failed_step = -1;
   const auto work = [&](int thread, auto&& synchronise) {
     const FlushDenormals guard;
@@ -211,14 +242,7 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
       synchronise(); // nobody starts the next step, and fails in it, before all have looked
     }
   };
-  if (threads == 1) {
-    work(0, [] {});
-  } else {
-#pragma omp parallel num_threads(threads)
-    work(omp_get_thread_num(), [] {
-#pragma omp barrier
-    });
-  }
+  run_team(threads, work);
   if (failed_step >= 0) return {false, failed_step, first_failed_element(staged_->failed_row())};
   return {true, steps, 0};
 }

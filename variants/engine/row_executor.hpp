@@ -19,6 +19,7 @@ public:
   Outcome advance(long steps, std::span<const double> signals) override;
   std::string schedule() const override;
   std::size_t bytes() const override;
+  int workers() const override { return staged_ ? staged_->threads() : int(blocks_.size()); }
 
 private:
   static constexpr int W = PackedRows<T>::W;
@@ -36,6 +37,8 @@ private:
   template <class Visit>
   void each_velocity(Visit&& visit) const;
   void start_leapfrog(std::span<const double> signals);
+  /// Velocities back from the half step to the present time, so that the state is what read() says.
+  void stop_leapfrog();
   void read_synchronised(std::size_t element, const T* lane, std::span<double> out);
   Outcome run_blocks(long steps, std::span<const double> signals);
   Outcome run_staged(long steps, std::span<const double> signals);

@@ -10,7 +10,7 @@ StagedRows<T>::StagedRows(PackedRows<T>& packed, const Problem& problem, const M
       failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, dt)), extra_links_(problem, packed) {
   const PackedRow<T>& last = packed.rows.back();
   const std::size_t packs = last.pack_offset + std::size_t(last.packs) + 1; // rows look one pack ahead
-  const int copies = method.family == Method::Family::leapfrog ? 2 : method.stages;
+  const int copies = std::max(method.stages, 2);
   for (int m = 0; m < copies; ++m) stages_.emplace_back(packs * pack_size_);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
 }

@@ -3,6 +3,8 @@
 /// threads meet twice a stage.
 #include "variants/engine/wavefront.hpp"
 
+#include <algorithm>
+
 namespace dss {
 
 /// Links outside the grid: evaluated one by one, always in the same order, into the wrench rows that the row kernels
@@ -38,6 +40,7 @@ public:
   template <class Synchronise>
   void step(int thread, const StepSignals<T>& signals, Synchronise&& synchronise);
   int failed_row() const;
+  void forget_failures() { std::fill(failed_rows_.begin(), failed_rows_.end(), -1); }
   std::size_t bytes() const;
   int threads() const { return int(cuts_.size()) - 1; }
 
@@ -50,7 +53,8 @@ private:
   const int fields_;
   const std::size_t pack_size_;
   std::vector<int> cuts_;
-  std::vector<Buffer<T>> stages_; ///< [0] the state, [m] the output of stage m - 1; leapfrog: [1] the next state
+  std::vector<Buffer<T>>
+      stages_; ///< [0] the state, [m] the output of stage m - 1; one-stage methods: [1] the next state
   std::vector<CarryRings<T>> carry_;
   std::vector<int> failed_rows_;
   const std::vector<StageUpdate<T>> updates_;
@@ -92,7 +96,7 @@ void ExtraLinks<T>::evaluate(RowAddress&& row, int fields) {
 template <class T>
 template <class Synchronise>
 void StagedRows<T>::step(int thread, const StepSignals<T>& signals, Synchronise&& synchronise) {
-  const bool is_leapfrog = method_.family == Method::Family::leapfrog;
+  const bool is_leapfrog = method_.family == Method::Family::leapfrog, is_swapped = method_.stages == 1;
   CarryRings<T>& carry = carry_[std::size_t(thread)];
   for (int s = 0; s < method_.stages; ++s) {
     const auto input = [&](int r) -> T* { return stage_row(s, r); };
@@ -105,15 +109,15 @@ void StagedRows<T>::step(int thread, const StepSignals<T>& signals, Synchronise&
       RowTask<T> task;
       set_row(task, packed_, r, fields_, carry, input);
       task.signals = signals.stage(s);
-      T* const out = is_leapfrog ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(s + 1, r);
+      T* const out = is_swapped ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(s + 1, r);
       updates_[std::size_t(s)].set(task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); });
       const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
       const bool is_finite = is_leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
-      if (!is_finite && failed_rows_[std::size_t(thread)] < 0) failed_rows_[std::size_t(thread)] = r;
+      if (!is_finite && is_last && failed_rows_[std::size_t(thread)] < 0) failed_rows_[std::size_t(thread)] = r;
     }
     synchronise();
   }
-  if (is_leapfrog) {
+  if (is_swapped) { // one stage reads neighbours while it writes
     if (thread == 0) std::swap(stages_[0], stages_[1]);
     synchronise();
   }

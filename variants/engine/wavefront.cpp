@@ -80,6 +80,7 @@ std::size_t Block<T>::bytes() const {
   std::size_t sum = state_.bytes() + published_[0].bytes() + published_[1].bytes();
   for (const auto& ring : rings_) sum += ring.bytes();
   for (const auto& rings : carry) sum += rings.bytes();
+  for (const auto& rows : ring_rows_) sum += rows.size() * sizeof(T*);
   return sum;
 }
 
@@ -113,7 +114,7 @@ void WavefrontStep<T>::stage_row(Block<T>& block, int stage, int r, const StepSi
   updates_[std::size_t(stage)].set(task, base, is_last ? base : block.ring_row(stage, r),
                                    [&](int m) { return block.ring_row(m, r); });
   const bool is_finite = method_.family == Method::Family::leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
-  if (!is_finite && block.failed_row < 0) block.failed_row = r;
+  if (!is_finite && is_last && block.failed_row < 0) block.failed_row = r;
   if (is_last && block.is_published(r)) block.publish(r, parity ^ 1);
 }
 

@@ -28,6 +28,7 @@ public:
     return {true, steps, 0};
   }
   std::string schedule() const override { return "stage by stage: straightforward code"; }
+  int workers() const override { return 1; }
   std::size_t bytes() const override { return oracle_.bytes(); }
 
 private:

@@ -143,6 +143,11 @@ double ObjectNode::number_or(const std::string& key, double otherwise) {
   return node ? node->number() : otherwise;
 }
 
+double ObjectNode::positive_or(const std::string& key, double otherwise) {
+  const std::optional<Node> node = find(key);
+  return node ? node->positive() : otherwise;
+}
+
 double ObjectNode::non_negative_or(const std::string& key, double otherwise) {
   const std::optional<Node> node = find(key);
   return node ? node->non_negative() : otherwise;

@@ -69,6 +69,7 @@ public:
   std::optional<Node> find(const std::string& key);
   double number_or(const std::string& key, double otherwise);
   double non_negative_or(const std::string& key, double otherwise);
+  double positive_or(const std::string& key, double otherwise);
   Vec3 vector_or(const std::string& key, const Vec3& otherwise);
   /// The one key of the given that is there, none or two being errors.
   std::string require_one(const std::vector<std::string>& keys);
