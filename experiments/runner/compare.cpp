@@ -27,7 +27,8 @@ Comparison compared(const CellSample& before, const CellSample& after, double re
                     of_b.median,
                     of_b.median / of_a.median,
                     {},
-                    {}};
+                    {},
+                    false};
   if (!of_a.interval || !of_b.interval) return result;
   result.low = of_b.interval->low / of_a.interval->high;
   result.high = of_b.interval->high / of_a.interval->low;
@@ -45,6 +46,16 @@ Comparison compared(const CellSample& before, const CellSample& after, double re
   return result;
 }
 
+/// Why the times of a sample count for nothing, or empty.
+std::string invalidity(const CellSample& sample) {
+  if (sample.status() != "ok") return sample.status();
+  return sample.check() == "passed" ? std::string() : "check " + sample.check();
+}
+
+bool is_wrong(const CellSample& sample) {
+  return (sample.status() != "ok" && sample.status() != "skipped") || sample.check() == "failed";
+}
+
 } // namespace
 
 std::vector<Comparison> compare_records(const std::vector<Record>& old_records, const std::vector<Record>& new_records,
@@ -55,22 +66,29 @@ std::vector<Comparison> compare_records(const std::vector<Record>& old_records, 
         std::find_if(samples.begin(), samples.end(), [&](const CellSample& sample) { return sample.key == key; });
     return found == samples.end() ? nullptr : &*found;
   };
-  const auto bare = [](const std::string& key, const char* verdict, const std::string& how) {
-    return Comparison{key, verdict, how, {}, {}, {}, {}, {}};
+  const auto bare = [](const std::string& key, const std::string& verdict, const std::string& how) {
+    return Comparison{key, verdict, how, {}, {}, {}, {}, {}, false};
   };
   std::vector<Comparison> results;
   for (const CellSample& old_sample : before) {
     const CellSample* new_sample = find(after, old_sample.key);
-    if (new_sample == nullptr)
+    if (new_sample == nullptr) {
       results.push_back(bare(old_sample.key, "only in OLD", ""));
-    else if (old_sample.is_empty() || new_sample->is_empty())
-      results.push_back(
-          bare(old_sample.key, "no time", text_in((old_sample.is_empty() ? old_sample : *new_sample).last, "reason")));
+      continue;
+    }
+    const CellSample& invalid = invalidity(*new_sample).empty() ? old_sample : *new_sample;
+    if (const std::string why = invalidity(invalid); !why.empty())
+      results.push_back(bare(old_sample.key, "no claim: " + why,
+                             (&invalid == new_sample ? "NEW: " : "OLD: ") + text_in(invalid.last, "reason")));
     else
       results.push_back(compared(old_sample, *new_sample, resolution));
+    results.back().is_new_wrong = is_wrong(*new_sample);
   }
   for (const CellSample& new_sample : after)
-    if (find(before, new_sample.key) == nullptr) results.push_back(bare(new_sample.key, "only in NEW", ""));
+    if (find(before, new_sample.key) == nullptr) {
+      results.push_back(bare(new_sample.key, "only in NEW", text_in(new_sample.last, "reason")));
+      results.back().is_new_wrong = is_wrong(new_sample);
+    }
   return results;
 }
 

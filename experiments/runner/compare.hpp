@@ -11,15 +11,17 @@ namespace dss {
 /// The comparison of one cell.
 struct Comparison {
   std::string cell, verdict,
-      how; ///< "faster", "slower", "same within resolution", "too few repetitions", "only in OLD", ...
+      how; ///< "faster", "slower", "same within resolution", "too few repetitions", "no claim: wrong", "only in OLD", ...
   std::optional<double> old_step_s, new_step_s; ///< medians, seconds a step
   std::optional<double> ratio, low, high; ///< new / old, below 1: faster; bounds from the two medians' 95 % intervals
+  bool is_new_wrong = false;              ///< NEW failed its check or did not end
 };
 
 /// Resolution where no A/A pair was measured: a ratio nearer to 1 than this is no difference.
 constexpr double default_resolution = 0.02;
 
-/// Compares cell by cell. Samples of nine and more: Mann-Whitney's test (p < 0.05) and a ratio beyond the resolution;
+/// Compares cell by cell. A cell that failed its check, has none, or whose status is not "ok" on either side gets no
+/// verdict. Samples of nine and more: Mann-Whitney's test (p < 0.05) and a ratio beyond the resolution;
 /// six to eight: intervals that do not overlap and a ratio beyond the resolution; fewer: no verdict.
 std::vector<Comparison> compare_records(const std::vector<Record>& old_records, const std::vector<Record>& new_records,
                                         double resolution);

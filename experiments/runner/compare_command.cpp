@@ -17,7 +17,7 @@ struct CompareArguments {
 
 std::vector<Record> raw_records(const std::string& path) {
   const Table table = read_csv(path);
-  for (const char* column : {"cell", "repetition", "wall_s", "steps", "status"})
+  for (const char* column : {"cell", "repetition", "wall_s", "steps", "check", "status"})
     if (std::find(table.columns.begin(), table.columns.end(), column) == table.columns.end())
       throw InputError(fmt::format("{}: has no column \"{}\"; give raw records, results/raw/NAME.csv", path, column));
   return table.rows;
@@ -41,9 +41,9 @@ int compare(const CompareArguments& arguments) {
              text_table({"cell", "old [us/step]", "new [us/step]", "new/old", "interval", "verdict", "by"}, rows));
   fmt::print("Resolution {:.1f} % ({}).\n", 100 * resolution,
              old_resolution || new_resolution ? "A/A pairs" : "default: no A/A pair");
-  const bool is_slower =
-      std::any_of(comparisons.begin(), comparisons.end(), [](const Comparison& c) { return c.verdict == "slower"; });
-  return is_slower ? exit_check_failed : exit_success;
+  const bool is_worse = std::any_of(comparisons.begin(), comparisons.end(),
+                                    [](const Comparison& c) { return c.verdict == "slower" || c.is_new_wrong; });
+  return is_worse ? exit_check_failed : exit_success;
 }
 
 } // namespace
@@ -54,7 +54,7 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
   command->add_option("OLD", arguments->before, "Raw records, results/raw/NAME.csv")->required();
   command->add_option("NEW", arguments->after, "Raw records of the same study")->required();
   command->footer("Example: dssbench compare before/raw/table1_host.csv results/raw/table1_host.csv\n"
-                  "Exit code 1 if a cell became slower beyond the resolution.");
+                  "Exit code 1 if a cell became slower beyond the resolution, or is wrong or failed in NEW.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return compare(*arguments); }; });
 }
 

@@ -45,6 +45,7 @@ struct RunResult {
   std::string scene, variant, isa, model, precision, integrator, schedule;
   bool has_fma = false; ///< its bits are those of every other variant that has FMA
   int threads = 1;
+  int workers = 1; ///< threads that compute: fewer than `threads` where the scene has too few rows
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;

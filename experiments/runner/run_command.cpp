@@ -18,8 +18,8 @@ struct RunArguments {
 void print_summary(const RunResult& result) {
   fmt::print("{}: {} elements, {} links, {} steps of {:g} s ({}, {}, {})\n", result.scene, result.elements,
              result.links, result.steps, result.dt_s, result.model, result.precision, result.integrator);
-  fmt::print("{} ({}), {} thread{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
-             result.schedule);
+  fmt::print("{} ({}), {} thread{}{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
+             result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "", result.schedule);
   fmt::print("wall {:.6g} s, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
              1e-6 * result.element_steps_per_s(), double(result.bytes) / double(result.elements));
   fmt::print("largest displacement {:.6g} m, energy {}, state {:016x}\n", result.max_displacement_m,

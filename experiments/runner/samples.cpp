@@ -19,6 +19,7 @@ const std::vector<std::string>& raw_columns() {
                                                    "precision",
                                                    "integrator",
                                                    "threads",
+                                                   "workers",
                                                    "ranks",
                                                    "cores",
                                                    "twin",
@@ -71,6 +72,12 @@ std::string CellSample::check() const {
   return repetitions.empty() ? "none" : "passed";
 }
 
+std::string CellSample::status() const {
+  for (const auto& [number, record] : repetitions)
+    if (text_in(record, "status") != "ok") return text_in(record, "status");
+  return text_in(last, "status");
+}
+
 double CellSample::check_error() const {
   double most = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [number, record] : repetitions)
@@ -85,14 +92,16 @@ std::vector<CellSample> samples_of(const std::vector<Record>& records) {
   std::map<std::string, std::size_t> places;
   for (const Record& record : records) {
     const auto [place, is_new] = places.try_emplace(text_in(record, "cell"), samples.size());
-    if (is_new) samples.push_back({place->first, {}, {}, 0});
+    if (is_new) samples.push_back({place->first, {}, {}, 0, 0});
     CellSample& sample = samples[place->second];
     sample.last = record;
     if (!text_in(record, "wall_s").empty()) sample.repetitions[long(number_in(record, "repetition"))] = record;
   }
   for (CellSample& sample : samples)
-    for (const auto& [number, record] : sample.repetitions)
+    for (const auto& [number, record] : sample.repetitions) {
       sample.contaminated += text_in(record, "contaminated") == "true";
+      sample.too_short += number_in(record, "wall_s") < short_sample_s;
+    }
   return samples;
 }
 

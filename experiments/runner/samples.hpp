@@ -11,6 +11,9 @@ namespace dss {
 /// Columns of results/raw/<experiment>.csv, one row a repetition (and attempt).
 const std::vector<std::string>& raw_columns();
 
+/// Repetitions below this say little of a step: starting threads and the clock's own time are in them [s].
+constexpr double short_sample_s = 0.1;
+
 /// All that was measured of one cell. Of a repetition that was retried, the last attempt counts; all attempts stay in
 /// the raw file.
 struct CellSample {
@@ -18,6 +21,7 @@ struct CellSample {
   std::map<long, Record> repetitions; ///< those with a time, by number
   Record last;                        ///< the last record of the cell, whatever became of it
   long contaminated = 0;              ///< of the repetitions that count
+  long too_short = 0;                 ///< of them, those below short_sample_s
 
   bool is_empty() const { return repetitions.empty(); }
   /// Wall times [s] in order of repetitions.
@@ -26,6 +30,8 @@ struct CellSample {
   std::map<long, double> step_s() const;
   /// "passed" if every repetition passed its check, else the first other verdict.
   std::string check() const;
+  /// "ok" if every repetition and the last record are, else the first other status.
+  std::string status() const;
   /// Largest error of any repetition, NaN without a check.
   double check_error() const;
 };

@@ -1,5 +1,6 @@
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/study_reader.hpp"
+#include "solver/error.hpp"
 #include "solver/model/model.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/numerics/method.hpp"
@@ -72,8 +73,8 @@ Scale read_scale(const JsonPlace& scales, const std::string& name) {
   if (!scales.has(name))
     throw InputError(fmt::format("--scale {}: unknown scale; {}", name, nearest_name(name, known)));
   const JsonPlace place = scales[name];
-  place.require_keys({"set", "steps", "oracle_steps", "warmup_steps", "steps_for", "repetitions", "retries",
-                      "half_width", "budget_s", "time_limit_s"});
+  place.require_keys({"set", "steps", "steps_by_set", "oracle_steps", "warmup_steps", "steps_for", "repetitions",
+                      "retries", "half_width", "budget_s", "time_limit_s"});
   Scale scale;
   scale.name = name;
   scale.steps = place["steps"].count(1);
@@ -86,8 +87,11 @@ Scale read_scale(const JsonPlace& scales, const std::string& name) {
   if (place.has("steps_for"))
     for (const auto& [variant, steps] : place["steps_for"].value().items()) {
       known_variant(variant, place["steps_for"]);
-      scale.steps_for[variant] = std::min(place["steps_for"][variant].count(1), scale.steps);
+      scale.steps_for[variant] = place["steps_for"][variant].count(1);
     }
+  if (place.has("steps_by_set"))
+    for (const auto& [set, steps] : place["steps_by_set"].value().items())
+      scale.steps_by_set[set] = place["steps_by_set"][set].count(1);
   if (place.has("repetitions")) {
     const auto limits = place["repetitions"].items();
     if (limits.size() != 2) place["repetitions"].fail("is not [least, most]");
@@ -135,11 +139,31 @@ Block read_block(const JsonPlace& place, const Sets& scale_sets, int cores) {
   return block;
 }
 
+/// Refuses what cannot be run at all: an unknown scene or override, a planar model of what leaves the plane.
+void require_loadable(const JsonPlace& place, const Block& block) {
+  for (const auto& set : block.sets) {
+    try {
+      const Scene scene = load_scene(place["scene"].text(), set);
+      const bool is_planar = std::find(block.models.begin(), block.models.end(), "planar") != block.models.end();
+      if (const std::string why = why_not_planar(scene.problem); is_planar && !why.empty())
+        throw InputError(fmt::format("model \"planar\": {}", why));
+    } catch (const InputError& error) {
+      place.fail(error.what());
+    }
+  }
+}
+
+/// Steps of a cell of this set, before `steps_for`.
+long steps_of(const Scale& scale, const Cell& cell) {
+  const auto own = scale.steps_by_set.find(cell.set_text());
+  return own == scale.steps_by_set.end() ? scale.steps : own->second;
+}
+
 void add_cells(const JsonPlace& place, const Sets& scale_sets, int cores, Study& study) {
   const Block block = read_block(place, scale_sets, cores);
+  require_loadable(place, block);
   Cell cell;
   cell.scene = place["scene"].text();
-  cell.full_steps = study.scale.steps;
   for (const auto& set : block.sets)
     for (const std::string& model : block.models)
       for (const std::string& precision : block.precisions)
@@ -148,12 +172,14 @@ void add_cells(const JsonPlace& place, const Sets& scale_sets, int cores, Study&
             const VariantStatus& status = known_variant(variant, place["variants"]);
             const auto fewer = study.scale.steps_for.find(variant);
             cell.set = set;
+            cell.full_steps = steps_of(study.scale, cell);
             cell.model = model;
             cell.precision = precision;
             cell.integrator = integrator;
             cell.variant = variant;
             cell.skipped = status.unusable;
-            cell.steps = fewer == study.scale.steps_for.end() ? cell.full_steps : fewer->second;
+            cell.steps =
+                fewer == study.scale.steps_for.end() ? cell.full_steps : std::min(fewer->second, cell.full_steps);
             for (const int threads : block.threads)
               if (threads == 1 || is_threaded(status)) {
                 cell.threads = threads;
@@ -236,6 +262,11 @@ Study load_study(const std::string& name_or_path, const std::string& scale, int 
   const Sets scale_sets = scale_place.has("set") ? combinations(scale_place["set"]) : Sets(1);
   for (const JsonPlace& block : root["cells"].items()) add_cells(block, scale_sets, cores, study);
   if (study.cells.empty()) root["cells"].fail("no cell; give at least one scene with a variant");
+  for (const auto& own : study.scale.steps_by_set)
+    if (std::none_of(study.cells.begin(), study.cells.end(),
+                     [&](const Cell& cell) { return cell.set_text() == own.first; }))
+      scale_place["steps_by_set"].fail(fmt::format("no cell has the overrides \"{}\"; the first cell has \"{}\"",
+                                                   own.first, study.cells[0].set_text()));
   study.bases = root["base"].texts();
   for (const std::string& base : study.bases) known_variant(base, root["base"]);
   if (root.has("twin")) {

@@ -34,7 +34,8 @@ struct Scale {
   long steps = 0;
   long oracle_steps = 0; ///< the oracle is compared with after min(steps, oracle_steps) steps
   long warmup_steps = 2;
-  std::map<std::string, long> steps_for; ///< fewer steps for slow variants
+  std::map<std::string, long> steps_by_set; ///< other `steps` for the cells of an override text, "n=50"
+  std::map<std::string, long> steps_for;    ///< fewer steps for slow variants
   long min_repetitions = 6, max_repetitions = 30;
   long retries = 3;          ///< of a contaminated repetition
   double half_width = 0.02;  ///< a cell is converged at this relative half-width of its interval
@@ -66,6 +67,7 @@ struct StudyListing {
 std::vector<StudyListing> list_studies();
 
 /// Loads a study by name or path and resolves it for a scale and a number of cores.
+/// Every scene is loaded with its overrides, so that a study with a wrong one is refused before it measures.
 /// @throws InputError: file, JSON pointer, what is wrong and what would be right
 Study load_study(const std::string& name_or_path, const std::string& scale, int cores);
 

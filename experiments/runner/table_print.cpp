@@ -31,8 +31,9 @@ std::string shown_time(const Record& row) {
 std::string shown_status(const Record& row) {
   const std::string status = text_in(row, "status"), reason = text_in(row, "reason");
   if (!reason.empty()) return status + ": " + reason;
-  if (status == "ok" && text_in(row, "converged") == "no") return "ok, not converged";
-  return status;
+  const bool is_ok = status == "ok";
+  return status + (is_ok && text_in(row, "converged") == "no" ? ", not converged" : "") +
+         (is_ok && number_in(row, "short") > 0 ? ", short samples" : "");
 }
 
 } // namespace

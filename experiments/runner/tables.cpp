@@ -28,6 +28,7 @@ std::vector<std::string> table_columns(const Study& study) {
                                       "steps",
                                       "repetitions",
                                       "contaminated",
+                                      "short",
                                       "outliers",
                                       "measured_wall_s",
                                       "measured_wall_low_s",
@@ -115,6 +116,7 @@ void put_times(const Study& study, const Cell& cell, const CellSample& sample, R
   const Estimate wall = estimate(times);
   row["repetitions"] = fmt::format("{}", times.size());
   row["contaminated"] = fmt::format("{}", sample.contaminated);
+  row["short"] = fmt::format("{}", sample.too_short);
   row["outliers"] = fmt::format("{}", outliers(times).size());
   row["measured_wall_s"] = number_text(wall.median);
   if (wall.interval) {

@@ -27,6 +27,13 @@ double queue_wait_s() {
   return is_known ? 1e-9 * sum : std::numeric_limits<double>::quiet_NaN();
 }
 
+void read_processor(Usage& usage) {
+  rusage self{};
+  ::getrusage(RUSAGE_SELF, &self);
+  usage.cpu_s = seconds(self.ru_utime) + seconds(self.ru_stime);
+  usage.involuntary_switches = self.ru_nivcsw;
+}
+
 } // namespace
 
 Usage& Usage::operator+=(const Usage& other) {
@@ -36,18 +43,20 @@ Usage& Usage::operator+=(const Usage& other) {
   return *this;
 }
 
-Usage Usage::operator-(const Usage& earlier) const {
-  return {cpu_s - earlier.cpu_s, wait_s - earlier.wait_s, involuntary_switches - earlier.involuntary_switches};
+UsageMeter::UsageMeter() {
+  start_.wait_s = queue_wait_s();
+  read_processor(start_);
 }
 
-Usage usage_now() {
-  rusage self{};
-  ::getrusage(RUSAGE_SELF, &self);
-  return {seconds(self.ru_utime) + seconds(self.ru_stime), queue_wait_s(), self.ru_nivcsw};
+Usage UsageMeter::read() const {
+  Usage now;
+  read_processor(now);
+  now.wait_s = queue_wait_s();
+  return {now.cpu_s - start_.cpu_s, now.wait_s - start_.wait_s, now.involuntary_switches - start_.involuntary_switches};
 }
 
-bool is_contaminated(const Usage& usage, double wall_s, int threads) {
-  const double available_s = wall_s * threads;
+bool is_contaminated(const Usage& usage, double wall_s, int workers) {
+  const double available_s = wall_s * workers;
   if (available_s <= 0) return false;
   const bool is_starved = wall_s >= 0.02 && usage.cpu_s / available_s < 0.97;
   return is_starved || usage.wait_s > 0.01 * available_s; // false for an unknown (NaN) wait

@@ -49,6 +49,18 @@ class Errors(ProgramTest):
     def test_the_planar_model_refuses_a_scene_that_leaves_the_plane_with_the_reason(self):
         self.assert_refused(2, ["plate_bending", "load 0", "--model spatial"], "run", "plate_bending", "--set", "n=10", "--model", "planar")
 
+    def test_a_variant_that_the_cpu_lacks_is_refused_and_skipped_by_verify(self):
+        hidden = {"env": {**os.environ, "DSSBENCH_HIDE_CPU_FEATURES": "fma,avx512f"}}
+        for variant, feature in (("avx2", "fma"), ("avx512", "avx512f")):
+            self.assert_refused(2, [variant, f"lacks {feature}", "list variants"], *SMALL, "--variant", variant, **hidden)
+        result = dssbench("verify", "two_elements", "--variant", "scalar,avx2", **hidden)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("this CPU lacks fma", result.stdout)
+
+    def test_a_team_smaller_than_asked_for_is_refused_instead_of_leaving_rows_behind(self):
+        limited = {"env": {**os.environ, "OMP_THREAD_LIMIT": "1"}}
+        self.assert_refused(2, ["--threads 3", "OMP_THREAD_LIMIT"], *SMALL, "--variant", "scalar", "--threads", "3", **limited)
+
     def test_an_override_without_a_value_is_refused(self):
         self.assert_refused(2, ["KEY=VALUE"], "run", "plate_paper", "--set", "n")
 

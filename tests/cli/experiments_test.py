@@ -102,9 +102,16 @@ class Experiments(ProgramTest):
             ({"base": ["scala"]}, ["/base", '"scalar"']),
             ({"scales": {"smoke": {"steps": -1}}}, ["/scales/smoke/steps", "-1"]),
             ({"cells": [{"scene": "plate_paper", "variants": ["scalar"], "models": ["flat"]}]}, ["/cells/0/models", "flat"]),
+            ({"cells": [{"scene": "plate_papr", "variants": ["scalar"]}]}, ["/cells/0", '"plate_paper"']),
+            ({"cells": [{"scene": "plate_paper", "set": {"m": 10}, "variants": ["scalar"]}]}, ["/cells/0", "m"]),
+            ({"cells": [{"scene": "plate_paper", "set": {"n": -3}, "variants": ["scalar"]}]}, ["/cells/0", "/geometry/box"]),
+            ({"cells": [{"scene": "plate_bending", "variants": ["scalar"], "models": ["planar"]}]}, ["/cells/0", "planar"]),
+            ({"cells": [{"scene": "plate_paper", "variants": ["scaler"]}]}, ["/cells/0/variants", '"scalar"']),
+            ({"scales": {"smoke": {"steps": 40, "steps_by_set": {"n=11": 9}}}}, ["/scales/smoke/steps_by_set", "n=11", "n=10"]),
         ):
             self.study(**changes)
             self.assert_refused(2, words, "experiment", self.path("tiny.json"), "--scale", "smoke", "--out", self.path("out"))
+            self.assert_refused(2, words, "experiment", self.path("tiny.json"), "--scale", "smoke", "--dry-run")
         self.assertEqual(self.read("out/raw/tiny.csv"), before)
 
     def test_a_dry_run_lists_the_cells_and_writes_nothing(self):
@@ -115,14 +122,32 @@ class Experiments(ProgramTest):
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_compare_finds_what_became_slower(self):
-        columns = "experiment,scale,cell,repetition,wall_s,steps,status,twin\n"
-        old = columns + "".join(f"t,host,a,{r},{1 + 0.001 * r},10,ok,false\n" for r in range(10))
-        new = columns + "".join(f"t,host,a,{r},{1.5 + 0.001 * r},10,ok,false\n" for r in range(10))
+        columns = "experiment,scale,cell,repetition,wall_s,steps,check,status,twin\n"
+        old = columns + "".join(f"t,host,a,{r},{1 + 0.001 * r},10,passed,ok,false\n" for r in range(10))
+        new = columns + "".join(f"t,host,a,{r},{1.5 + 0.001 * r},10,passed,ok,false\n" for r in range(10))
         before, after = self.write("old.csv", old), self.write("new.csv", new)
         for first, second, exit_code, verdict in ((before, after, 1, "slower"), (after, before, 0, "faster"), (before, before, 0, "same")):
             result = dssbench("compare", first, second)
             self.assertEqual(result.returncode, exit_code, result.stdout)
             self.assertIn(verdict, result.stdout)
+
+    def test_compare_makes_no_claim_of_wrong_states_and_fails_where_they_are_new(self):
+        columns = "experiment,scale,cell,repetition,wall_s,steps,check,status,twin\n"
+        right = self.write("right.csv", columns + "".join(f"t,host,a,{r},{1 + 0.001 * r},10,passed,ok,false\n" for r in range(10)))
+        wrong = self.write("wrong.csv", columns + "".join(f"t,host,a,{r},{0.5 + 0.001 * r},10,failed,wrong,false\n" for r in range(10)))
+        for first, second, exit_code in ((right, wrong, 1), (wrong, right, 0)):
+            result = dssbench("compare", first, second)
+            self.assertEqual(result.returncode, exit_code, result.stdout)
+            self.assertIn("no claim: wrong", result.stdout)
+            self.assertNotIn("faster", result.stdout)
+
+    def test_steps_by_set_give_each_size_its_own_number(self):
+        cells = [{"scene": "plate_paper", "set": {"n": [10, 12]}, "variants": ["reference", "scalar"]}]
+        scale = {**STUDY["scales"]["smoke"], "steps_by_set": {"n=12": 30}, "steps_for": {"reference": 35}}
+        self.study(cells=cells, scales={"smoke": scale})
+        self.assertEqual(self.experiment().returncode, 0)
+        steps = {(row["set"], row["variant"], row["steps"]) for row in self.rows("tables") if row["source"] == "measured"}
+        self.assertEqual(steps, {("n=10", "reference", "35"), ("n=10", "scalar", "40"), ("n=12", "reference", "30"), ("n=12", "scalar", "30")})
 
     def test_compare_refuses_what_is_no_result(self):
         self.assert_refused(2, ["x.csv", '"cell"'], "compare", self.write("x.csv", "a,b\n1,2\n"), self.path("x.csv"))

@@ -29,6 +29,12 @@ class Outputs(ProgramTest):
         for key in ("date", "num_cpus", "caches", "git_commit", "git_dirty", "compiler", "compiler_flags", "affinity", "denormals_flushed"):
             self.assertIn(key, record["context"])
 
+    def test_threads_without_rows_are_told_from_those_that_compute(self):
+        for scene, workers in (("chain", 1), ("plate_paper", 2)):
+            result = dssbench("run", scene, "--steps", "20", "--threads", "2", "--json", "-")
+            record = json.loads(result.stdout)
+            self.assertEqual((record["threads"], record["workers"]), (2, workers))
+
     def test_the_digest_is_that_of_the_state_and_of_nothing_else(self):
         digest = self.run_json()["state_digest"]
         self.assertEqual(self.run_json("--warmup", "7")["state_digest"], digest)

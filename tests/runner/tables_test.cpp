@@ -130,6 +130,35 @@ TEST_F(Tables, ARunThatGotSlowerIsSlowerAndAnEqualOneIsTheSame) {
   EXPECT_EQ(verdict(records, records), "same within resolution");
 }
 
+TEST_F(Tables, ATimeOfAWrongStateIsNoClaimOnEitherSide) {
+  std::vector<Record> wrong = records;
+  wrong[1]["check"] = "failed";
+  wrong[1]["status"] = "wrong";
+  const Comparison in_new = compare_records(records, wrong, default_resolution).at(1);
+  EXPECT_EQ(in_new.verdict, "no claim: wrong");
+  EXPECT_FALSE(in_new.ratio);
+  EXPECT_TRUE(in_new.is_new_wrong);
+  const Comparison in_old = compare_records(wrong, records, default_resolution).at(1);
+  EXPECT_EQ(in_old.verdict, "no claim: wrong");
+  EXPECT_FALSE(in_old.is_new_wrong);
+  EXPECT_EQ(compare_records(records, wrong, default_resolution).at(0).verdict, "same within resolution");
+}
+
+TEST_F(Tables, AnUncheckedTimeIsNoClaim) {
+  std::vector<Record> unchecked = records;
+  unchecked[1]["check"] = "none";
+  const Comparison comparison = compare_records(records, unchecked, default_resolution).at(1);
+  EXPECT_EQ(comparison.verdict, "no claim: check none");
+  EXPECT_FALSE(comparison.is_new_wrong);
+}
+
+TEST_F(Tables, ShortRepetitionsAreCountedAndShown) {
+  EXPECT_EQ(derived(1)["short"], "0");
+  records[1]["wall_s"] = "0.09";
+  EXPECT_EQ(derived(1)["short"], "1");
+  EXPECT_NE(table_text(study, derive_table(study, records)).find("short samples"), std::string::npos);
+}
+
 TEST_F(Tables, FewRepetitionsGiveNoVerdict) {
   const std::vector<Record> few(records.begin(), records.begin() + 8);
   EXPECT_EQ(compare_records(few, records, default_resolution).at(0).verdict, "too few repetitions");
