@@ -7,6 +7,7 @@ target_compile_options(dss_options INTERFACE -ffp-contract=off -Wall -Wextra -Wp
 if(DSS_SANITIZE)
   target_compile_options(dss_options INTERFACE -fsanitize=${DSS_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(dss_options INTERFACE -fsanitize=${DSS_SANITIZE})
+  target_compile_definitions(dss_options INTERFACE DSS_SANITIZED)
 endif()
 
 # dss_add_variant(NAME ORDER n MARCH isa [VECTOR_BITS b] [NEEDS feature...] [OPTIONS flag...] [SOURCES file...])

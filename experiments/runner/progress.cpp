@@ -1,6 +1,7 @@
 #include "experiments/runner/progress.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,7 +9,7 @@
 namespace dss {
 
 std::string duration_text(double seconds) {
-  const long s = long(std::max(seconds, 0.0) + 0.5);
+  const long s = std::lround(std::max(seconds, 0.0));
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);

@@ -15,14 +15,21 @@
 #include <xsimd/xsimd.hpp>
 #endif
 
-// Every call in the hot loop must be inlined: GCC does so for a flattened row kernel, Clang wants it said at each
-// function.
+// Every call in the hot loop must be inlined: GCC does so for a flattened row kernel (DSS_FLATTEN), Clang wants it said at each
+// function. Not under sanitizers, where one flattened kernel would compile for minutes.
+#ifdef DSS_SANITIZED
+#define DSS_FLATTEN
+#define DSS_INLINE_BEGIN
+#define DSS_INLINE_END
+#else
+#define DSS_FLATTEN [[gnu::flatten]]
 #ifdef __clang__
 #define DSS_INLINE_BEGIN _Pragma("clang attribute push(__attribute__((always_inline)), apply_to = function)")
 #define DSS_INLINE_END _Pragma("clang attribute pop")
 #else
 #define DSS_INLINE_BEGIN
 #define DSS_INLINE_END
+#endif
 #endif
 
 DSS_INLINE_BEGIN

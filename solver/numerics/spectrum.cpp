@@ -77,7 +77,7 @@ Linearised::Linearised(const Problem& problem)
   }
   const auto add = [&](std::size_t i, std::size_t j, std::size_t kind) { links.push_back({i, j, kind}); };
   problem.lattice.for_each_link(
-      [&](std::size_t i, std::size_t j, int axis) { add(i, j, std::size_t(3 * body[i] + axis)); });
+      [&](std::size_t i, std::size_t j, int axis) { add(i, j, 3 * std::size_t(body[i]) + std::size_t(axis)); });
   for (const ExtraLink& extra : problem.extra_links) {
     add(extra.i, extra.j, kinds.size());
     kinds.push_back(link_matrices(extra.axis, extra.constants, problem.bodies[std::size_t(body[extra.i])].edge,

@@ -9,7 +9,7 @@ namespace dss {
 namespace {
 
 template <class T>
-[[gnu::flatten]] void run_kernel(int kernel, const void* in, void* out, std::size_t elements, std::size_t stride) {
+DSS_FLATTEN void run_kernel(int kernel, const void* in, void* out, std::size_t elements, std::size_t stride) {
   using R = simd::Pack<T>;
   constexpr int most = 32;
   const KernelCase<R>& c = kernel_cases<R>()[std::size_t(kernel)];

@@ -16,19 +16,19 @@ struct RowKernels {
   static constexpr int leapfrog_fields = P::fields + half_velocities;
 
   template <bool has_increments>
-  [[gnu::flatten]] static bool stage(const RowTask<T>& task) {
+  DSS_FLATTEN static bool stage(const RowTask<T>& task) {
     const StageRow<P, T, terms> row{task};
     RungeKuttaUpdate<P, T, has_increments> update(task);
     row.run(update);
     return update.check.passed();
   }
-  [[gnu::flatten]] static bool leapfrog(const RowTask<T>& task) {
+  DSS_FLATTEN static bool leapfrog(const RowTask<T>& task) {
     const StageRow<P, T, terms, leapfrog_fields> row{task};
     LeapfrogUpdate<P, T, (half_velocities > 0)> update(task);
     row.run(update);
     return update.check.passed();
   }
-  [[gnu::flatten]] static void prime(const RowTask<T>& task, int axis, int fields) {
+  DSS_FLATTEN static void prime(const RowTask<T>& task, int axis, int fields) {
     const StageRow<P, T, terms> row{task};
     if (axis == 1) row.prime(1, fields);
     if constexpr (component_count<typename P::vec>() == 3)
