@@ -36,7 +36,8 @@ struct KernelSet {
   /// velocity.
   bool (*first_stage)(const RowTask<T>& task);
   bool (*later_stage)(const RowTask<T>& task);
-  bool stage(const RowTask<T>& task) const { return task.has_increments ? later_stage(task) : first_stage(task); }
+  auto stage_kernel(bool has_increments) const { return has_increments ? later_stage : first_stage; }
+  bool stage(const RowTask<T>& task) const { return stage_kernel(task.has_increments)(task); }
   /// One leapfrog step of a row in place; false if it left a non-finite velocity.
   bool (*leapfrog)(const RowTask<T>& task);
   /// Only the links from a row (its `in`, `upper_*`, `carry_*`) across an axis (1 or 2): what a block of rows needs

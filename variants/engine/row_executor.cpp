@@ -200,17 +200,18 @@ Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
 template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
   const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
-  const WavefrontStep<T> step(packed_, setup_.method, setup_.dt, stored_fields(), blocks_);
   const int threads = int(blocks_.size());
+  std::vector<WavefrontStep<T>> step_of_block;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    step_of_block.emplace_back(packed_, setup_.method, setup_.dt, stored_fields(), width, blocks_, b);
   std::atomic<long> failed_step{-1};
   const auto work = [&](int thread, auto&& synchronise) {
     const FlushDenormals guard;
     Block<T>& block = blocks_[std::size_t(thread)];
+    WavefrontStep<T>& step = step_of_block[std::size_t(thread)];
     block.failed_row = -1;
-    StepSignals<T> values(width, setup_.method.stages);
     for (long n = 0; n < steps; ++n) {
-      values.set(&signals[std::size_t(n) * step_width]);
-      step(block, values, (parity_ + int(n & 1)) & 1);
+      step(&signals[std::size_t(n) * step_width], (parity_ + int(n & 1)) & 1);
       if (block.failed_row >= 0) failed_step = n;
       synchronise();
       if (failed_step >= 0 && failed_step <= n) break; // a faster thread may already have failed in step n + 1

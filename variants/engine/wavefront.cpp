@@ -86,52 +86,68 @@ std::size_t Block<T>::bytes() const {
 
 template <class T>
 WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
-                                std::vector<Block<T>>& blocks)
-    : packed_(packed), method_(method), fields_(fields), updates_(stage_updates<T>(method, dt)), blocks_(blocks) {
-  const int halo = method.stages * packed.reach;
-  for (Block<T>& block : blocks) {
-    auto& rows = state_rows_.emplace_back();
-    for (int parity : {0, 1}) {
-      rows[std::size_t(parity)].assign(packed.rows.size(), nullptr);
-      for (Block<T>& other : blocks)
-        for (int r = std::max(other.begin, block.begin - halo); r < std::min(other.end, block.end + halo); ++r)
-          rows[std::size_t(parity)][std::size_t(r)] = &other == &block ? block.row(r) : other.published(r, parity);
-    }
+                                std::size_t signal_count, std::vector<Block<T>>& blocks, std::size_t index)
+    : packed_(packed), fields_(fields), block_(blocks[index]), signals_(signal_count, method.stages) {
+  find_state_rows(method, blocks);
+  const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, dt);
+  stages_[0] = make_stages(method, updates, 0);
+  if (blocks.size() > 1) stages_[1] = make_stages(method, updates, 1);
+}
+
+template <class T>
+void WavefrontStep<T>::find_state_rows(const Method& method, std::vector<Block<T>>& blocks) {
+  const int halo = method.stages * packed_.reach;
+  for (int parity : {0, 1}) {
+    std::vector<T*>& rows = state_rows_[std::size_t(parity)];
+    rows.assign(packed_.rows.size(), nullptr);
+    for (Block<T>& other : blocks)
+      for (int r = std::max(other.begin, block_.begin - halo); r < std::min(other.end, block_.end + halo); ++r)
+        rows[std::size_t(r)] = &other == &block_ ? block_.row(r) : other.published(r, parity);
   }
 }
 
 template <class T>
-void WavefrontStep<T>::stage_row(Block<T>& block, int stage, int r, const StepSignals<T>& signals, int parity) const {
-  const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
-  const bool is_last = stage + 1 == method_.stages;
-  const auto input = [&](int row) {
-    return stage == 0 ? state_row(block, row, parity) : block.ring_row(stage - 1, row);
-  };
-  RowTask<T> task;
-  set_row(task, packed_, r, fields_, block.carry[std::size_t(stage)], input);
-  task.signals = signals.stage(stage);
-  T* const base = state_row(block, r, parity);
-  updates_[std::size_t(stage)].set(task, base, is_last ? base : block.ring_row(stage, r),
-                                   [&](int m) { return block.ring_row(m, r); });
-  const bool is_finite = method_.family == Method::Family::leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
-  if (!is_finite && is_last && block.failed_row < 0) block.failed_row = r;
-  if (is_last && block.is_published(r)) block.publish(r, parity ^ 1);
+auto WavefrontStep<T>::make_stages(const Method& method, const std::vector<StageUpdate<T>>& updates, int parity)
+    -> std::vector<Stage> {
+  std::vector<Stage> stages;
+  for (int s = 0; s < method.stages; ++s) {
+    const bool is_last = s + 1 == method.stages;
+    const int halo = (method.stages - 1 - s) * packed_.reach;
+    Stage stage{std::max(0, block_.begin - halo), std::min(int(packed_.rows.size()), block_.end + halo), {}};
+    stage.rows.reserve(std::size_t(stage.end - stage.begin));
+    for (int r = stage.begin; r < stage.end; ++r) {
+      const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
+      RowTask<T> task;
+      set_row(task, packed_, r, fields_, block_.carry[std::size_t(s)], [&](int row) { return input_row(s, row, parity); });
+      task.signals = signals_.stage(s);
+      T* const base = state_row(r, parity);
+      updates[std::size_t(s)].set(task, base, is_last ? base : block_.ring_row(s, r),
+                                  [&](int m) { return block_.ring_row(m, r); });
+      const bool is_leapfrog = method.family == Method::Family::leapfrog;
+      stage.rows.push_back({is_leapfrog ? kernels.leapfrog : kernels.stage_kernel(task.has_increments), task});
+    }
+    stages.push_back(std::move(stage));
+  }
+  return stages;
 }
 
 template <class T>
-void WavefrontStep<T>::operator()(Block<T>& block, const StepSignals<T>& signals, int parity) const {
-  const int stages = method_.stages, reach = packed_.reach, rows = int(packed_.rows.size());
-  // Stage s covers the block and (stages - 1 - s) reaches on either side: what the later stages of the block read.
-  const auto first = [&](int s) { return std::max(0, block.begin - (stages - 1 - s) * reach); };
-  const auto last = [&](int s) { return std::min(rows, block.end + (stages - 1 - s) * reach); };
-  for (int t = first(0); t < last(stages - 1) + (stages - 1) * reach; ++t)
-    for (int s = 0; s < stages; ++s) {
-      const int r = t - s * reach;
-      if (r < first(s) || r >= last(s)) continue;
-      if (r == first(s) && r > 0)
-        prime_links(packed_, r, fields_, block.carry[std::size_t(s)],
-                    [&](int row) { return s == 0 ? state_row(block, row, parity) : block.ring_row(s - 1, row); });
-      stage_row(block, s, r, signals, parity);
+void WavefrontStep<T>::operator()(const double* signals, int parity) {
+  signals_.set(signals);
+  std::vector<Stage>& stages = stages_[stages_[1].empty() ? 0 : std::size_t(parity)];
+  const int lag = packed_.reach, last = int(stages.size()) - 1;
+  for (int t = stages[0].begin; t < stages.back().end + last * lag; ++t)
+    for (int s = 0; s <= last; ++s) {
+      const Stage& stage = stages[std::size_t(s)];
+      const int r = t - s * lag;
+      if (r < stage.begin || r >= stage.end) continue;
+      if (r == stage.begin && r > 0)
+        prime_links(packed_, r, fields_, block_.carry[std::size_t(s)], [&](int row) { return input_row(s, row, parity); });
+      const RowStage& row = stage.rows[std::size_t(r - stage.begin)];
+      const bool is_finite = row.kernel(row.task);
+      if (s < last) continue;
+      if (!is_finite && block_.failed_row < 0) block_.failed_row = r;
+      if (block_.is_published(r)) block_.publish(r, parity ^ 1);
     }
 }
 

@@ -90,29 +90,40 @@ struct StageUpdate {
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt);
 
-/// Runs one step of one block; `blocks` are all blocks, `parity` says which published copies are current. The block's
-/// own rows end up updated in place and published under the other parity. Sets failed_row when a row leaves a
-/// non-finite state.
+/// Steps one block; `blocks` are all blocks. What a stage does to a row is the same in every step but for the parity of what
+/// neighbours publish, so all row tasks are made once: making them anew would cost as much as several packs of a row.
 template <class T>
 class WavefrontStep {
 public:
-  WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
-                std::vector<Block<T>>& blocks);
-  void operator()(Block<T>& block, const StepSignals<T>& signals, int parity) const;
+  WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields, std::size_t signal_count,
+                std::vector<Block<T>>& blocks, std::size_t index);
+  /// One step with the signals of its stages (signal_rows.hpp); `parity` says which published copies are current. The block's
+  /// own rows end up updated in place and published under the other parity. Sets failed_row when a row leaves a non-finite
+  /// state.
+  void operator()(const double* signals, int parity);
 
 private:
-  T* state_row(const Block<T>& block, int r, int parity) const {
-    return state_rows_[std::size_t(&block - blocks_.data())][std::size_t(parity)][std::size_t(r)];
-  }
-  void stage_row(Block<T>& block, int stage, int r, const StepSignals<T>& signals, int parity) const;
+  using RowKernel = bool (*)(const RowTask<T>&);
+  struct RowStage {
+    RowKernel kernel;
+    RowTask<T> task;
+  };
+  /// Rows [begin, end) that a stage covers: the block, and what its later stages read on either side.
+  struct Stage {
+    int begin, end;
+    std::vector<RowStage> rows;
+  };
+  T* state_row(int r, int parity) const { return state_rows_[std::size_t(parity)][std::size_t(r)]; }
+  T* input_row(int stage, int r, int parity) { return stage == 0 ? state_row(r, parity) : block_.ring_row(stage - 1, r); }
+  void find_state_rows(const Method& method, std::vector<Block<T>>& blocks);
+  std::vector<Stage> make_stages(const Method& method, const std::vector<StageUpdate<T>>& updates, int parity);
 
   const PackedRows<T>& packed_;
-  const Method& method_;
   const int fields_;
-  const std::vector<StageUpdate<T>> updates_;
-  std::vector<Block<T>>& blocks_;
-  std::vector<std::array<std::vector<T*>, 2>>
-      state_rows_; ///< block, parity, row: its own rows and its neighbours' published ones
+  Block<T>& block_;
+  StepSignals<T> signals_;
+  std::array<std::vector<T*>, 2> state_rows_; ///< parity, row: the block's own rows and its neighbours' published ones
+  std::array<std::vector<Stage>, 2> stages_;  ///< parity, stage; a block without neighbours needs one parity
 };
 
 } // namespace dss
