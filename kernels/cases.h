@@ -41,9 +41,9 @@ LINK_CASES(y, 1)
 LINK_CASES(z, 2)
 #endif
 
-static inline void case_rotation_rate(const REAL* in, REAL* out) {
+static inline void case_rotation(const REAL* in, REAL* out) {
   element e = case_element(in);
-  *(rotor*)out = rotor_rate(e.q, e.w);
+  *(rotor*)out = rotor_spun(e.q, e.w);
 }
 static inline void case_rotation_cayley(const REAL* in, REAL* out) {
   element e = case_element(in);

@@ -13,13 +13,15 @@ struct Terms {
   bool is_bending = false;    ///< rotational stiffness in the paper's law (the material law always has it)
   bool is_gyroscopic = false; ///< tensor inertia
   bool is_tied = false;       ///< stabilization
+  bool is_oblong = false;     ///< the model's edges differ (paper's law: a square's or cube's faces share constants)
   constexpr bool has_couples() const { return is_material || is_damped || is_bending; }
   /// Forces depend on velocities: leapfrog then carries a prediction of them.
   constexpr bool is_velocity_dependent() const { return is_damped || is_gyroscopic || is_tied; }
   constexpr bool covers(const Terms& need) const {
     return is_material == need.is_material && is_damped >= need.is_damped &&
            (is_material || is_bending >= need.is_bending) && is_gyroscopic >= need.is_gyroscopic &&
-           is_tied >= need.is_tied;
+           is_tied >= need.is_tied &&
+           (is_material || is_oblong >= need.is_oblong);
   }
 };
 

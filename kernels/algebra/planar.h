@@ -55,10 +55,6 @@ static inline spin spin_axpy(REAL k, spin a, spin b) {
   spin r = {FMA(k, a.z, b.z)};
   return r;
 }
-static inline spin spin_scaled(spin a, spin k) {
-  spin r = {a.z * k.z};
-  return r;
-}
 static inline REAL spin_norm2(spin a) { return a.z * a.z; }
 /* A spin about z has no part along a direction in the plane, and turns none into another spin: the twist terms vanish.
  */
@@ -84,6 +80,10 @@ static inline vec spin_cross(spin w, vec a) {
 }
 static inline vec spin_cross_add(spin w, vec a, vec t) {
   vec r = {FMA(-w.z, a.y, t.x), FMA(w.z, a.x, t.y)};
+  return r;
+}
+static inline spin vec_cross(vec a, vec f) {
+  spin r = {FMA(a.x, f.y, -(a.y * f.x))};
   return r;
 }
 static inline spin vec_moment(vec a, vec f, spin t) {
@@ -116,20 +116,20 @@ static inline spin rotor_vector(rotor q) {
   return r;
 }
 
-/* In the plane a face of the y axis is a face of the x axis turned by a right angle and scaled by the ratio k of the
- * edges: k turned(a) + b, and t + k turned(a) x f. */
-static inline vec vec_axpy_turned(REAL k, vec a, vec b) {
-  vec r = {FMA(-k, a.y, b.x), FMA(k, a.x, b.y)};
+/* By a right angle, counter-clockwise and back. In the plane a face of the y axis is a face of the x axis turned so (and
+ * scaled by the ratio of the edges), and turned(a) x f = a x turned_back(f). */
+static inline vec vec_turned(vec a) {
+  vec r = {-a.y, a.x};
   return r;
 }
-static inline spin vec_moment_turned(REAL k, vec a, vec f, spin t) {
-  spin r = {FMA(-a.x, k * f.x, FMA(-a.y, k * f.y, t.z))};
+static inline vec vec_turned_back(vec f) {
+  vec r = {f.y, -f.x};
   return r;
 }
 
-static inline rotor rotor_rate(rotor q, spin w) {
-  REAL q0 = q.s + SPLAT(1), z = SPLAT(0.5) * w.z;
-  rotor r = {-(z * q.z), z * q0};
+static inline rotor rotor_spun(rotor q, spin w) {
+  REAL q0 = q.s + SPLAT(1);
+  rotor r = {-(w.z * q.z), w.z * q0};
   return r;
 }
 static inline rotor rotor_cayley(rotor q, spin b) {

@@ -58,11 +58,6 @@ static inline spin spin_axpy(REAL k, spin a, spin b) {
   spin r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y), FMA(k, a.z, b.z)};
   return r;
 }
-/* component by component */
-static inline spin spin_scaled(spin a, spin k) {
-  spin r = {a.x * k.x, a.y * k.y, a.z * k.z};
-  return r;
-}
 static inline REAL spin_norm2(spin a) { return FMA(a.z, a.z, FMA(a.y, a.y, a.x * a.x)); }
 /* n.a of a spin along a direction */
 static inline REAL spin_dot(spin a, vec n) { return FMA(a.z, n.z, FMA(a.y, n.y, a.x * n.x)); }
@@ -81,7 +76,11 @@ static inline vec spin_cross_add(spin w, vec a, vec t) {
   vec r = {FMA(w.y, a.z, FMA(-w.z, a.y, t.x)), FMA(w.z, a.x, FMA(-w.x, a.z, t.y)), FMA(w.x, a.y, FMA(-w.y, a.x, t.z))};
   return r;
 }
-/* t + a x f, the moment of a force at a */
+/* a x f, the moment of a force at a; and t + a x f */
+static inline spin vec_cross(vec a, vec f) {
+  spin r = {FMA(a.y, f.z, -(a.z * f.y)), FMA(a.z, f.x, -(a.x * f.z)), FMA(a.x, f.y, -(a.y * f.x))};
+  return r;
+}
 static inline spin vec_moment(vec a, vec f, spin t) {
   spin r = {FMA(a.y, f.z, FMA(-a.z, f.y, t.x)), FMA(a.z, f.x, FMA(-a.x, f.z, t.y)), FMA(a.x, f.y, FMA(-a.y, f.x, t.z))};
   return r;
@@ -132,11 +131,11 @@ static inline spin rotor_vector(rotor q) {
   return r;
 }
 
-/* q' = 1/2 w q, w in global axes */
-static inline rotor rotor_rate(rotor q, spin w) {
-  REAL q0 = q.s + SPLAT(1), x = SPLAT(0.5) * w.x, y = SPLAT(0.5) * w.y, z = SPLAT(0.5) * w.z;
-  rotor r = {FMA(-x, q.x, FMA(-y, q.y, -(z * q.z))), FMA(x, q0, FMA(y, q.z, -(z * q.y))),
-             FMA(y, q0, FMA(z, q.x, -(x * q.z))), FMA(z, q0, FMA(x, q.y, -(y * q.x)))};
+/* w q = 2 q', w in global axes */
+static inline rotor rotor_spun(rotor q, spin w) {
+  REAL q0 = q.s + SPLAT(1);
+  rotor r = {FMA(-w.x, q.x, FMA(-w.y, q.y, -(w.z * q.z))), FMA(w.x, q0, FMA(w.y, q.z, -(w.z * q.y))),
+             FMA(w.y, q0, FMA(w.z, q.x, -(w.x * q.z))), FMA(w.z, q0, FMA(w.x, q.y, -(w.y * q.x)))};
   return r;
 }
 /* dq q with dq = (1 - |b|^2, 2 b) / (1 + |b|^2): the Cayley map of the spin 4 b, a rotation by 4 atan |b| that keeps

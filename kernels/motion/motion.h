@@ -1,10 +1,14 @@
-/* Motion of one element (design.md section 2): from the total force and moment on it to the rates of its fields. */
+/* Motion of one element (design.md section 2): from the total force and moment on it to what the update needs.
+ *   u' = v,   v' = force / m,   q' = w q / 2,   w' = turn / I
+ * The factors 1/m, 1/2 and 1/I meet the step's factor in the update's constants (kernels/rk_update), never in the loop. */
 
-typedef struct {
-  REAL inverse_mass;
-  vec frame;
-  spin inertia, inverse_inertia;
-} mass_law; /* [1/kg], [m/s^2], [kg m^2], [1/(kg m^2)] */
+/* What w' is proportional to: the moment itself where the inertia is a scalar I (a cube), else w' by Euler's equation,
+ * with I = 1. */
+static inline spin turn(spin moment, element e, spin inertia, spin inverse_inertia, const int is_gyroscopic) {
+  if (is_gyroscopic) return spin_euler(moment, e.w, e.q, inertia, inverse_inertia);
+  return moment;
+}
+
 typedef struct {
   REAL k, d, k2_rot, d_rot;
 } tie_law; /* stabilization: [N/m], [N s/m], twice k_rot [N m/rad], [N m s/rad] */
@@ -15,12 +19,4 @@ static inline vec tie_force(element e, tie_law tie, vec force) {
 }
 static inline spin tie_moment(element e, tie_law tie, spin moment) {
   return spin_axpy(-tie.k2_rot, rotor_vector(e.q), spin_axpy(-tie.d_rot, e.w, moment));
-}
-
-static inline vec acceleration(vec force, mass_law mass) { return vec_axpy(mass.inverse_mass, force, mass.frame); }
-
-/* A cube's inertia is a scalar and has no gyroscopic term. */
-static inline spin angular_acceleration(spin moment, element e, mass_law mass, const int is_gyroscopic) {
-  if (is_gyroscopic) return spin_euler(moment, e.w, e.q, mass.inertia, mass.inverse_inertia);
-  return spin_scaled(moment, mass.inverse_inertia);
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// What a stage does with the accelerations of a pack: the two families of methods. Passed to StageRow::run.
+/// What a stage does with the force and the turn of a pack (kernels/motion/motion.h): the two families of methods. Passed to
+/// StageRow::run; turn_scale: w' over turn.
 #include "kernels/physics.hpp"
 #include "kernels/stage_row/row.hpp"
 
@@ -25,18 +26,18 @@ struct RungeKuttaUpdate {
   static constexpr int W = simd::lanes<T>;
   const T *const base, *const increment[3];
   T* const out;
-  const R beta, alpha[3];
+  const R alpha[3], beta_u, beta_v, beta_q, beta_w;
   FiniteCheck<R, T> check{};
 
-  explicit RungeKuttaUpdate(const RowTask<T>& task)
+  explicit RungeKuttaUpdate(const RowTask<T>& task, T turn_scale)
       : base(task.base), increment{task.increment[0], task.increment[1], task.increment[2]}, out(task.out),
-        beta(task.beta), alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])} {}
+        alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, beta_u(task.beta),
+        beta_v(task.beta * task.body->inverse_mass), beta_q(task.beta * T(0.5)), beta_w(task.beta * turn_scale) {}
 
-  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a,
-                  const typename P::spin& angular) {
-    typename P::element rate{e.v, a, P::rotor_rate(e.q, e.w), angular};
-    std::ptrdiff_t at = place;
-    each_component(rate, [&](R& k) {
+  /// Rates in, the next stage's fields out.
+  template <class Tuple>
+  Tuple store_next(std::ptrdiff_t& at, R beta, Tuple rates) {
+    each_component(rates, [&](R& k) {
       const R y = simd::load(base + at);
       if constexpr (has_increments) {
         R t = P::rk_first(simd::load(increment[0] + at) - y, beta, k);
@@ -48,7 +49,15 @@ struct RungeKuttaUpdate {
       simd::store(out + at, k);
       at += W;
     });
-    if constexpr (has_increments) check.add(rate.v), check.add(rate.w);
+    return rates;
+  }
+  void operator()(std::ptrdiff_t at, const typename P::element& e, const typename P::vec& force,
+                  const typename P::spin& turn) {
+    store_next(at, beta_u, e.v);
+    const auto v = store_next(at, beta_v, force);
+    store_next(at, beta_q, P::rotor_spun(e.q, e.w));
+    const auto w = store_next(at, beta_w, turn);
+    if constexpr (has_increments) check.add(v), check.add(w);
   }
 };
 
@@ -61,18 +70,19 @@ struct LeapfrogUpdate {
   static constexpr int W = simd::lanes<T>;
   const T* const half_velocities;
   T* const out;
-  const R h;
+  const R h, inverse_mass, turn_scale;
   FiniteCheck<R, T> check{};
 
-  explicit LeapfrogUpdate(const RowTask<T>& task)
-      : half_velocities(task.base + P::fields * W), out(task.out), h(task.beta) {}
+  explicit LeapfrogUpdate(const RowTask<T>& task, T scale_of_turn)
+      : half_velocities(task.base + P::fields * W), out(task.out), h(task.beta), inverse_mass(task.body->inverse_mass),
+        turn_scale(scale_of_turn) {}
 
   template <class Tuple>
   static void store_all(T*& p, Tuple t) {
     each_component(t, [&](R& c) { simd::store(p, c), p += W; });
   }
-  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& a,
-                  const typename P::spin& angular) {
+  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& force,
+                  const typename P::spin& turn) {
     T* p = out + place;
     auto v_half = e.v;
     auto w_half = e.w;
@@ -82,7 +92,8 @@ struct LeapfrogUpdate {
       each_component(v_half, load);
       each_component(w_half, load);
     }
-    const auto next = P::leapfrog(e.u, e.q, v_half, w_half, a, angular, h);
+    const auto next = P::leapfrog(e.u, e.q, v_half, w_half, P::vec_scale(inverse_mass, force),
+                                  P::spin_scale(turn_scale, turn), h);
     store_all(p, next.u);
     store_all(p, is_predicted ? next.v_next : next.v_half);
     store_all(p, next.q);

@@ -15,14 +15,15 @@ struct PackMasks {
 /// scaled to match.
 template <class T>
 struct BodyConstants {
-  T edge[3];
+  T edge[3], edge_ratio; // edge_ratio: y over x
   T inverse_unit; // 1 / unit
   T tau, kt2, dt; // paper's law
   struct Axis {
     T k_s, k_ns, d_s, d_ns, k_z, k_xz, k_yz, d_z, d_xz, d_yz;
   } axis[3]; // material law
-  T inverse_mass, inertia[3], inverse_inertia[3];
+  T mass, inverse_mass, inertia[3], inverse_inertia[3];
   T tie_k, tie_d, tie_k2_rot, tie_d_rot; // stabilization
+  bool is_accelerated;                   // gravity or base acceleration acts
 };
 
 /// Wrenches and clamps of a row that has any, on the packs [first, first + packs).
@@ -51,7 +52,7 @@ struct RowTask {
   const T* in = nullptr;               ///< the stage's input; one readable pack follows the row
   const T *upper_y = nullptr, *upper_z = nullptr;
   T *carry_y = nullptr, *carry_z = nullptr;     ///< link forces and couples for the upper rows
-  const T *from_y = nullptr, *from_z = nullptr; ///< those that the lower rows left
+  const T *from_y = nullptr, *from_z = nullptr; ///< those that the lower rows left; may be the same places
   // No increments: out = base + beta f(in). With: out = base + alpha_0 [beta f(in) + (increment_0 - base) + sum_{m > 0}
   // alpha_m (increment_m - base)], so beta and the later alpha are ratios to alpha_0 (rk_update.h). Leapfrog: beta = h,
   // in == base == out.

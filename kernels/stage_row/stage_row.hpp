@@ -31,17 +31,19 @@ struct StageRow {
     vec force;
     spin couple;
   };
+  /// Sums over an element's links. In the plane, forces on the y faces are turned onto the x face, so that one product gives
+  /// the moment of all.
   struct Wrench {
     vec force;
     spin moment, couple;
+    vec on_x_face;
   };
-  using Mass = typename P::mass_law;
 
   const RowTask<T>& task;
   const BodyConstants<T>& body = *task.body;
   const std::array<typename P::paper_law, 3> laws{paper_law(0), paper_law(1), paper_law(2)};
-  const R edge_ratio{body.edge[1] / body.edge[0]};
   static constexpr bool is_planar = component_count<vec>() == 2;
+  static constexpr bool has_one_lever = is_planar && !terms.is_material;
 
   static element load_element(const T* p) {
     element e;
@@ -78,6 +80,7 @@ struct StageRow {
   }
 
   typename P::paper_law paper_law(int axis) const {
+    if (!terms.is_oblong) axis = 0;
     return {R(body.edge[axis]), R(body.edge[axis] / 2), R(body.tau), R(body.kt2), R(body.dt)};
   }
   typename P::material_law material(int axis) const {
@@ -105,20 +108,32 @@ struct StageRow {
   /// Upper or lower face of an element on axis 1 or 2, and the moment of a force on it; the plane's are turned from the
   /// x axis.
   vec upper_across(const vec& pull, const typename P::face& x, const typename P::face& own) const {
-    if constexpr (is_planar) return P::vec_axpy_turned(edge_ratio, x.swing, pull);
-    return P::upper_face(pull, own);
+    return P::upper_face(pull, across(x, own));
   }
   vec lower_across(const element& e, const vec& pull, const int axis) const {
     if constexpr (is_planar)
-      return P::vec_axpy_turned(-edge_ratio, P::element_face(e, 0, laws[0], terms.is_damped).swing, pull);
-    return P::lower_face(pull, P::element_face(e, axis, laws[std::size_t(axis)], terms.is_damped));
+      return P::lower_face(pull, across(P::element_face(e, 0, laws[0], terms.is_damped), {}));
+    else
+      return P::lower_face(pull, P::element_face(e, axis, laws[std::size_t(axis)], terms.is_damped));
+  }
+  typename P::face across(const typename P::face& x, const typename P::face& own) const {
+    if constexpr (is_planar)
+      return {x.arm, scaled_to_y(P::vec_turned(x.swing))};
+    else
+      return own;
+  }
+  vec scaled_to_y(const vec& a) const {
+    if constexpr (terms.is_oblong)
+      return P::vec_scale(R(body.edge_ratio), a);
+    else
+      return a;
   }
 
   /// Exchange over the link from i to j on `axis`; `lower` is j's lower face (paper's law), `upper` i's upper face.
   typename P::exchange link(const element& i, const vec& upper, const element& j, const vec& lower,
                             const int axis) const {
     if constexpr (terms.is_material) return P::material_link(i, j, axis, material(axis), terms.is_damped);
-    typename P::exchange x;
+    typename P::exchange x{};
     x.force = P::vec_sub(lower, upper);
     if constexpr (terms.has_couples())
       x.couple_i = P::paper_couple(i.q, i.w, j.q, j.w, laws[std::size_t(axis)], terms.is_bending, terms.is_damped);
@@ -133,6 +148,12 @@ struct StageRow {
     keep(mask, x.force);
     if constexpr (terms.has_couples()) keep(mask, x.couple_i);
     if constexpr (terms.is_material) keep(mask, x.couple_j);
+  }
+  static spin couples(const typename P::exchange& up, const Carry& low) {
+    if constexpr (terms.is_material)
+      return P::spin_add(up.couple_i, low.couple);
+    else
+      return P::spin_sub(up.couple_i, low.couple);
   }
   static void add_couples(const typename P::exchange& up, const Carry& low, spin& couple) {
     if constexpr (terms.is_material)
@@ -176,17 +197,17 @@ struct StageRow {
     if (above != 0) {
       up = link_across(i.e, upper_face, upper + std::ptrdiff_t(pack) * (stride * W), axis);
       mask_links(above, up);
-      store_carry(carry + std::ptrdiff_t(pack) * carry_size, carry_of(up));
     }
     Carry low{zero<vec>(), zero<spin>()};
     if (below != 0) low = load_carry(from + std::ptrdiff_t(pack) * carry_size);
     sum.force = P::vec_sub(P::vec_add(sum.force, up.force), low.force);
     const vec both = P::vec_add(up.force, low.force);
-    if constexpr (is_planar && !terms.is_material)
-      sum.moment = P::vec_moment_turned(edge_ratio, i.x.arm, both, sum.moment);
+    if constexpr (has_one_lever)
+      sum.on_x_face = P::vec_add(sum.on_x_face, scaled_to_y(P::vec_turned_back(both)));
     else
       sum.moment = P::vec_moment(own.arm, both, sum.moment);
     add_couples(up, low, sum.couple);
+    if (above != 0) store_carry(carry + std::ptrdiff_t(pack) * carry_size, carry_of(up)); // perhaps over what was read
   }
   vec arm(const element& e, const int axis) const {
     return P::face_arm(e.q, axis, R(body.edge[axis]), R(body.edge[axis] / 2));
@@ -213,9 +234,11 @@ struct StageRow {
     previous = carry;
     vec arm_x = i.x.arm;
     if constexpr (terms.is_material) arm_x = arm(i.e, 0);
-    Wrench sum{P::vec_sub(up.force, low.force), P::vec_moment(arm_x, P::vec_add(up.force, low.force), zero<spin>()),
-               zero<spin>()};
-    add_couples(up, low, sum.couple);
+    Wrench sum;
+    sum.force = P::vec_sub(up.force, low.force);
+    sum.on_x_face = P::vec_add(up.force, low.force);
+    if constexpr (!has_one_lever) sum.moment = P::vec_cross(arm_x, sum.on_x_face);
+    if constexpr (terms.has_couples()) sum.couple = couples(up, low);
     return sum;
   }
 
@@ -230,13 +253,13 @@ struct StageRow {
       each_component(sum.moment, add);
     }
   }
-  void hold_clamped(int pack, vec& acceleration, spin& angular) const {
+  void hold_clamped(int pack, vec& force, spin& turn) const {
     if (task.applied->free_lanes == nullptr) return;
     const simd::LaneMask* mask =
         task.applied->free_lanes + std::ptrdiff_t(pack - task.applied->first) * wrench_components;
     const auto hold = [&](R& c) { c = simd::keep(*mask++, c); };
-    each_component(acceleration, hold);
-    each_component(angular, hold);
+    each_component(force, hold);
+    each_component(turn, hold);
   }
   template <class Tuple>
   static Tuple
@@ -246,10 +269,8 @@ struct StageRow {
     if constexpr (requires { t.z; }) t.z = R(values[2]);
     return t;
   }
-  Mass mass() const {
-    return {R(body.inverse_mass), splat<vec>(task.signals), splat<spin>(body.inertia),
-            splat<spin>(body.inverse_inertia)};
-  }
+  /// w' over turn (kernels/motion/motion.h). A scalar inertia is the same about every axis; the plane has one about z.
+  T turn_scale() const { return terms.is_gyroscopic ? T(1) : body.inverse_inertia[2]; }
 
   /// Only the links across `axis` from this row to the upper one, into the carry buffer. `fields` a pack of the rows
   /// holds.
@@ -271,7 +292,7 @@ struct StageRow {
     }
   }
 
-  /// Runs update(pack, element, acceleration, angular acceleration) for every pack of the row.
+  /// Runs update(place, element, force, turn) for every pack of the row.
   template <class Update>
   void run(Update&& update) const {
     // Local copies: stores of packs may alias anything, and would force what is behind a reference to be read again for
@@ -283,7 +304,9 @@ struct StageRow {
     const int applied_first = task.applied != nullptr ? task.applied->first : 0;
     const int applied_packs = task.applied != nullptr ? task.applied->packs : 0;
     const int packs = task.packs;
-    const Mass mass = this->mass();
+    const bool is_accelerated = body.is_accelerated;
+    const vec frame = splat<vec>(task.signals);
+    const spin inertia = splat<spin>(body.inertia), inverse_inertia = splat<spin>(body.inverse_inertia);
     const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot), R(body.tie_d_rot)};
     Prepared next = prepare(in);
     Carry previous{zero<vec>(), zero<spin>()};
@@ -297,6 +320,7 @@ struct StageRow {
       add_across(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack, sum);
       if constexpr (component_count<vec>() == 3)
         add_across(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, sum);
+      if constexpr (has_one_lever) sum.moment = P::vec_cross(i.x.arm, sum.on_x_face);
       if constexpr (terms.is_material)
         sum.moment = P::spin_add(sum.moment, sum.couple);
       else if constexpr (terms.has_couples())
@@ -307,10 +331,10 @@ struct StageRow {
       }
       const bool is_applied = unsigned(pack - applied_first) < unsigned(applied_packs);
       if (is_applied) apply_wrenches(pack, sum);
-      vec a = P::acceleration(sum.force, mass);
-      spin alpha = P::angular_acceleration(sum.moment, i.e, mass, terms.is_gyroscopic);
-      if (is_applied) hold_clamped(pack, a, alpha);
-      update(place, i.e, a, alpha);
+      if (is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);
+      spin turn = P::turn(sum.moment, i.e, inertia, inverse_inertia, terms.is_gyroscopic);
+      if (is_applied) hold_clamped(pack, sum.force, turn);
+      update(place, i.e, sum.force, turn);
     }
   }
 };

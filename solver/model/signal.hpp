@@ -15,5 +15,6 @@ struct Signal {
   double offset = 0;                 ///< added to every kind
   double operator()(double t) const;
 };
+bool is_zero_always(const Signal& signal);
 
 } // namespace dss

@@ -66,8 +66,9 @@ int stage_flops() {
   const auto count = [&](int packs) {
     task.packs = packs;
     Counted::flops = 0;
-    RungeKuttaUpdate<P, Counted, has_increments> update(task);
-    StageRow<P, Counted, terms>{task}.run(update);
+    const StageRow<P, Counted, terms> row{task};
+    RungeKuttaUpdate<P, Counted, has_increments> update(task, row.turn_scale());
+    row.run(update);
     return Counted::flops;
   };
   return count(2) - count(1); // of one element, without what a row begins with

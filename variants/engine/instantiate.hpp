@@ -18,13 +18,13 @@ struct RowKernels {
   template <bool has_increments>
   DSS_FLATTEN static bool stage(const RowTask<T>& task) {
     const StageRow<P, T, terms> row{task};
-    RungeKuttaUpdate<P, T, has_increments> update(task);
+    RungeKuttaUpdate<P, T, has_increments> update(task, row.turn_scale());
     row.run(update);
     return update.check.passed();
   }
   DSS_FLATTEN static bool leapfrog(const RowTask<T>& task) {
     const StageRow<P, T, terms, leapfrog_fields> row{task};
-    LeapfrogUpdate<P, T, (half_velocities > 0)> update(task);
+    LeapfrogUpdate<P, T, (half_velocities > 0)> update(task, row.turn_scale());
     row.run(update);
     return update.check.passed();
   }

@@ -12,10 +12,11 @@ namespace dss {
 /// Combinations that are compiled, per law from lean to full; a problem takes the first that covers what it needs.
 /// One more row costs about 5 s of compile time a module.
 inline constexpr std::array compiled_terms{
-    // material, damped, bending, gyroscopic, tied
-    Terms{false, false, false, false, false}, Terms{false, true, false, false, false},
-    Terms{false, true, true, true, true},     Terms{true, false, false, false, false},
-    Terms{true, true, false, false, false},   Terms{true, true, true, true, true},
+    // material, damped, bending, gyroscopic, tied, oblong
+    Terms{false, false, false, false, false, false}, Terms{false, true, false, false, false, false},
+    Terms{false, true, false, false, false, true},   Terms{false, true, true, true, true, true},
+    Terms{true, false, false, false, false, false},  Terms{true, true, false, false, false, false},
+    Terms{true, true, true, true, true, false},
 };
 
 /// Constants of one link outside the grid; T-valued, both laws.

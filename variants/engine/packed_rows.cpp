@@ -94,6 +94,7 @@ void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
     for (const Body& body : problem.bodies) {
       Terms need = common;
       need.is_material = body.law == LinkLaw::material;
+      need.is_oblong = body.edge[1] != body.edge[0] || (model == Model::spatial && body.edge[2] != body.edge[0]);
       kernels_.push_back(&find_kernels<T>(model, need));
       is_velocity_dependent |= kernels_.back()->terms.is_velocity_dependent();
     }
@@ -101,7 +102,10 @@ void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
   };
   if (choose() && !common.is_velocity_dependent())
     common.is_damped = true, choose(); // one width of leapfrog rows for all bodies
-  for (const Body& body : problem.bodies) bodies_.push_back(body_constants<T>(body, problem.stabilization));
+  for (const Body& body : problem.bodies) {
+    bodies_.push_back(body_constants<T>(body, problem.stabilization));
+    for (const Signal& a : problem.frame_acceleration) bodies_.back().is_accelerated |= !is_zero_always(a);
+  }
   for (const KernelSet<T>* set : kernels_) {
     carry_size = std::max(carry_size, set->carry_size);
     leapfrog_fields = std::max(leapfrog_fields, set->leapfrog_fields);
@@ -235,6 +239,8 @@ BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
     c.inertia[a] = T(body.inertia[a] / unit);
     c.inverse_inertia[a] = T(unit / body.inertia[a]);
   }
+  c.edge_ratio = T(body.edge[1] / body.edge[0]);
+  c.mass = T(body.mass / unit);
   c.inverse_mass = T(unit / body.mass);
   c.tie_k = T(tie.k / unit), c.tie_d = T(tie.d / unit), c.tie_k2_rot = T(2 * tie.k_rot / unit),
   c.tie_d_rot = T(tie.d_rot / unit);

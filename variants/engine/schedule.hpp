@@ -9,18 +9,18 @@
 namespace dss {
 
 /// Carry buffers of one stage of one block: the link forces that rows leave for their upper neighbours.
-/// Across y the upper row is the next one; across z it is at most `reach` rows ahead, so rings of 2 and reach + 1 rows
-/// do.
+/// Across y the upper row is the next one; across z it is at most `reach` rows ahead. A row reads what its lower row left
+/// before it leaves its own in the same place, so one row across y and a ring of `reach` rows across z do.
 template <class T>
 class CarryRings {
 public:
   CarryRings() = default;
   explicit CarryRings(const PackedRows<T>& packed)
-      : rows_z_(packed.reach + 1), row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
-        data_(std::size_t(2 + rows_z_) * row_size_) {}
+      : rows_z_(packed.reach), row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
+        data_(std::size_t(1 + rows_z_) * row_size_) {}
   /// Ring rows start at pack 0 of the body's grid, so rows of different first packs agree.
-  T* y(int row) { return data_.data() + std::size_t(row % 2) * row_size_; }
-  T* z(int row) { return data_.data() + std::size_t(2 + row % rows_z_) * row_size_; }
+  T* y() { return data_.data(); }
+  T* z(int row) { return data_.data() + std::size_t(1 + row % rows_z_) * row_size_; }
   std::size_t bytes() const { return data_.bytes(); }
 
 private:
@@ -46,8 +46,8 @@ void set_row(RowTask<T>& task, const PackedRows<T>& packed, int row, int fields,
   task.applied = p.applied;
   task.in = input(row);
   task.upper_y = aligned(r.upper_y);
-  task.carry_y = carry.y(row) + carry_offset;
-  if (r.lower_y >= 0) task.from_y = carry.y(r.lower_y) + carry_offset;
+  task.carry_y = carry.y() + carry_offset;
+  if (r.lower_y >= 0) task.from_y = carry.y() + carry_offset;
   if (r.upper_z >= 0) task.upper_z = aligned(r.upper_z), task.carry_z = carry.z(row) + carry_offset;
   if (r.lower_z >= 0) task.from_z = carry.z(r.lower_z) + carry_offset;
 }
