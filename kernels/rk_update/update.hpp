@@ -30,8 +30,8 @@ struct RungeKuttaUpdate {
   FiniteCheck<R, T> check{};
 
   explicit RungeKuttaUpdate(const RowTask<T>& task, T turn_scale)
-      : base(task.base), increment{task.increment[0], task.increment[1], task.increment[2]}, out(task.out),
-        alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, beta_u(task.beta),
+      : base(task.base), increment{task.increment[0], task.increment[1], task.increment[2]},
+        out(task.out), alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, beta_u(task.beta),
         beta_v(task.beta * task.body->inverse_mass), beta_q(task.beta * T(0.5)), beta_w(task.beta * turn_scale) {}
 
   /// Rates in, the next stage's fields out.
@@ -92,8 +92,8 @@ struct LeapfrogUpdate {
       each_component(v_half, load);
       each_component(w_half, load);
     }
-    const auto next = P::leapfrog(e.u, e.q, v_half, w_half, P::vec_scale(inverse_mass, force),
-                                  P::spin_scale(turn_scale, turn), h);
+    const auto next =
+        P::leapfrog(e.u, e.q, v_half, w_half, P::vec_scale(inverse_mass, force), P::spin_scale(turn_scale, turn), h);
     store_all(p, next.u);
     store_all(p, is_predicted ? next.v_next : next.v_half);
     store_all(p, next.q);

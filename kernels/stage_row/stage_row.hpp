@@ -44,6 +44,12 @@ struct StageRow {
   const std::array<typename P::paper_law, 3> laws{paper_law(0), paper_law(1), paper_law(2)};
   static constexpr bool is_planar = component_count<vec>() == 2;
   static constexpr bool has_one_lever = is_planar && !terms.is_material;
+  /// Plain packs, with every link in the plane and nothing applied, take a copy of the loop's body without branches. Measured
+  /// (GCC 12, Zen 4): planar 1.10 to 1.15 of the rate without it, spatial 0.89, since straight code over 13 fields spills more.
+  static constexpr bool has_plain_path = is_planar;
+  static bool has_all_links(const PackMasks& masks) {
+    return (masks.link_x & masks.link_y & masks.below_y) == simd::all_lanes<T>;
+  }
 
   static element load_element(const T* p) {
     element e;
@@ -143,8 +149,9 @@ struct StageRow {
     if constexpr (terms.is_material) return {x.force, x.couple_j};
     return {x.force, x.couple_i};
   }
+  template <bool is_plain = false>
   static void mask_links(simd::LaneMask mask, typename P::exchange& x) {
-    if (mask == simd::all_lanes<T>) return;
+    if (is_plain || mask == simd::all_lanes<T>) return;
     keep(mask, x.force);
     if constexpr (terms.has_couples()) keep(mask, x.couple_i);
     if constexpr (terms.is_material) keep(mask, x.couple_j);
@@ -183,9 +190,10 @@ struct StageRow {
   }
 
   /// `upper`: the upper row; `carry`, `from`: carry buffers; each may be null where no mask needs it.
+  template <bool is_plain>
   void add_across(const Prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper,
                   T* carry, const T* from, int pack, Wrench& sum) const {
-    if ((above | below) == 0) return;
+    if (!is_plain && (above | below) == 0) return;
     typename P::face own;
     vec upper_face;
     if constexpr (terms.is_material)
@@ -194,12 +202,12 @@ struct StageRow {
       own = P::element_face(i.e, axis, laws[std::size_t(axis)], terms.is_damped);
     if constexpr (!terms.is_material) upper_face = upper_across(i.pull, i.x, own);
     typename P::exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
-    if (above != 0) {
+    if (is_plain || above != 0) {
       up = link_across(i.e, upper_face, upper + std::ptrdiff_t(pack) * (stride * W), axis);
-      mask_links(above, up);
+      mask_links<is_plain>(above, up);
     }
     Carry low{zero<vec>(), zero<spin>()};
-    if (below != 0) low = load_carry(from + std::ptrdiff_t(pack) * carry_size);
+    if (is_plain || below != 0) low = load_carry(from + std::ptrdiff_t(pack) * carry_size);
     sum.force = P::vec_sub(P::vec_add(sum.force, up.force), low.force);
     const vec both = P::vec_add(up.force, low.force);
     if constexpr (has_one_lever)
@@ -207,12 +215,14 @@ struct StageRow {
     else
       sum.moment = P::vec_moment(own.arm, both, sum.moment);
     add_couples(up, low, sum.couple);
-    if (above != 0) store_carry(carry + std::ptrdiff_t(pack) * carry_size, carry_of(up)); // perhaps over what was read
+    if (is_plain || above != 0)
+      store_carry(carry + std::ptrdiff_t(pack) * carry_size, carry_of(up)); // perhaps over what was read
   }
   vec arm(const element& e, const int axis) const {
     return P::face_arm(e.q, axis, R(body.edge[axis]), R(body.edge[axis] / 2));
   }
 
+  template <bool is_plain>
   Wrench links_x(const Prepared& i, const Prepared& next, simd::LaneMask mask, Carry& previous) const {
     element j;
     vec lower;
@@ -226,7 +236,7 @@ struct StageRow {
     vec upper;
     if constexpr (!terms.is_material) upper = P::upper_face(i.pull, i.x);
     typename P::exchange up = link(i.e, upper, j, lower, 0);
-    mask_links(mask, up);
+    mask_links<is_plain>(mask, up);
     const Carry carry = carry_of(up);
     Carry low;
     low.force = from_below(previous.force, carry.force);
@@ -272,6 +282,18 @@ struct StageRow {
   /// w' over turn (kernels/motion/motion.h). A scalar inertia is the same about every axis; the plane has one about z.
   T turn_scale() const { return terms.is_gyroscopic ? T(1) : body.inverse_inertia[2]; }
 
+  void add_couples_and_ties(const Prepared& i, const typename P::tie_law& tie, Wrench& sum) const {
+    if constexpr (has_one_lever) sum.moment = P::vec_cross(i.x.arm, sum.on_x_face);
+    if constexpr (terms.is_material)
+      sum.moment = P::spin_add(sum.moment, sum.couple);
+    else if constexpr (terms.has_couples())
+      sum.moment = P::couple_moment(sum.couple, laws[0], terms.is_bending, sum.moment);
+    if constexpr (terms.is_tied) {
+      sum.force = P::tie_force(i.e, tie, sum.force);
+      sum.moment = P::tie_moment(i.e, tie, sum.moment);
+    }
+  }
+
   /// Only the links across `axis` from this row to the upper one, into the carry buffer. `fields` a pack of the rows
   /// holds.
   void prime(const int axis, int fields) const {
@@ -310,31 +332,29 @@ struct StageRow {
     const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot), R(body.tie_d_rot)};
     Prepared next = prepare(in);
     Carry previous{zero<vec>(), zero<spin>()};
-    for (int pack = 0; pack < packs; ++pack) {
+    const auto one_pack = [&]<bool is_plain>(const int pack, const bool is_applied, std::bool_constant<is_plain>) {
       const PackMasks& masks = all_masks[pack];
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * (stride * W);
       Prepared i = next;
       i.e = load_element(in + place);
       next = prepare(in + place + stride * W);
-      Wrench sum = links_x(i, next, masks.link_x, previous);
-      add_across(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack, sum);
-      if constexpr (component_count<vec>() == 3)
-        add_across(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, sum);
-      if constexpr (has_one_lever) sum.moment = P::vec_cross(i.x.arm, sum.on_x_face);
-      if constexpr (terms.is_material)
-        sum.moment = P::spin_add(sum.moment, sum.couple);
-      else if constexpr (terms.has_couples())
-        sum.moment = P::couple_moment(sum.couple, laws[0], terms.is_bending, sum.moment);
-      if constexpr (terms.is_tied) {
-        sum.force = P::tie_force(i.e, tie, sum.force);
-        sum.moment = P::tie_moment(i.e, tie, sum.moment);
-      }
-      const bool is_applied = unsigned(pack - applied_first) < unsigned(applied_packs);
+      Wrench sum = links_x<is_plain>(i, next, masks.link_x, previous);
+      add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack, sum);
+      if constexpr (!is_planar)
+        add_across<false>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, sum);
+      add_couples_and_ties(i, tie, sum);
       if (is_applied) apply_wrenches(pack, sum);
-      if (is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);
+      if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);
       spin turn = P::turn(sum.moment, i.e, inertia, inverse_inertia, terms.is_gyroscopic);
       if (is_applied) hold_clamped(pack, sum.force, turn);
       update(place, i.e, sum.force, turn);
+    };
+    for (int pack = 0; pack < packs; ++pack) {
+      const bool is_applied = unsigned(pack - applied_first) < unsigned(applied_packs);
+      if (has_plain_path && has_all_links(all_masks[pack]) && !is_applied && !is_accelerated) [[likely]]
+        one_pack(pack, false, std::true_type{});
+      else
+        one_pack(pack, is_applied, std::false_type{});
     }
   }
 };

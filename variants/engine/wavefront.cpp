@@ -118,7 +118,8 @@ auto WavefrontStep<T>::make_stages(const Method& method, const std::vector<Stage
     for (int r = stage.begin; r < stage.end; ++r) {
       const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
       RowTask<T> task;
-      set_row(task, packed_, r, fields_, block_.carry[std::size_t(s)], [&](int row) { return input_row(s, row, parity); });
+      set_row(task, packed_, r, fields_, block_.carry[std::size_t(s)],
+              [&](int row) { return input_row(s, row, parity); });
       task.signals = signals_.stage(s);
       T* const base = state_row(r, parity);
       updates[std::size_t(s)].set(task, base, is_last ? base : block_.ring_row(s, r),
@@ -142,7 +143,8 @@ void WavefrontStep<T>::operator()(const double* signals, int parity) {
       const int r = t - s * lag;
       if (r < stage.begin || r >= stage.end) continue;
       if (r == stage.begin && r > 0)
-        prime_links(packed_, r, fields_, block_.carry[std::size_t(s)], [&](int row) { return input_row(s, row, parity); });
+        prime_links(packed_, r, fields_, block_.carry[std::size_t(s)],
+                    [&](int row) { return input_row(s, row, parity); });
       const RowStage& row = stage.rows[std::size_t(r - stage.begin)];
       const bool is_finite = row.kernel(row.task);
       if (s < last) continue;

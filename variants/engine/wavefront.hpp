@@ -114,7 +114,9 @@ private:
     std::vector<RowStage> rows;
   };
   T* state_row(int r, int parity) const { return state_rows_[std::size_t(parity)][std::size_t(r)]; }
-  T* input_row(int stage, int r, int parity) { return stage == 0 ? state_row(r, parity) : block_.ring_row(stage - 1, r); }
+  T* input_row(int stage, int r, int parity) {
+    return stage == 0 ? state_row(r, parity) : block_.ring_row(stage - 1, r);
+  }
   void find_state_rows(const Method& method, std::vector<Block<T>>& blocks);
   std::vector<Stage> make_stages(const Method& method, const std::vector<StageUpdate<T>>& updates, int parity);
 
