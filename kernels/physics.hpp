@@ -20,8 +20,7 @@ struct Terms {
   constexpr bool covers(const Terms& need) const {
     return is_material == need.is_material && is_damped >= need.is_damped &&
            (is_material || is_bending >= need.is_bending) && is_gyroscopic >= need.is_gyroscopic &&
-           is_tied >= need.is_tied &&
-           (is_material || is_oblong >= need.is_oblong);
+           is_tied >= need.is_tied && (is_material || is_oblong >= need.is_oblong);
   }
 };
 

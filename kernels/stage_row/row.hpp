@@ -16,8 +16,8 @@ struct PackMasks {
 template <class T>
 struct BodyConstants {
   T edge[3], edge_ratio; // edge_ratio: y over x
-  T inverse_unit; // 1 / unit
-  T tau, kt2, dt; // paper's law
+  T inverse_unit;        // 1 / unit
+  T tau, kt2, dt;        // paper's law
   struct Axis {
     T k_s, k_ns, d_s, d_ns, k_z, k_xz, k_yz, d_z, d_xz, d_yz;
   } axis[3]; // material law

@@ -45,7 +45,7 @@ RowExecutor<T>::RowExecutor(const Setup& setup) : setup_(setup), packed_(setup.p
   const std::vector<int> cuts = cut_rows(packed_, setup_.threads);
   for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
     blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), method.stages * packed_.reach, !is_leapfrog(),
-                         method.stages);
+                         WavefrontStep<T>::sweeps(method, cuts.size() - 1));
 }
 
 template <class T>
@@ -131,7 +131,7 @@ Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
   ExtraLinks<T> extra_links(setup_.problem, packed_);
   extra_links.evaluate(plain_row, packed_.fields());
   StepSignals<T> values(signals.size(), 1);
-  values.set(signals.data());
+  values.set(signals.data(), 1);
   CarryRings<T> carry(packed_);
   for (int r = 0; r < int(packed_.rows.size()); ++r) {
     RowTask<T> task;
@@ -201,6 +201,7 @@ template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
   const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
   const int threads = int(blocks_.size());
+  const long at_once = WavefrontStep<T>::steps_a_pass(setup_.method, blocks_.size());
   std::vector<WavefrontStep<T>> step_of_block;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     step_of_block.emplace_back(packed_, setup_.method, setup_.dt, stored_fields(), width, blocks_, b);
@@ -210,15 +211,16 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
     Block<T>& block = blocks_[std::size_t(thread)];
     WavefrontStep<T>& step = step_of_block[std::size_t(thread)];
     block.failed_row = -1;
-    for (long n = 0; n < steps; ++n) {
-      step(&signals[std::size_t(n) * step_width], (parity_ + int(n & 1)) & 1);
-      if (block.failed_row >= 0) failed_step = n;
+    for (long pass = 0, n = 0; n < steps; ++pass, n += at_once) {
+      step(&signals[std::size_t(n) * step_width], int(std::min(at_once, steps - n)), (parity_ + int(pass & 1)) & 1);
+      if (block.failed_row >= 0) failed_step = n + block.failed_step;
       synchronise();
-      if (failed_step >= 0 && failed_step <= n) break; // a faster thread may already have failed in step n + 1
+      if (failed_step >= 0 && failed_step < n + at_once)
+        break; // a faster thread may already have failed in the next pass
     }
   };
   run_team(threads, work);
-  parity_ = (parity_ + int(steps & 1)) & 1;
+  parity_ = (parity_ + int(steps & 1)) & 1; // passes of several steps publish nothing
   for (const Block<T>& block : blocks_)
     if (block.failed_row >= 0) return {false, failed_step, first_failed_element(block.failed_row)};
   return {true, steps, 0};
@@ -234,7 +236,7 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
     const FlushDenormals guard;
     StepSignals<T> values(width, setup_.method.stages);
     for (long n = 0; n < steps; ++n) {
-      values.set(&signals[std::size_t(n) * step_width]);
+      values.set(&signals[std::size_t(n) * step_width], setup_.method.stages);
       staged_->step(thread, values, synchronise);
       if (staged_->failed_row() >= 0) {
         if (thread == 0) failed_step = n;

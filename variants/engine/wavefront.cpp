@@ -43,7 +43,7 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
 }
 
 template <class T>
-Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, int halo, bool has_rings, int stages)
+Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, int halo, bool has_rings, int sweeps)
     : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)),
       row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo),
       published_index_(std::size_t(last - first), -1) {
@@ -55,8 +55,9 @@ Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, in
   for (int r = begin; r < end; ++r)
     if (is_published(r)) published_index_[std::size_t(r - begin)] = count++;
   for (auto& copy : published_) copy = Buffer<T>(std::size_t(count) * row_size_);
-  for (int s = 0; s < stages; ++s) carry.emplace_back(packed);
+  for (int s = 0; s < sweeps; ++s) carry.emplace_back(packed);
   if (!has_rings) return;
+  const int stages = sweeps; // rings are for methods of several stages, whose pass is one step
   for (int s = 0; s + 1 < stages; ++s) {
     // Y_{s + 1} is written by stage s and last read by the final stage, (stages - 1 - s) reaches behind; priming reads
     // two reaches back.
@@ -87,11 +88,13 @@ std::size_t Block<T>::bytes() const {
 template <class T>
 WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
                                 std::size_t signal_count, std::vector<Block<T>>& blocks, std::size_t index)
-    : packed_(packed), fields_(fields), block_(blocks[index]), signals_(signal_count, method.stages) {
+    : packed_(packed), fields_(fields), stages_(method.stages), block_(blocks[index]),
+      signals_(signal_count, sweeps(method, blocks.size())) {
   find_state_rows(method, blocks);
   const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, dt);
-  stages_[0] = make_stages(method, updates, 0);
-  if (blocks.size() > 1) stages_[1] = make_stages(method, updates, 1);
+  const int steps = steps_a_pass(method, blocks.size());
+  sweeps_[0] = make_sweeps(method, steps, updates, 0);
+  if (blocks.size() > 1) sweeps_[1] = make_sweeps(method, steps, updates, 1);
 }
 
 template <class T>
@@ -107,48 +110,49 @@ void WavefrontStep<T>::find_state_rows(const Method& method, std::vector<Block<T
 }
 
 template <class T>
-auto WavefrontStep<T>::make_stages(const Method& method, const std::vector<StageUpdate<T>>& updates, int parity)
-    -> std::vector<Stage> {
-  std::vector<Stage> stages;
-  for (int s = 0; s < method.stages; ++s) {
-    const bool is_last = s + 1 == method.stages;
-    const int halo = (method.stages - 1 - s) * packed_.reach;
-    Stage stage{std::max(0, block_.begin - halo), std::min(int(packed_.rows.size()), block_.end + halo), {}};
-    stage.rows.reserve(std::size_t(stage.end - stage.begin));
-    for (int r = stage.begin; r < stage.end; ++r) {
-      const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
+auto WavefrontStep<T>::make_sweeps(const Method& method, int steps, const std::vector<StageUpdate<T>>& updates,
+                                   int parity) -> std::vector<Sweep> {
+  const bool is_leapfrog = method.family == Method::Family::leapfrog;
+  std::vector<Sweep> sweeps;
+  for (int n = 0; n < steps * stages_; ++n) {
+    const int s = n % stages_, halo = (stages_ - 1 - s) * packed_.reach;
+    const bool is_last = s + 1 == stages_;
+    Sweep sweep{std::max(0, block_.begin - halo), std::min(int(packed_.rows.size()), block_.end + halo), {}};
+    sweep.rows.reserve(std::size_t(sweep.end - sweep.begin));
+    for (int r = sweep.begin; r < sweep.end; ++r) {
       RowTask<T> task;
-      set_row(task, packed_, r, fields_, block_.carry[std::size_t(s)],
+      set_row(task, packed_, r, fields_, block_.carry[std::size_t(n)],
               [&](int row) { return input_row(s, row, parity); });
-      task.signals = signals_.stage(s);
+      task.signals = signals_.stage(n);
       T* const base = state_row(r, parity);
       updates[std::size_t(s)].set(task, base, is_last ? base : block_.ring_row(s, r),
                                   [&](int m) { return block_.ring_row(m, r); });
-      const bool is_leapfrog = method.family == Method::Family::leapfrog;
-      stage.rows.push_back({is_leapfrog ? kernels.leapfrog : kernels.stage_kernel(task.has_increments), task});
+      const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
+      sweep.rows.push_back({is_leapfrog ? kernels.leapfrog : kernels.stage_kernel(task.has_increments), task});
     }
-    stages.push_back(std::move(stage));
+    sweeps.push_back(std::move(sweep));
   }
-  return stages;
+  return sweeps;
 }
 
 template <class T>
-void WavefrontStep<T>::operator()(const double* signals, int parity) {
-  signals_.set(signals);
-  std::vector<Stage>& stages = stages_[stages_[1].empty() ? 0 : std::size_t(parity)];
-  const int lag = packed_.reach, last = int(stages.size()) - 1;
-  for (int t = stages[0].begin; t < stages.back().end + last * lag; ++t)
-    for (int s = 0; s <= last; ++s) {
-      const Stage& stage = stages[std::size_t(s)];
-      const int r = t - s * lag;
-      if (r < stage.begin || r >= stage.end) continue;
-      if (r == stage.begin && r > 0)
-        prime_links(packed_, r, fields_, block_.carry[std::size_t(s)],
+void WavefrontStep<T>::operator()(const double* signals, int steps, int parity) {
+  const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
+  int count = steps * stages_; // sweeps that run; after a failure only those of earlier steps, which may fail as well
+  signals_.set(signals, count);
+  const int lag = packed_.reach, end = sweeps[std::size_t(count - 1)].end + (count - 1) * lag;
+  for (int t = sweeps[0].begin; t < end; ++t)
+    for (int n = 0; n < count; ++n) {
+      const Sweep& sweep = sweeps[std::size_t(n)];
+      const int r = t - n * lag, s = n % stages_;
+      if (r < sweep.begin || r >= sweep.end) continue;
+      if (r == sweep.begin && r > 0)
+        prime_links(packed_, r, fields_, block_.carry[std::size_t(n)],
                     [&](int row) { return input_row(s, row, parity); });
-      const RowStage& row = stage.rows[std::size_t(r - stage.begin)];
+      const RowStage& row = sweep.rows[std::size_t(r - sweep.begin)];
       const bool is_finite = row.kernel(row.task);
-      if (s < last) continue;
-      if (!is_finite && block_.failed_row < 0) block_.failed_row = r;
+      if (s + 1 < stages_) continue;
+      if (!is_finite) block_.failed_row = r, block_.failed_step = n / stages_, count = n;
       if (block_.is_published(r)) block_.publish(r, parity ^ 1);
     }
 }

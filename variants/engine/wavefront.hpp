@@ -14,7 +14,7 @@ namespace dss {
 template <class T>
 class Block {
 public:
-  Block(const PackedRows<T>& packed, int begin, int end, int fields, int halo, bool has_rings, int stages);
+  Block(const PackedRows<T>& packed, int begin, int end, int fields, int halo, bool has_rings, int sweeps);
 
   int begin, end;
   T* row(int r) {
@@ -32,8 +32,8 @@ public:
   /// Row r of Y_{stage + 1}, in a ring that holds what stages up to the last still read.
   T* ring_row(int stage, int r) { return ring_rows_[std::size_t(stage)][std::size_t(r)]; }
 
-  std::vector<CarryRings<T>> carry; ///< one a stage
-  int failed_row = -1;
+  std::vector<CarryRings<T>> carry;     ///< one a sweep
+  int failed_row = -1, failed_step = 0; ///< step: counted from the first of the pass
   std::size_t bytes() const;
 
 private:
@@ -48,13 +48,13 @@ private:
       ring_rows_; ///< stage, row of the lattice: looked up, since divisions cost as much as a short row
 };
 
-/// Signals of one step as the kernels take them: row s of stage s, in T, and a constant 1 behind them.
+/// Signals of some stages as the kernels take them: row s of stage s, in T, and a constant 1 behind them.
 template <class T>
 class StepSignals {
 public:
   StepSignals(std::size_t count, int stages) : count_(count), values_(std::size_t(stages) * (count + 1), T(1)) {}
-  void set(const double* rows) {
-    for (std::size_t s = 0; s * (count_ + 1) < values_.size(); ++s)
+  void set(const double* rows, int stages) {
+    for (std::size_t s = 0; s < std::size_t(stages); ++s)
       for (std::size_t n = 0; n < count_; ++n) values_[s * (count_ + 1) + n] = T(rows[s * count_ + n]);
   }
   const T* stage(int s) const { return values_.data() + std::size_t(s) * (count_ + 1); }
@@ -90,17 +90,26 @@ struct StageUpdate {
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt);
 
-/// Steps one block; `blocks` are all blocks. What a stage does to a row is the same in every step but for the parity of what
+/// Steps one block; `blocks` are all blocks. A pass over the rows makes one sweep for each stage of a step or, with leapfrog on
+/// one block, for several steps. What a sweep does to a row is the same in every pass but for the parity of what
 /// neighbours publish, so all row tasks are made once: making them anew would cost as much as several packs of a row.
 template <class T>
 class WavefrontStep {
 public:
   WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields, std::size_t signal_count,
                 std::vector<Block<T>>& blocks, std::size_t index);
-  /// One step with the signals of its stages (signal_rows.hpp); `parity` says which published copies are current. The block's
-  /// own rows end up updated in place and published under the other parity. Sets failed_row when a row leaves a non-finite
-  /// state.
-  void operator()(const double* signals, int parity);
+  /// Sweeps that a block needs carry buffers for.
+  static int sweeps(const Method& method, std::size_t blocks) { return method.stages * steps_a_pass(method, blocks); }
+  /// Leapfrog updates in place, so a step can follow `reach` rows behind the one before: four steps for one trip through memory.
+  /// Several blocks would need halos as many times deeper, and take one step a pass.
+  static int steps_a_pass(const Method& method, std::size_t blocks) {
+    return method.family == Method::Family::leapfrog && blocks == 1 ? 4 : 1;
+  }
+
+  /// One pass of at most steps_a_pass steps, with the signals of their stages (signal_rows.hpp); `parity` says which published
+  /// copies are current. The block's own rows end up updated in place and published under the other parity. Sets the block's
+  /// failed_row and failed_step to the first row that the first failing step leaves non-finite.
+  void operator()(const double* signals, int steps, int parity);
 
 private:
   using RowKernel = bool (*)(const RowTask<T>&);
@@ -108,8 +117,8 @@ private:
     RowKernel kernel;
     RowTask<T> task;
   };
-  /// Rows [begin, end) that a stage covers: the block, and what its later stages read on either side.
-  struct Stage {
+  /// One stage of one step over rows [begin, end): the block, and what the step's later stages read on either side.
+  struct Sweep {
     int begin, end;
     std::vector<RowStage> rows;
   };
@@ -118,14 +127,15 @@ private:
     return stage == 0 ? state_row(r, parity) : block_.ring_row(stage - 1, r);
   }
   void find_state_rows(const Method& method, std::vector<Block<T>>& blocks);
-  std::vector<Stage> make_stages(const Method& method, const std::vector<StageUpdate<T>>& updates, int parity);
+  std::vector<Sweep> make_sweeps(const Method& method, int steps, const std::vector<StageUpdate<T>>& updates,
+                                 int parity);
 
   const PackedRows<T>& packed_;
-  const int fields_;
+  const int fields_, stages_;
   Block<T>& block_;
   StepSignals<T> signals_;
   std::array<std::vector<T*>, 2> state_rows_; ///< parity, row: the block's own rows and its neighbours' published ones
-  std::array<std::vector<Stage>, 2> stages_;  ///< parity, stage; a block without neighbours needs one parity
+  std::array<std::vector<Sweep>, 2> sweeps_;  ///< parity, sweep; a block without neighbours needs one parity
 };
 
 } // namespace dss
