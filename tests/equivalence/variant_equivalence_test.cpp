@@ -1,6 +1,7 @@
 /// Every variant against the oracle, and against each other: one parametrised test over the registry, so that a new
 /// variant is tested because it exists. Problems are built in code and cover every term; the shipped scenes are covered
 /// by `dssbench verify`.
+#include "solver/numerics/stability.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
 
@@ -123,6 +124,38 @@ TEST_P(EveryVariant, reports_the_step_and_element_of_the_first_non_finite_state)
           << method.name; // the element itself or a neighbour that it reached within the step
       EXPECT_GE(outcome.element, 13u - 9u - 4u) << method.name;
     }
+}
+
+/// Calls advance() for `at_once` steps at a time until the state is not finite; Outcome::step counts from the start.
+Outcome advance_until_failure(Executor& run, const Problem& problem, const Method& method, double dt, long at_once) {
+  for (long n = 0; n < 2000; n += at_once) {
+    Outcome outcome = run.advance(at_once, signal_rows(problem, method, dt, n, at_once));
+    outcome.step += n;
+    if (!outcome.is_finite) return outcome;
+  }
+  return {};
+}
+
+TEST_P(EveryVariant, reports_the_same_first_failure_however_many_steps_and_threads) {
+  const Problem problem = fixture::make_block(9, 7, 1, LinkLaw::paper);
+  for (const Method& method : methods()) {
+    const double dt = 2 * stable_step(problem, method).dt;
+    const auto failure = [&](int threads, long at_once) {
+      const auto run =
+          plugin.create({problem, method, Model::spatial, Precision::f64, dt, plugin.is_threaded ? threads : 1});
+      run->write(0, fixture::random_state(problem, 5, 1e-20, 1e-18, 1e-18));
+      return advance_until_failure(*run, problem, method, dt, at_once);
+    };
+    const Outcome first = failure(1, 1);
+    ASSERT_FALSE(first.is_finite) << method.name;
+    ASSERT_GT(first.step, 4) << method.name << ": should fail after some steps, not at once";
+    for (const int threads : {1, 3})
+      for (const long at_once : {3L, 1000L}) {
+        const Outcome other = failure(threads, at_once);
+        EXPECT_EQ(other.step, first.step) << method.name << ' ' << threads << " threads, " << at_once << " steps";
+        EXPECT_EQ(other.element, first.element) << method.name << ' ' << threads << " threads, " << at_once << " steps";
+      }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryVariant, testing::ValuesIn(usable_variants()), [](const auto& registered) {
