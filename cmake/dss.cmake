@@ -73,11 +73,19 @@ function(dss_native_needs out)
   set(${out} ${needs} PARENT_SCOPE)
 endfunction()
 
+# Environment of tests: under the thread sanitizer, LLVM's OpenMP runtime loads Archer, which tells it of barriers; without, every barrier is a race.
+set(dss_test_environment "")
+if(DSS_SANITIZE MATCHES "thread")
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-resource-dir OUTPUT_VARIABLE clang_resources OUTPUT_STRIP_TRAILING_WHITESPACE)
+  find_library(DSS_ARCHER archer HINTS ${clang_resources}/../.. REQUIRED)
+  set(dss_test_environment "OMP_TOOL_LIBRARIES=${DSS_ARCHER}")
+endif()
+
 # dss_test(name source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself, labelled with its folder.
 function(dss_test name)
   add_executable(${name} ${ARGN})
   target_link_libraries(${name} PRIVATE dss_options dss_solver dss_variants GTest::gtest_main)
   add_dependencies(${name} dss_all_variants)
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
-  gtest_discover_tests(${name} PROPERTIES LABELS ${kind} DISCOVERY_MODE PRE_TEST)
+  gtest_discover_tests(${name} PROPERTIES LABELS ${kind} ENVIRONMENT "${dss_test_environment}" DISCOVERY_MODE PRE_TEST)
 endfunction()

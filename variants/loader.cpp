@@ -100,6 +100,13 @@ const std::vector<VariantStatus>& variants() {
   return all;
 }
 
+std::vector<std::string> usable_variants() {
+  std::vector<std::string> names;
+  for (const VariantStatus& variant : variants())
+    if (variant.is_usable()) names.push_back(variant.name);
+  return names;
+}
+
 const Plugin& load_variant(const std::string& name) {
   static std::mutex mutex;
   static std::map<std::string, const Plugin*> opened;

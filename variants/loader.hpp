@@ -18,6 +18,8 @@ struct VariantStatus {
 
 /// Every variant of the registry that CMake generated, slowest first; needs no module to be opened.
 const std::vector<VariantStatus>& variants();
+/// Names of those that can run here.
+std::vector<std::string> usable_variants();
 
 /// Opens a variant ("auto": the fastest usable one). The result stays valid until the program ends.
 /// @throws InputError for an unknown name (naming the known ones), a CPU that lacks a feature, or a module that does

@@ -1,5 +1,6 @@
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/build_info.hpp"
+#include "solver/numerics/denormals.hpp"
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
@@ -15,9 +16,6 @@
 #include <string>
 #include <unistd.h>
 #include <vector>
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
 
 namespace dss {
 namespace {
@@ -123,15 +121,5 @@ int usable_cores() {
   const std::size_t cores = affinity().size();
   return cores == 0 ? 1 : int(cores);
 }
-
-// MXCSR bit 15 flushes results to zero, bit 6 takes operands as zero. Linux hands MXCSR down to new threads.
-#if defined(__SSE2__)
-constexpr unsigned flush_bits = 0x8040;
-void flush_denormals() { _mm_setcsr(_mm_getcsr() | flush_bits); }
-bool are_denormals_flushed() { return (_mm_getcsr() & flush_bits) == flush_bits; }
-#else
-void flush_denormals() {}
-bool are_denormals_flushed() { return false; }
-#endif
 
 } // namespace dss

@@ -14,9 +14,4 @@ std::string measurement_time();
 /// Processors that this process may use (its affinity mask).
 int usable_cores();
 
-/// Makes this thread, and all that it starts later, take denormal numbers as zero (MXCSR: DAZ and FTZ), where the CPU
-/// has such a mode.
-void flush_denormals();
-bool are_denormals_flushed();
-
 } // namespace dss

@@ -4,6 +4,7 @@
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/state_access.hpp"
 #include "solver/model/energy.hpp"
+#include "solver/numerics/denormals.hpp"
 #include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "solver/nearest_name.hpp"
+#include "solver/numerics/denormals.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>

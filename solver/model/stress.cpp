@@ -1,6 +1,7 @@
 #include "solver/model/stress.hpp"
 
 #include "kernels/physics.hpp"
+#include "solver/model/link_constants.hpp"
 
 #include <cmath>
 
@@ -18,17 +19,17 @@ P::element element_at(std::span<const double> state, std::size_t e) {
 template <int axis>
 P::vec link_force(const P::element& i, const P::element& j, double edge_i, double edge_j, LinkLaw law,
                   const AxisConstants& c) {
-  if (law == LinkLaw::material)
-    return P::material_link(i, j, axis,
-                            {edge_i, edge_j, c.k_shear, c.k_normal - c.k_shear, c.d_shear, c.d_normal - c.d_shear,
-                             2 * c.k_rot[2], 2 * (c.k_rot[0] - c.k_rot[2]), 2 * (c.k_rot[1] - c.k_rot[2]), c.d_rot[2],
-                             c.d_rot[0] - c.d_rot[2], c.d_rot[1] - c.d_rot[2]},
-                            true)
-        .force;
-  const double k = c.k_normal, tau = c.d_normal / k;
-  return P::vec_scale(
-      k,
-      P::paper_link(i, j, axis, {edge_i, edge_i / 2, tau, 0, 0}, {edge_j, edge_j / 2, tau, 0, 0}, false, true).force);
+  if (law == LinkLaw::material) {
+    P::material_law constants{};
+    constants.edge_i = edge_i, constants.edge_j = edge_j;
+    set_material_constants(constants, c);
+    return P::material_link(i, j, axis, constants, true).force;
+  }
+  P::paper_law at_i{}, at_j{};
+  set_paper_constants(at_i, c), set_paper_constants(at_j, c);
+  at_i.edge = edge_i, at_i.half_edge = edge_i / 2;
+  at_j.edge = edge_j, at_j.half_edge = edge_j / 2;
+  return P::vec_scale(c.k_normal, P::paper_link(i, j, axis, at_i, at_j, false, true).force);
 }
 P::vec link_force(const P::element& i, const P::element& j, int axis, double edge_i, double edge_j, LinkLaw law,
                   const AxisConstants& c) {

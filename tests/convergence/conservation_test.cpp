@@ -102,12 +102,6 @@ TEST_P(EveryFreeBody, loses_angular_momentum_and_energy_at_the_order_of_the_meth
   }
 }
 
-std::vector<std::string> usable_variants() {
-  std::vector<std::string> names;
-  for (const VariantStatus& variant : variants())
-    if (variant.is_usable()) names.push_back(variant.name);
-  return names;
-}
 INSTANTIATE_TEST_SUITE_P(Registry, EveryFreeBody, testing::ValuesIn(usable_variants()), [](const auto& registered) {
   std::string name = registered.param;
   std::replace(name.begin(), name.end(), '-', '_');

@@ -37,13 +37,6 @@ std::vector<Case> cases() {
   return all;
 }
 
-std::vector<std::string> usable_variants() {
-  std::vector<std::string> names;
-  for (const VariantStatus& variant : variants())
-    if (variant.is_usable()) names.push_back(variant.name);
-  return names;
-}
-
 class EveryVariant : public testing::TestWithParam<std::string> {
 protected:
   const Plugin& plugin = load_variant(GetParam());

@@ -1,5 +1,7 @@
 #include "variants/engine/packed_rows.hpp"
 
+#include "solver/model/link_constants.hpp"
+
 #include <algorithm>
 
 namespace dss {
@@ -205,27 +207,8 @@ std::size_t PackedRows<T>::bytes() const {
   return sum;
 }
 
-template <class T>
-static void set_link_constants(BodyConstants<T>& c, std::size_t axis, const AxisConstants& a) {
-  c.axis[axis] = {T(a.k_shear),
-                  T(a.k_normal - a.k_shear),
-                  T(a.d_shear),
-                  T(a.d_normal - a.d_shear),
-                  T(2 * a.k_rot[2]),
-                  T(2 * (a.k_rot[0] - a.k_rot[2])),
-                  T(2 * (a.k_rot[1] - a.k_rot[2])),
-                  T(a.d_rot[2]),
-                  T(a.d_rot[0] - a.d_rot[2]),
-                  T(a.d_rot[1] - a.d_rot[2])};
-}
 /// Unit of force of a link law: the paper's law is computed in units of k.
 static double force_unit(LinkLaw law, const AxisConstants& a) { return law == LinkLaw::paper ? a.k_normal : 1; }
-template <class T>
-static void set_paper_constants(BodyConstants<T>& c, const AxisConstants& a) {
-  c.tau = T(a.d_normal / a.k_normal);
-  c.kt2 = T(2 * a.k_rot[0] / a.k_normal);
-  c.dt = T(a.d_rot[0] / a.k_normal);
-}
 
 template <class T>
 BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
@@ -235,7 +218,7 @@ BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
   if (body.law == LinkLaw::paper) set_paper_constants(c, body.axis[0]);
   for (std::size_t a = 0; a < 3; ++a) {
     c.edge[a] = T(body.edge[a]);
-    set_link_constants(c, a, body.axis[a]);
+    set_material_constants(c.axis[a], body.axis[a]);
     c.inertia[a] = T(body.inertia[a] / unit);
     c.inverse_inertia[a] = T(unit / body.inertia[a]);
   }
@@ -259,7 +242,7 @@ ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLi
   c.edge_i = edge(link.i), c.edge_j = edge(link.j);
   c.unit = T(force_unit(link.law, link.constants));
   if (!c.is_material) set_paper_constants(c.body, link.constants);
-  set_link_constants(c.body, std::size_t(link.axis), link.constants);
+  set_material_constants(c.body.axis[link.axis], link.constants);
   return c;
 }
 

@@ -1,7 +1,7 @@
 #include "variants/engine/row_executor.hpp"
 
 #include "solver/error.hpp"
-#include "variants/engine/flush_denormals.hpp"
+#include "solver/numerics/denormals.hpp"
 
 #include <algorithm>
 #include <cmath>
