@@ -225,9 +225,12 @@ private:
     return path;
   }
 
-  /// A changed scene file must not meet the oracle's states of the old one.
+  /// A changed scene, or a changed file of voxels beside it, must not meet the oracle's states of the old one.
   static std::string scene_digest(const Scene& scene) {
-    return fmt::format("scene {:016x}", std::hash<std::string>{}(read_text(scene.path)));
+    const Lattice& lattice = scene.problem.lattice;
+    std::string shape(lattice.present.begin(), lattice.present.end());
+    for (const Row& row : lattice.rows) shape += fmt::format("{} {} {} {},", row.body, row.x_begin, row.y, row.z);
+    return fmt::format("scene {:016x}", std::hash<std::string>{}(read_text(scene.path) + shape));
   }
 
   bool finish() {

@@ -6,6 +6,7 @@ import unittest
 
 from program import ProgramTest, dssbench
 
+SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../experiments/scenes")
 STUDY = {
     "experiment": "tiny",
     "title": "A tiny study",
@@ -58,6 +59,20 @@ class Experiments(ProgramTest):
         self.assertEqual(len(resumed), 7)
         self.assertEqual(self.experiment("--resume").returncode, 0)
         self.assertEqual(self.read("out/raw/tiny.csv").splitlines(keepends=True), resumed)
+
+    def test_a_changed_file_of_voxels_gets_a_new_oracle(self):
+        with open(os.path.join(SCENES, "l_bracket.json"), encoding="utf-8") as file:
+            scene = json.load(file)
+        scene["bodies"][0]["geometry"] = {"voxels": {"file": "mask.txt"}}
+        self.write("bracket.json", json.dumps(scene))
+        cells = [{"scene": self.path("bracket.json"), "variants": ["reference", "scalar"]}]
+        self.study(cells=cells)
+        for hole in ("#############.#", "####.##########"):
+            self.write("mask.txt", "\n".join(["#" * 15, hole] + ["#" * 15] * 3) + "\n")
+            result = self.experiment("--resume")
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            os.remove(self.path("out/raw/tiny.csv"))
+        self.assertEqual(len(os.listdir(self.path("out/oracle"))), 2)
 
     def test_a_cell_past_its_time_limit_is_recorded_and_the_rest_goes_on(self):
         scale = {**STUDY["scales"]["smoke"], "steps": 300000, "steps_for": {"scalar": 40}, "time_limit_s": 1}
