@@ -45,7 +45,7 @@ RowExecutor<T>::RowExecutor(const Setup& setup) : setup_(setup), packed_(setup.p
   const std::vector<int> cuts = cut_rows(packed_, setup_.threads);
   for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
     blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), method.stages * packed_.reach, !is_leapfrog(),
-                         WavefrontStep<T>::sweeps(method, cuts.size() - 1));
+                         WavefrontStep<T>::sweeps(packed_, method, cuts.size() - 1));
 }
 
 template <class T>
@@ -201,7 +201,7 @@ template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
   const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
   const int threads = int(blocks_.size());
-  const long at_once = WavefrontStep<T>::steps_a_pass(setup_.method, blocks_.size());
+  const long at_once = WavefrontStep<T>::steps_a_pass(packed_, setup_.method, blocks_.size());
   std::vector<WavefrontStep<T>> step_of_block;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     step_of_block.emplace_back(packed_, setup_.method, setup_.dt, stored_fields(), width, blocks_, b);

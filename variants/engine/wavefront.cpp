@@ -89,10 +89,10 @@ template <class T>
 WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
                                 std::size_t signal_count, std::vector<Block<T>>& blocks, std::size_t index)
     : packed_(packed), fields_(fields), stages_(method.stages), block_(blocks[index]),
-      signals_(signal_count, sweeps(method, blocks.size())) {
+      signals_(signal_count, sweeps(packed, method, blocks.size())) {
   find_state_rows(method, blocks);
   const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, dt);
-  const int steps = steps_a_pass(method, blocks.size());
+  const int steps = steps_a_pass(packed, method, blocks.size());
   sweeps_[0] = make_sweeps(method, steps, updates, 0);
   if (blocks.size() > 1) sweeps_[1] = make_sweeps(method, steps, updates, 1);
 }
