@@ -49,11 +49,13 @@ def draw_group(axes, rows, base, name):
     """One horizontal bar a cell."""
     rows = rows.iloc[::-1]
     places = range(len(rows))
-    # Without an interval (fewer than six repetitions) these are NaN, and no whisker is drawn.
+    bars = axes.barh(places, rows["speedup"], color=[COLOURS.get(variant, OTHER_COLOUR) for variant in rows["variant"]])
     low = (rows["speedup"] - rows["speedup_low"]).clip(lower=0)
     high = (rows["speedup_high"] - rows["speedup"]).clip(lower=0)
-    bars = axes.barh(places, rows["speedup"], xerr=[low, high], capsize=3,
-                     color=[COLOURS.get(variant, OTHER_COLOUR) for variant in rows["variant"]])
+    known = high.notna()  # fewer than six repetitions have no interval, and get no whisker
+    if known.any():
+        axes.errorbar(rows["speedup"][known], [place for place in places if known.iloc[place]], xerr=[low[known], high[known]],
+                      fmt="none", ecolor="black", capsize=3)
     for bar, is_scaled in zip(bars, rows["is_scaled"]):
         if is_scaled:
             bar.set_hatch("//")
