@@ -2,7 +2,12 @@
 PRESET ?= release
 BUILD := build/$(PRESET)
 SCALE ?= host
-OUT ?= results
+OUT ?= $(if $(filter host,$(SCALE)),results,build/results-$(SCALE))
+
+# Presets of Clang need it installed.
+ifneq (,$(filter clang tsan,$(PRESET)))
+export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
+endif
 
 .PHONY: all build test reproduce bench clean dependencies
 

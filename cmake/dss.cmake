@@ -2,7 +2,7 @@
 
 add_library(dss_options INTERFACE)
 target_include_directories(dss_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
-# -ffp-contract=off: a fused multiply-add is where the source says so, and nowhere else (shared/design.md section 5).
+# -ffp-contract=off: a fused multiply-add is where the source says so, and nowhere else (DESIGN.md section 5).
 target_compile_options(dss_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${DSS_WERROR}>:-Werror>)
 if(DSS_SANITIZE)
   target_compile_options(dss_options INTERFACE -fsanitize=${DSS_SANITIZE} -fno-omit-frame-pointer)
@@ -37,7 +37,7 @@ function(dss_add_variant name)
     endif()
   endif()
   target_compile_definitions(${target} PRIVATE DSS_VARIANT="${name}" DSS_ISA="${isa}" DSS_VECTOR_BITS=${arg_VECTOR_BITS})
-  # Weak symbols of templates stay inside: otherwise link order decides which instruction set runs (shared/platform.md).
+  # Weak symbols of templates stay inside: otherwise link order decides which instruction set runs.
   target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/variants/exports.map)
   set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/variants
     LINK_DEPENDS ${PROJECT_SOURCE_DIR}/variants/exports.map)

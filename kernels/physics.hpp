@@ -6,7 +6,7 @@
 DSS_INLINE_BEGIN
 namespace dss {
 
-/// Compile-time switches: a term that is absent is not compiled in (design.md section 2).
+/// Compile-time switches: a term that is absent is not compiled in (DESIGN.md section 2).
 struct Terms {
   bool is_material = false;   ///< material link law, else the paper's
   bool is_damped = false;     ///< velocity-dependent link terms

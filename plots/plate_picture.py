@@ -68,7 +68,9 @@ def main():
     parser.add_argument("--magnification", type=float, help="of displacements (default: the largest becomes 8 %% of the body)")
     arguments = parser.parse_args()
     if not arguments.vtu.exists():
-        sys.exit(f"{arguments.vtu}: no such file; make it with `dssbench run SCENE --output FILE.vtu`")
+        sys.exit(f"{arguments.vtu}: no such file; make it with `dssbench run SCENE --output FILE.vtu` (with --frames: FILE_0000.vtu ...)")
+    if arguments.vtu.suffix != ".vtu":
+        sys.exit(f"{arguments.vtu}: not a .vtu; of a .pvd, give one of the files that it lists")
     draw(arguments.vtu, arguments.output, arguments.magnification)
     print(arguments.output)
 

@@ -60,8 +60,9 @@ def draw_group(axes, rows, base, name):
         if is_scaled:
             bar.set_hatch("//")
             bar.set_edgecolor("white")
-    for place, (value, reach) in enumerate(zip(rows["speedup"], rows["speedup"] + high.fillna(0))):
-        axes.annotate(f"{value:.3g}", (reach, place), xytext=(5, 0), textcoords="offset points", va="center", fontsize=9,
+    is_contaminated = 2 * rows["contaminated"] >= rows["repetitions"]
+    for place, (value, reach, is_doubtful) in enumerate(zip(rows["speedup"], rows["speedup"] + high.fillna(0), is_contaminated)):
+        axes.annotate(f"{value:.3g}" + ("  (contaminated)" if is_doubtful else ""), (reach, place), xytext=(5, 0), textcoords="offset points", va="center", fontsize=9,
                       bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
     axes.set_yticks(list(places), rows["label"])
     axes.set_xlim(0, float((rows["speedup"] + high.fillna(0)).max()) * 1.15)

@@ -10,11 +10,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char** environ;
 
 namespace dss {
 namespace {
@@ -48,16 +46,19 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, pipes.output_[1], 1);
-  posix_spawn_file_actions_adddup2(&actions, pipes.error_[1], 2);
-  pid_t pid = -1;
-  const int failed = ::posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) throw InputError(fmt::format("{}: cannot start: {}", program, std::strerror(failed)));
-  return pid;
+  if (::access(program.c_str(), X_OK) != 0)
+    throw InputError(fmt::format("{}: cannot start: {}", program, std::strerror(errno)));
+  const pid_t parent = ::getpid(), pid = ::fork();
+  if (pid < 0) throw InputError(fmt::format("{}: cannot start: {}", program, std::strerror(errno)));
+  if (pid > 0) return pid;
+  // A child that outlived its parent would have no time limit any more, and disturb the next measurement.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(127);
+  ::dup2(::open("/dev/null", O_RDONLY), 0);
+  ::dup2(pipes.output_[1], 1);
+  ::dup2(pipes.error_[1], 2);
+  ::execv(program.c_str(), argv.data());
+  ::_exit(127);
 }
 
 /// Reads both pipes to their ends or to the deadline; true at the ends.

@@ -6,7 +6,7 @@
 
 namespace dss {
 
-/// Exit codes of the program (design.md section 7).
+/// Exit codes of the program (DESIGN.md section 7).
 enum ExitCode { exit_success = 0, exit_check_failed = 1, exit_bad_input = 2, exit_unstable = 3 };
 
 using Chosen = std::function<int()>;

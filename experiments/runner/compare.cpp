@@ -74,6 +74,7 @@ std::vector<Comparison> compare_records(const std::vector<Record>& old_records, 
     const CellSample* new_sample = find(after, old_sample.key);
     if (new_sample == nullptr) {
       results.push_back(bare(old_sample.key, "only in OLD", ""));
+      results.back().is_new_wrong = true; // what is not measured any more is no better than what fails
       continue;
     }
     const CellSample& invalid = invalidity(*new_sample).empty() ? old_sample : *new_sample;

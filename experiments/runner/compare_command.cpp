@@ -32,6 +32,10 @@ int compare(const CompareArguments& arguments) {
   const std::optional<double> old_resolution = resolution_of(before), new_resolution = resolution_of(after);
   const double resolution = std::max({default_resolution, old_resolution.value_or(0), new_resolution.value_or(0)});
   const std::vector<Comparison> comparisons = compare_records(before, after, resolution);
+  if (std::all_of(comparisons.begin(), comparisons.end(),
+                  [](const Comparison& c) { return c.verdict.starts_with("only in"); }))
+    throw InputError(fmt::format("{} and {} have no cell in common; compare two runs of one study at one scale",
+                                 arguments.before, arguments.after));
   std::vector<std::vector<std::string>> rows;
   for (const Comparison& c : comparisons)
     rows.push_back({c.cell, shown(c.old_step_s, 1e6, "{:.4g}"), shown(c.new_step_s, 1e6, "{:.4g}"),

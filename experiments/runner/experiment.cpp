@@ -1,6 +1,7 @@
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/cell_record.hpp"
 #include "experiments/runner/child.hpp"
+#include "experiments/runner/circumstances.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/oracle_state.hpp"
 #include "experiments/runner/progress.hpp"
@@ -39,7 +40,6 @@ public:
   ExperimentRun(const Study& study, const std::string& directory, bool resume, const std::string& program)
       : study_(study), paths_(experiment_paths(directory, study.name)), program_(program), resume_(resume),
         file_(paths_.raw, raw_columns(), resume), start_(std::chrono::steady_clock::now()), cores_(usable_cores()) {
-    write_context();
     for (const Cell& cell : study.cells) cells_.push_back({&cell, {}, false, 0, 0, false});
     take_over(file_.present());
   }
@@ -58,25 +58,21 @@ public:
 private:
   double elapsed_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
-  void write_context() const {
-    nlohmann::ordered_json json;
-    json["context"] = measurement_context();
-    json["experiment"] = study_.name;
-    json["title"] = study_.title;
-    json["scale"] = study_.scale.name;
-    AtomicFile file(paths_.context);
-    file.write(json.dump(2) + "\n");
-    file.commit();
-  }
-
+  /// Cells that failed before are tried again.
   void take_over(const std::vector<Record>& present) {
+    if (present.empty()) return;
+    require_same_circumstances(paths_.context, study_);
+    has_context_ = true;
     for (const Record& old : present) {
       all_records_.push_back(old);
       if (text_in(old, "scale") != study_.scale.name) continue;
       for (CellState& state : cells_)
         if (state.cell->key() == text_in(old, "cell")) state.records.push_back(old);
     }
-    for (CellState& state : cells_) account(state);
+    for (CellState& state : cells_) {
+      account(state);
+      state.is_broken = false;
+    }
     update_convergence();
   }
 
@@ -89,6 +85,11 @@ private:
 
   void record(CellState& state, const Record& row) {
     file_.append(row);
+    if (!has_context_) { // until a measured process tells its own, that of this one
+      write_circumstances(paths_.context, context_.is_null() ? nlohmann::json(measurement_context()) : context_,
+                          study_);
+      has_context_ = !context_.is_null();
+    }
     all_records_.push_back(row);
     state.records.push_back(row);
     account(state);
@@ -165,6 +166,7 @@ private:
     const ChildResult child = run_child(program_, arguments(cell, oracle_file), study_.scale.time_limit_s);
     state.process_s = child.wall_s;
     const nlohmann::json json = nlohmann::json::parse(child.output, nullptr, false);
+    if (json.is_object() && json.contains("context")) context_ = json["context"];
     const std::string failure = child.failure(study_.scale.time_limit_s);
     if (json.is_object() && json.value("status", "") == "wrong")
       return result_record(place(cell, repetition, attempt), json, child.wall_s);
@@ -225,14 +227,6 @@ private:
     return path;
   }
 
-  /// A changed scene, or a changed file of voxels beside it, must not meet the oracle's states of the old one.
-  static std::string scene_digest(const Scene& scene) {
-    const Lattice& lattice = scene.problem.lattice;
-    std::string shape(lattice.present.begin(), lattice.present.end());
-    for (const Row& row : lattice.rows) shape += fmt::format("{} {} {} {},", row.body, row.x_begin, row.y, row.z);
-    return fmt::format("scene {:016x}", std::hash<std::string>{}(read_text(scene.path) + shape));
-  }
-
   bool finish() {
     const Table table = derive_table(study_, all_records_);
     write_csv(paths_.table, table);
@@ -246,7 +240,8 @@ private:
   const Study& study_;
   ExperimentPaths paths_;
   std::string program_;
-  bool resume_;
+  bool resume_, has_context_ = false;
+  nlohmann::json context_; ///< of the last child
   RecordFile file_;
   std::chrono::steady_clock::time_point start_;
   int cores_;
@@ -268,6 +263,16 @@ void make_directories(const ExperimentPaths& paths) {
   }
 }
 
+/// Seconds of trying a study must not cost the records of hours.
+void require_same_scale(const std::string& raw, const Study& study) {
+  if (!fs::exists(raw)) return;
+  for (const Record& record : read_csv(raw).rows)
+    if (const std::string scale = text_in(record, "scale"); scale != study.scale.name)
+      throw InputError(fmt::format("{}: holds records of scale \"{}\", which scale \"{}\" would replace; give another "
+                                   "--out, or --resume to add to them",
+                                   raw, scale, study.scale.name));
+}
+
 } // namespace
 
 ExperimentPaths experiment_paths(const std::string& directory, const std::string& name) {
@@ -276,7 +281,9 @@ ExperimentPaths experiment_paths(const std::string& directory, const std::string
 }
 
 bool run_experiment(const Study& study, const std::string& directory, bool resume, const std::string& program) {
-  make_directories(experiment_paths(directory, study.name));
+  const ExperimentPaths paths = experiment_paths(directory, study.name);
+  if (!resume) require_same_scale(paths.raw, study);
+  make_directories(paths);
   return ExperimentRun(study, directory, resume, program).measure();
 }
 

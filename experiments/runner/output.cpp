@@ -18,9 +18,12 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
   frames_.push_back({path.filename().string(), time});
 }
 
-void FrameSeries::finish() const {
-  if (!is_series_) return;
-  write_pvd(std::filesystem::path(output_).replace_extension(".pvd").string(), frames_);
+std::string FrameSeries::finish() const {
+  if (!is_series_) return output_;
+  const std::string index = std::filesystem::path(output_).replace_extension(".pvd").string();
+  write_pvd(index, frames_);
+  return fmt::format("{}, which lists {} files {} to {}", index, frames_.size(), frames_.front().file,
+                     frames_.back().file);
 }
 
 } // namespace dss

@@ -16,8 +16,8 @@ public:
   FrameSeries(std::string output, bool is_series) : output_(std::move(output)), is_series_(is_series) {}
   /// Writes a state at a time [s]; nothing without an output.
   void add(const Problem& problem, const std::vector<double>& state, double time);
-  /// Writes the index of a series.
-  void finish() const;
+  /// Writes the index of a series. @return what was written, in words; empty without an output
+  std::string finish() const;
 
 private:
   std::string output_;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -108,30 +109,38 @@ void write_csv(const std::string& path, const Table& table) {
 
 RecordFile::RecordFile(std::string path, std::vector<std::string> columns, bool resume)
     : path_(std::move(path)), columns_(std::move(columns)) {
-  const bool continues = resume && ::access(path_.c_str(), F_OK) == 0;
+  if (!resume || ::access(path_.c_str(), F_OK) != 0) return;
   std::size_t keep = 0;
-  if (continues) {
-    Table table = read_csv(path_, &keep);
-    if (table.columns != columns_)
-      throw InputError(fmt::format("{}: its columns are not those of this version; run without --resume", path_));
-    present_ = std::move(table.rows);
-  } else {
-    AtomicFile fresh(path_);
-    fresh.write(head_line(columns_));
-    fresh.commit();
-  }
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor_ < 0 || (continues && ::ftruncate(descriptor_, off_t(keep)) != 0))
+  Table table = read_csv(path_, &keep);
+  if (table.columns != columns_)
+    throw InputError(fmt::format("{}: its columns are not those of this version; run without --resume", path_));
+  present_ = std::move(table.rows);
+  open();
+  if (::ftruncate(descriptor_, off_t(keep)) != 0)
     throw InputError(fmt::format("{}: cannot append: {}", path_, std::strerror(errno)));
+}
+
+void RecordFile::open() {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor_ < 0) throw InputError(fmt::format("{}: cannot append: {}", path_, std::strerror(errno)));
+}
+
+void RecordFile::start_with(const Record& record) {
+  AtomicFile fresh(path_);
+  fresh.write(head_line(columns_));
+  fresh.write(csv_line(columns_, record));
+  std::rename(path_.c_str(), (path_ + ".previous").c_str()); // fails where there is none
+  fresh.commit();
+  open();
 }
 
 RecordFile::~RecordFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void RecordFile::append(const Record& record) { write_line(csv_line(columns_, record)); }
-
-void RecordFile::write_line(const std::string& line) {
+void RecordFile::append(const Record& record) {
+  if (descriptor_ < 0) return start_with(record);
+  const std::string line = csv_line(columns_, record);
   // One write a row: whoever reads the file meanwhile, or after a crash, finds whole rows and at most one torn one.
   std::size_t done = 0;
   while (done < line.size()) {

@@ -38,8 +38,8 @@ void write_csv(const std::string& path, const Table& table);
 /// A CSV that grows by one row at a time; each row is on its way to the disk when append() returns.
 class RecordFile {
 public:
-  /// Opens a file. With `resume`, rows present stay (a torn last line is cut off) and are in `present()`; else it
-  /// starts anew.
+  /// Opens a file. With `resume`, rows present stay (a torn last line is cut off) and are in `present()`; else it starts
+  /// anew with the first row, and earlier rows go to PATH.previous.
   /// @throws InputError if it cannot be written, or is resumed with other columns
   RecordFile(std::string path, std::vector<std::string> columns, bool resume);
   RecordFile(const RecordFile&) = delete;
@@ -50,7 +50,8 @@ public:
   const std::vector<Record>& present() const { return present_; }
 
 private:
-  void write_line(const std::string& line);
+  void start_with(const Record& record);
+  void open();
 
   std::string path_;
   std::vector<std::string> columns_;

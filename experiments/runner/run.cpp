@@ -42,7 +42,7 @@ public:
       step = stop;
       look(step);
     }
-    series_.finish();
+    if (const std::string written = series_.finish(); !written.empty()) result_.files.push_back(written);
   }
 
   Executor& executor() { return *executor_; }
@@ -86,9 +86,11 @@ private:
 
   void report_breakdown(long step, std::size_t element, RunResult& result) const {
     result.status = "unstable";
-    result.reason = fmt::format(
-        "{}: the state is not finite at step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s", problem_.name,
-        step, double(step + 1) * plan_.dt, element, std::min(plan_.stability_limit, 0.5 * plan_.dt));
+    result.steps = step + 1;
+    result.reason =
+        fmt::format("{}: the state is not finite after step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s",
+                    problem_.name, step + 1, double(step + 1) * plan_.dt, element,
+                    plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
   }
 
   void look(long step) {
@@ -164,7 +166,10 @@ RunResult run_scene(const RunRequest& request) {
   result.max_displacement_m = max_displacement(timed.executor(), count);
   result.digest = state_digest(timed.executor(), count, plan.precision);
   if (count <= energy_elements) result.energy_j = total_energy(problem, whole_state(timed.executor(), count));
-  if (!request.state_csv.empty()) write_state(request.state_csv, problem, whole_state(timed.executor(), count));
+  if (!request.state_csv.empty()) {
+    write_state(request.state_csv, problem, whole_state(timed.executor(), count));
+    result.files.push_back(request.state_csv);
+  }
   judge(result.check, result);
   return result;
 }
@@ -197,8 +202,9 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["is_contaminated"] = is_contaminated(result.usage, result.wall_s, result.workers);
   json["element_steps_per_s"] = result.element_steps_per_s();
   json["energy_j"] = result.energy_j ? nlohmann::ordered_json(*result.energy_j) : nullptr;
-  json["max_displacement_m"] = result.max_displacement_m;
-  json["state_digest"] = fmt::format("{:016x}", result.digest);
+  const bool has_state = result.status != "unstable";
+  json["max_displacement_m"] = has_state ? nlohmann::ordered_json(result.max_displacement_m) : nullptr;
+  json["state_digest"] = has_state ? nlohmann::ordered_json(fmt::format("{:016x}", result.digest)) : nullptr;
   json["schedule"] = result.schedule;
   json["bytes"] = result.bytes;
   json["check"] = result.check.is_done ? (result.check.is_passed() ? "passed" : "failed") : "none";

@@ -54,6 +54,7 @@ struct RunResult {
   double max_displacement_m = 0;
   std::uint64_t digest = 0;
   CheckResult check;
+  std::vector<std::string> files;    ///< written, in words
   std::string status = "ok", reason; ///< "unstable", "wrong": what, where
   double element_steps_per_s() const { return wall_s > 0 ? double(elements) * double(steps) / wall_s : 0; }
 };
@@ -64,7 +65,7 @@ struct RunResult {
 /// not forced
 RunResult run_scene(const RunRequest& request);
 
-/// The keys of design.md section 7 and those of the record; with the context in Google Benchmark's layout.
+/// The keys of DESIGN.md section 7 and those of the record; with the context in Google Benchmark's layout.
 nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result);
 
 } // namespace dss

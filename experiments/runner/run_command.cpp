@@ -27,6 +27,7 @@ void print_summary(const RunResult& result) {
   if (result.check.is_done)
     fmt::print("check: {} ({}): error {:.3g}, tolerance {:.3g}\n", result.check.is_passed() ? "passed" : "failed",
                result.check.how, result.check.error, result.check.tolerance);
+  for (const std::string& file : result.files) fmt::print("wrote {}\n", file);
 }
 
 int run(const RunArguments& arguments) {
@@ -61,7 +62,9 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--steps", request.steps, "Number of steps (default: the scene's)");
   command->add_flag("--force", request.is_forced, "Run above the predicted stability limit");
   command->add_option("--output", request.output, "F.vtu: the final state for ParaView");
-  command->add_option("--frames", request.frames, "Files of a series F_0000.vtu ... with F.pvd, besides the first")
+  command
+      ->add_option("--frames", request.frames,
+                   "Instead of F.vtu a series over time: F_0000.vtu (the start) to F_<frames>.vtu, listed in F.pvd")
       ->capture_default_str();
   command->add_option("--state", request.state_csv, "F.csv: the final state, one row an element");
   command->add_option("--json", request.json, "File for the result, or - for standard output");

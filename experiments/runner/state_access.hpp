@@ -24,7 +24,7 @@ std::vector<double> whole_state(Executor& executor, std::size_t element_count);
 double max_displacement(Executor& executor, std::size_t element_count);
 
 /// 64-bit digest of a state's bits (FNV-1a over its 64-bit words). -0 counts as +0, and so does what may or may not
-/// have been flushed: numbers below 2^-1000 (f64) or 2^-120 (f32) (design.md section 6).
+/// have been flushed: numbers below 2^-1000 (f64) or 2^-120 (f32) (DESIGN.md section 6).
 class StateDigest {
 public:
   explicit StateDigest(Precision precision) : smallest_(precision == Precision::f64 ? 0x1p-1000 : 0x1p-120) {}

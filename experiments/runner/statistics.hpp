@@ -1,5 +1,5 @@
 #pragma once
-/// Statistics of timings (design.md section 6): medians with order-statistic intervals, ratios of pairs, the rank-sum
+/// Statistics of timings (DESIGN.md section 6): medians with order-statistic intervals, ratios of pairs, the rank-sum
 /// test.
 #include <optional>
 #include <span>

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
+#include <set>
 
 namespace dss {
 namespace {
@@ -188,6 +189,18 @@ void add_cells(const JsonPlace& place, const Sets& scale_sets, int cores, Study&
           }
 }
 
+void require_cell_of(const std::string& variant, const Study& study, const JsonPlace& place) {
+  known_variant(variant, place);
+  if (std::none_of(study.cells.begin(), study.cells.end(), [&](const Cell& cell) { return cell.variant == variant; }))
+    place.fail(fmt::format("no cell of the study has the variant \"{}\"", variant));
+}
+
+void require_distinct_cells(const JsonPlace& place, const Study& study) {
+  std::set<std::string> keys;
+  for (const Cell& cell : study.cells)
+    if (!keys.insert(cell.key()).second) place.fail(fmt::format("the same cell twice: {}", cell.key()));
+}
+
 /// Doubles the first cell of a variant, in each problem of the study: their ratio shows what the measurement can tell
 /// apart.
 void add_twins(const std::string& variant, Study& study) {
@@ -262,15 +275,16 @@ Study load_study(const std::string& name_or_path, const std::string& scale, int 
   const Sets scale_sets = scale_place.has("set") ? combinations(scale_place["set"]) : Sets(1);
   for (const JsonPlace& block : root["cells"].items()) add_cells(block, scale_sets, cores, study);
   if (study.cells.empty()) root["cells"].fail("no cell; give at least one scene with a variant");
+  require_distinct_cells(root["cells"], study);
   for (const auto& own : study.scale.steps_by_set)
     if (std::none_of(study.cells.begin(), study.cells.end(),
                      [&](const Cell& cell) { return cell.set_text() == own.first; }))
       scale_place["steps_by_set"].fail(fmt::format("no cell has the overrides \"{}\"; the first cell has \"{}\"",
                                                    own.first, study.cells[0].set_text()));
   study.bases = root["base"].texts();
-  for (const std::string& base : study.bases) known_variant(base, root["base"]);
+  for (const std::string& base : study.bases) require_cell_of(base, study, root["base"]);
   if (root.has("twin")) {
-    known_variant(root["twin"].text(), root["twin"]);
+    require_cell_of(root["twin"].text(), study, root["twin"]);
     add_twins(root["twin"].text(), study);
   }
   if (root.has("paper")) {

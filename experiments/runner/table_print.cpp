@@ -33,7 +33,10 @@ std::string shown_status(const Record& row) {
   if (!reason.empty()) return status + ": " + reason;
   const bool is_ok = status == "ok";
   return status + (is_ok && text_in(row, "converged") == "no" ? ", not converged" : "") +
-         (is_ok && number_in(row, "short") > 0 ? ", short samples" : "");
+         (is_ok && number_in(row, "short") > 0 ? ", short samples" : "") +
+         (is_ok && number_in(row, "contaminated") > 0
+              ? fmt::format(", {} of {} contaminated", text_in(row, "contaminated"), text_in(row, "repetitions"))
+              : "");
 }
 
 } // namespace

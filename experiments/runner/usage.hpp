@@ -23,7 +23,7 @@ private:
   Usage start_;
 };
 
-/// A timed region's cleanliness (design.md section 6): CPU time / (wall x workers) below 0.97, or more than a hundredth
+/// A timed region's cleanliness (DESIGN.md section 6): CPU time / (wall x workers) below 0.97, or more than a hundredth
 /// of wall x workers spent waiting for a processor, and the sample is contaminated. Workers are the threads that compute, see Executor::workers(). Regions shorter than the clock of
 /// getrusage can tell (20 ms) are judged by their waiting alone.
 bool is_contaminated(const Usage& usage, double wall_s, int workers);

@@ -1,5 +1,5 @@
 #pragma once
-/// Equivalence of variants: against the oracle in long double, over thread counts, and with one another (design.md
+/// Equivalence of variants: against the oracle in long double, over thread counts, and with one another (DESIGN.md
 /// section 6).
 #include "solver/scene/scene.hpp"
 #include "variants/api.hpp"

@@ -1,4 +1,4 @@
-/* Link laws of design.md section 2 in the shared subset, over the operations of an algebra (kernels/algebra).
+/* Link laws of DESIGN.md section 2 in the shared subset, over the operations of an algebra (kernels/algebra).
  * All quantities are in the global frame and in SI units; `axis` and the flags are constants at every call and fold
  * away. */
 

@@ -1,4 +1,4 @@
-/* Motion of one element (design.md section 2): from the total force and moment on it to what the update needs.
+/* Motion of one element (DESIGN.md section 2): from the total force and moment on it to what the update needs.
  *   u' = v,   v' = force / m,   q' = w q / 2,   w' = turn / I
  * The factors 1/m, 1/2 and 1/I meet the step's factor in the update's constants (kernels/rk_update), never in the loop. */
 

@@ -102,11 +102,11 @@ void write_cell_data(AtomicFile& file, std::span<const double> state, std::span<
   vectors("velocity", [](const double* f) { return Vec3{f[vx], f[vy], f[vz]}; });
   vectors("rotation_vector", rotation_vector);
   data_array<double>(file, "Float64", "stress", 6, count,
-                     " ComponentName0=\"xx\" ComponentName1=\"yy\" ComponentName2=\"zz\" ComponentName3=\"yz\" "
-                     "ComponentName4=\"xz\" ComponentName5=\"xy\"",
+                     " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\" "
+                     "ComponentName4=\"YZ\" ComponentName5=\"XZ\"", // VTK's order of symmetric tensors
                      [&](Base64Writer& out) {
                        for (const ElementStress& s : stress)
-                         for (std::size_t component = 0; component < 6; ++component) out.put(s[component]);
+                         for (const std::size_t component : {0, 1, 2, 5, 3, 4}) out.put(s[component]);
                      });
   data_array<double>(file, "Float64", "von_mises", 1, count, "", [&](Base64Writer& out) {
     for (const ElementStress& s : stress) out.put(s[6]);

@@ -1,5 +1,5 @@
 #pragma once
-/// Geometry as rows: every body is a set of cells of a regular grid, kept as rows of fixed (y, z) (design.md section
+/// Geometry as rows: every body is a set of cells of a regular grid, kept as rows of fixed (y, z) (DESIGN.md section
 /// 4).
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 /// The state of one element as it crosses every interface of the program: 13 doubles in the global frame.
-/// The rest state is all zeros (design.md section 3): displacements instead of positions, s = q0 - 1 instead of q0.
+/// The rest state is all zeros (DESIGN.md section 3): displacements instead of positions, s = q0 - 1 instead of q0.
 #include <array>
 #include <cstddef>
 #include <cstdint>

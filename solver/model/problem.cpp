@@ -12,7 +12,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A unit quaternion (1 + s, v), stored without its 1 (design.md section 3).
+/// A unit quaternion (1 + s, v), stored without its 1 (DESIGN.md section 3).
 struct Turn {
   double s = 0;
   Vec3 v{};

@@ -13,7 +13,7 @@
 
 namespace dss {
 
-/// Link laws of design.md section 2.
+/// Link laws of DESIGN.md section 2.
 enum class LinkLaw { paper, material };
 
 /// Constants of a link across the faces normal to one body axis.

@@ -1,5 +1,5 @@
 #pragma once
-/// Denormal numbers count as zero (design.md section 5), where the CPU can: MXCSR bit 15 flushes results to zero (FTZ),
+/// Denormal numbers count as zero (DESIGN.md section 5), where the CPU can: MXCSR bit 15 flushes results to zero (FTZ),
 /// bit 6 takes operands as zero (DAZ). Linux hands MXCSR down to threads that are started later.
 #if defined(__SSE2__)
 #include <xmmintrin.h>

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double third = 1.0 / 3, sixth = 1.0 / 6;
 
-/// Classical RK4 without a running sum (design.md section 3): y1 = y + h/2 k1, y2 = y + h/2 k2, y3 = y + h k3,
+/// Classical RK4 without a running sum (DESIGN.md section 3): y1 = y + h/2 k1, y2 = y + h/2 k2, y3 = y + h k3,
 /// y(n+1) = (y1 + 2 y2 + y3 - y)/3 + h/6 k4. Its limits are the roots of |R(z)| = 1, R(z) = 1 + z + z^2/2 + z^3/6 +
 /// z^4/24.
 constexpr Method rk4 = {.name = "rk4",

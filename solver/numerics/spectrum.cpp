@@ -115,7 +115,10 @@ double pencil_bound(const Linearised& system, Matrix12 LinkMatrices::*part) {
       scale[dof] = matrix(dof, dof) > 0 ? std::sqrt(scale[dof] / matrix(dof, dof)) : 0;
       key[std::size_t(dof)] = scale[dof];
     }
-    if (seen.insert(key).second) largest = std::max(largest, largest_eigenvalue(matrix, scale));
+    if (!seen.insert(key).second) continue;
+    const double own = largest_eigenvalue(matrix, scale);
+    if (!std::isfinite(own)) return own;
+    largest = std::max(largest, own);
   }
   return largest;
 }

@@ -1,5 +1,6 @@
 #include "solver/numerics/stability.hpp"
 
+#include "solver/error.hpp"
 #include "solver/numerics/spectrum.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -68,7 +69,7 @@ double mode_step_limit(const Method& method, double omega, double rate) {
     stable = unstable;
     unstable += increment;
   }
-  while (unstable - stable > 1e-12 * unstable) {
+  while (unstable - stable > 1e-12 * unstable && unstable > 1e-9) { // below: not a number at any step
     const double middle = (stable + unstable) / 2;
     (is_stable(middle) ? stable : unstable) = middle;
   }
@@ -86,7 +87,13 @@ StabilityLimit stable_step(const Problem& problem, const Method& method, bool sh
     limit.damping = std::min(found.damping, bound.damping);
     limit.how = fmt::format("Krylov iteration, {} products", found.products);
   }
-  limit.dt = worst_step_limit(method, limit.omega_max, limit.damping);
+  if (std::isfinite(limit.omega_max + limit.damping))
+    limit.dt = worst_step_limit(method, limit.omega_max, limit.damping);
+  if (!(limit.dt > 0))
+    throw InputError(
+        fmt::format("{}: no stability limit can be found: stiffness over mass or inertia is beyond the range "
+                    "of numbers; give constants in SI units",
+                    problem.name));
   return limit;
 }
 

@@ -23,6 +23,7 @@ constexpr std::size_t sharp_stability_elements = 20'000;
 /// 1.0 of the sharp figure. With `sharp`: the largest eigenvalues by a Krylov iteration (power iteration's subspace),
 /// to about 1e-4. Both take the worst pairing of frequency and damping within these bounds, which no mode may have.
 /// Gyroscopic terms and what large rotations change are not in it.
+/// @throws InputError for constants whose ratios leave the range of numbers
 StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp = false);
 
 /// Step limit [s] of a method on the single mode x'' + rate x' + omega^2 x = 0; omega [rad/s] and rate [1/s] are not

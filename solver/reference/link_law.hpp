@@ -1,5 +1,5 @@
 #pragma once
-/// The two link laws of design.md section 2 as the oracle computes them, each with the potential energy of its elastic
+/// The two link laws of DESIGN.md section 2 as the oracle computes them, each with the potential energy of its elastic
 /// part.
 #include "solver/model/problem.hpp"
 #include "solver/reference/orientation.hpp"

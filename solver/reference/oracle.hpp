@@ -1,5 +1,5 @@
 #pragma once
-/// The oracle: a plain solver of any problem by any method, against which every variant is checked (design.md sections
+/// The oracle: a plain solver of any problem by any method, against which every variant is checked (DESIGN.md sections
 /// 5 and 6). It shares no arithmetic with kernels/; its precision is that of T in every operation.
 #include "solver/numerics/method.hpp"
 #include "solver/reference/dynamics.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Constants of elements and links, as published (`paper`) or from a material (design.md section 2).
+/// Constants of elements and links, as published (`paper`) or from a material (DESIGN.md section 2).
 #include "solver/model/problem.hpp"
 #include "solver/scene/json/node.hpp"
 

@@ -55,12 +55,13 @@ Range read_face(const Node& node, const std::string& body, Range range) {
   return range;
 }
 
-Range read_box(const Node& node, Range range) {
+Range read_box(const Node& node, const std::string& body, Range range) {
   ObjectNode box(node);
   for (std::size_t a = 0; a < 3; ++a) {
     const auto side = box.find(std::string(1, "xyz"[a]));
     if (!side) continue;
     constexpr long most = std::numeric_limits<int>::max();
+    const int end = range.last[a];
     if (side->is_array()) {
       const std::vector<Node> ends = side->items();
       if (ends.size() != 2) side->fail("not [first, last], the indices of the first and the last element");
@@ -71,6 +72,9 @@ Range read_box(const Node& node, Range range) {
     } else {
       range.first[a] = range.last[a] = int(side->whole(0, most));
     }
+    if (range.last[a] > end)
+      side->fail(
+          fmt::format("{} is beyond the last element of body \"{}\", {} along {}", range.last[a], body, end, "xyz"[a]));
   }
   box.finish();
   return range;
@@ -119,7 +123,7 @@ std::vector<std::size_t> read_selection(ObjectNode& select, const Problem& probl
   } else {
     Range range = extent_of(problem.lattice, body);
     if (key == "face") range = read_face(what, name, range);
-    if (key == "box") range = read_box(what, range);
+    if (key == "box") range = read_box(what, name, range);
     if (key == "all" && !what.boolean()) what.fail("only true has a meaning here");
     elements = elements_in(problem.lattice, body, range);
   }

@@ -1,4 +1,5 @@
 """Bad input: exit code 2 or 3 and one line that says what, where and what would be right."""
+import json
 import os
 import resource
 import unittest
@@ -70,8 +71,18 @@ class Errors(ProgramTest):
     def test_a_step_above_the_stability_limit_is_refused_with_both_numbers(self):
         self.assert_refused(3, ["1e-05", "limit 2.9", "--force"], "run", "plate_paper", "--set", "n=20", "--dt", "1e-5")
 
+    def test_constants_that_leave_the_range_of_numbers_are_refused(self):
+        for huge in ("bodies.0.constants.k=1e308", "bodies.0.constants.mass=1e-200"):
+            self.assert_refused(2, ["stability limit"], "run", "plate_paper", "--set", "n=10", "--set", huge)
+
+    def test_an_unstable_run_claims_neither_speed_nor_state_beyond_its_end(self):
+        result = dssbench("run", "plate_paper", "--set", "n=10", "--dt", "5e-6", "--force", "--steps", "5000", "--json", "-")
+        record = json.loads(result.stdout)
+        self.assertEqual((result.returncode, record["status"], record["state_digest"], record["max_displacement_m"]), (3, "unstable", None, None))
+        self.assertLess(record["steps"], 100)
+
     def test_a_forced_unstable_run_stops_and_says_where(self):
-        self.assert_refused(3, ["not finite at step", "element"], "run", "plate_paper", "--set", "n=10", "--dt", "5e-6", "--force",
+        self.assert_refused(3, ["not finite after step", "element", "take --dt below 3.0"], "run", "plate_paper", "--set", "n=10", "--dt", "5e-6", "--force",
                             "--steps", "5000")
 
     def test_an_unstable_run_leaves_no_state_file(self):

@@ -2,9 +2,12 @@
 import csv
 import json
 import os
+import resource
+import subprocess
+import time
 import unittest
 
-from program import ProgramTest, dssbench
+from program import PROGRAM, ProgramTest, dssbench
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../experiments/scenes")
 STUDY = {
@@ -44,7 +47,7 @@ class Experiments(ProgramTest):
         self.assertEqual([row["source"] for row in table], ["measured"] * 3 + ["paper"])
         self.assertGreater(float(table[1]["speedup_vs_reference"]), 1)
         self.assertEqual((table[3]["paper_wall_s"], table[3]["measured_wall_s"]), ("12.5", ""))
-        self.assertIn("context", json.loads(self.read("out/raw/tiny.json")))
+        self.assertTrue(json.loads(self.read("out/raw/tiny.json"))["context"]["denormals_flushed"])
         self.assertIn(self.path("out/tables/tiny.csv"), result.stdout)
 
     def test_resume_measures_only_what_is_missing(self):
@@ -59,6 +62,75 @@ class Experiments(ProgramTest):
         self.assertEqual(len(resumed), 7)
         self.assertEqual(self.experiment("--resume").returncode, 0)
         self.assertEqual(self.read("out/raw/tiny.csv").splitlines(keepends=True), resumed)
+
+    def scene_study(self, force):
+        with open(os.path.join(SCENES, "two_elements.json"), encoding="utf-8") as file:
+            scene = json.load(file)
+        scene["gravity"] = force
+        self.write("pair.json", json.dumps(scene))
+        self.study(cells=[{"scene": self.path("pair.json"), "variants": ["reference", "scalar"]}])
+
+    def test_resume_refuses_records_of_another_scene_or_program(self):
+        self.scene_study([1000, 0, 0])
+        self.assertEqual(self.experiment().returncode, 0)
+        self.scene_study([2000, 0, 0])
+        self.assert_refused(2, ["pair.json", "has changed"], "experiment", self.path("tiny.json"), "--scale", "smoke", "--resume", "--out",
+                            self.path("out"))
+        circumstances = json.loads(self.read("out/raw/tiny.json"))
+        circumstances["context"]["git_commit"] = "another"
+        self.write("out/raw/tiny.json", json.dumps(circumstances))
+        self.assert_refused(2, ["git_commit", "another"], "experiment", self.path("tiny.json"), "--scale", "smoke", "--resume", "--out",
+                            self.path("out"))
+
+    def test_resume_tries_failed_cells_again(self):
+        scale = {**STUDY["scales"]["smoke"], "steps": 30000, "time_limit_s": 0.1}
+        self.study(scales={"smoke": scale})
+        self.assertEqual(self.experiment().returncode, 1)
+        self.study(scales={"smoke": {**scale, "time_limit_s": 60, "repetitions": [1, 1]}})
+        result = self.experiment("--resume")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_earlier_records_outlive_a_full_disk_and_a_trial_at_another_scale(self):
+        self.study(scales={name: STUDY["scales"]["smoke"] for name in ("smoke", "trial")})
+        self.experiment()
+        before = self.read("out/raw/tiny.csv")
+        self.assert_refused(2, ['"smoke"', '"trial"', "--out"], "experiment", self.path("tiny.json"), "--scale", "trial", "--out", self.path("out"))
+        self.assertEqual(self.read("out/raw/tiny.csv"), before)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))  # noqa: E731
+        result = dssbench("experiment", self.path("tiny.json"), "--scale", "smoke", "--out", self.path("out"), preexec_fn=limit)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        kept = self.path("out/raw/tiny.csv.previous") if os.path.exists(self.path("out/raw/tiny.csv.previous")) else self.path("out/raw/tiny.csv")
+        self.assertEqual(self.read(kept), before)
+
+    def test_a_killed_experiment_takes_its_measuring_process_along(self):
+        scale = {**STUDY["scales"]["smoke"], "steps": 100000000, "oracle_steps": 1}
+        self.study(cells=[{**STUDY["cells"][0], "variants": ["scalar"]}], base=["scalar"], scales={"smoke": scale})
+        mark = self.path("tiny.json")
+        run = subprocess.Popen([PROGRAM, "experiment", mark, "--scale", "smoke", "--out", self.path("out")], stdout=subprocess.DEVNULL)
+        children = f"/proc/{run.pid}/task/{run.pid}/children"
+        for _ in range(200):
+            time.sleep(0.05)
+            with open(children, encoding="utf-8") as file:
+                if child := file.read().split():
+                    break
+        run.kill()
+        run.wait()
+        self.assertTrue(child)
+        for _ in range(100):
+            time.sleep(0.05)
+            if not os.path.exists(f"/proc/{child[0]}"):
+                return
+        self.fail("the measuring process lives on")
+
+    def test_compare_fails_where_cells_are_missing_and_refuses_where_all_are(self):
+        columns = "experiment,scale,cell,repetition,wall_s,steps,check,status,twin\n"
+        rows = {cell: "".join(f"t,host,{cell},{r},{1 + 0.001 * r},10,passed,ok,false\n" for r in range(10)) for cell in "abc"}
+        old, new, other = (self.write(name, columns + text) for name, text in
+                           (("o.csv", rows["a"] + rows["b"]), ("n.csv", rows["a"]), ("c.csv", rows["c"])))
+        result = dssbench("compare", old, new)
+        self.assertEqual((result.returncode, "only in OLD" in result.stdout), (1, True))
+        self.assertEqual(dssbench("compare", new, old).returncode, 0)
+        self.assert_refused(2, ["no cell in common"], "compare", old, other)
 
     def test_a_changed_file_of_voxels_gets_a_new_oracle(self):
         with open(os.path.join(SCENES, "l_bracket.json"), encoding="utf-8") as file:
@@ -115,6 +187,9 @@ class Experiments(ProgramTest):
         for changes, words in (
             ({"titel": "x"}, ["tiny.json", "titel"]),
             ({"base": ["scala"]}, ["/base", '"scalar"']),
+            ({"base": ["avx2"]}, ["/base", "no cell", '"avx2"']),
+            ({"twin": "avx2"}, ["/twin", "no cell", '"avx2"']),
+            ({"cells": [{"scene": "plate_paper", "set": {"n": [10, 10]}, "variants": ["scalar"]}], "base": ["scalar"]}, ["/cells", "twice"]),
             ({"scales": {"smoke": {"steps": -1}}}, ["/scales/smoke/steps", "-1"]),
             ({"cells": [{"scene": "plate_paper", "variants": ["scalar"], "models": ["flat"]}]}, ["/cells/0/models", "flat"]),
             ({"cells": [{"scene": "plate_papr", "variants": ["scalar"]}]}, ["/cells/0", '"plate_paper"']),

@@ -29,6 +29,12 @@ class Outputs(ProgramTest):
         for key in ("date", "num_cpus", "caches", "git_commit", "git_dirty", "compiler", "compiler_flags", "affinity", "denormals_flushed"):
             self.assertIn(key, record["context"])
 
+    def test_overrides_may_be_expressions_and_may_name_a_part_of_a_vector_that_the_scene_leaves_out(self):
+        for changes, elements in ((["n=2*6"], 144), (["n==2*6"], 144), (["n=12", "gravity.2=-9.81/2"], 144)):
+            sets = [word for change in changes for word in ("--set", change)]
+            record = json.loads(dssbench("run", "plate_paper", *sets, "--steps", "5", "--json", "-").stdout)
+            self.assertEqual(record["elements"], elements)
+
     def test_threads_without_rows_are_told_from_those_that_compute(self):
         for scene, workers in (("chain", 1), ("plate_paper", 2)):
             result = dssbench("run", scene, "--steps", "20", "--threads", "2", "--json", "-")
@@ -80,6 +86,9 @@ class Outputs(ProgramTest):
         for cell, row in enumerate(rows):
             self.assertEqual([float(row[c]) for c in ("ux", "uy", "uz")], list(arrays["CellData", "displacement"][cell]))
             self.assertEqual(float(row["stress_vm"]), arrays["CellData", "von_mises"][cell])
+        shear = arrays["CellData", "stress"][:, 3:]  # xy, yz, xz, as VTK orders them; the plate stays in its plane
+        self.assertGreater(abs(shear[:, 0]).max(), 0)
+        self.assertEqual(abs(shear[:, 1:]).max(), 0)
         middle = arrays["Points", "points"].reshape(-1, 8, 3).mean(axis=1)
         self.assertAlmostEqual(middle[143][0], float(rows[143]["x"]), delta=1e-12)
         self.assertEqual(arrays["Cells", "connectivity"].tolist(), list(range(8 * 144)))

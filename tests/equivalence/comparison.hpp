@@ -102,7 +102,7 @@ inline double relative_error(const State& actual, const State& expected) {
   return worst;
 }
 
-/// Numbers whose bits differ; -0 counts as 0, and so does what flushing denormals may remove (design.md section 6).
+/// Numbers whose bits differ; -0 counts as 0, and so does what flushing denormals may remove (DESIGN.md section 6).
 inline std::size_t differing_bits(const State& a, const State& b, Precision precision) {
   const double tiny = precision == Precision::f64 ? 0x1p-1000 : 0x1p-120;
   std::size_t count = 0;

@@ -9,7 +9,7 @@
 namespace dss {
 namespace {
 
-enum class Fault { none, rate, last_element, lost_step, threads, not_a_number, unwritten };
+enum class Fault { none, rate, last_element, last_bit, lost_step, threads, not_a_number, unwritten };
 Fault fault = Fault::none;
 
 /// The right executor with the fault put in.
@@ -22,6 +22,7 @@ public:
     right_->read(first, fields);
     double& last = fields[fields.size() - field_count + ux];
     if (fault == Fault::last_element) last *= 1 + (setup_.precision == Precision::f64 ? 1e-8 : 1e-3);
+    if (fault == Fault::last_bit) last = std::nextafter(last, 1.0);
     if (fault == Fault::threads && setup_.threads == 3) last = std::nextafter(float(last), 1.0f);
     if (fault == Fault::not_a_number) last = std::nan("");
   }
@@ -70,7 +71,7 @@ TEST(Verify, passes_what_is_right_and_catches_every_injected_fault_by_the_check_
   EXPECT_TRUE(failed_checks(Fault::none).empty());
   for (const auto& [injected, check] :
        {std::pair(Fault::rate, "evaluation"), std::pair(Fault::last_element, "run rk4"),
-        std::pair(Fault::lost_step, "run rk4"), std::pair(Fault::threads, "threads rk4"),
+        std::pair(Fault::last_bit, "bits rk4"), std::pair(Fault::lost_step, "run rk4"), std::pair(Fault::threads, "threads rk4"),
         std::pair(Fault::not_a_number, "run rk4"), std::pair(Fault::unwritten, "run rk4")}) {
     const std::vector<std::string> failed = failed_checks(injected);
     EXPECT_NE(std::find(failed.begin(), failed.end(), check), failed.end()) << "fault " << int(injected);

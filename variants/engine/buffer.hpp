@@ -1,5 +1,5 @@
 #pragma once
-/// Zeroed memory aligned for packs, on huge pages where it is large (design.md section 4, item 6).
+/// Zeroed memory aligned for packs, on huge pages where it is large (DESIGN.md section 4, item 6).
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>

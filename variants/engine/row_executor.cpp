@@ -2,6 +2,7 @@
 
 #include "solver/error.hpp"
 #include "solver/numerics/denormals.hpp"
+#include "variants/engine/barrier.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +19,12 @@ static void run_team(int threads, Work&& work) {
     return;
   }
   int granted = threads;
+  Barrier barrier(threads);
   omp_set_dynamic(0);
 #pragma omp parallel num_threads(threads)
   {
     if (omp_get_num_threads() == threads) {
-      work(omp_get_thread_num(), [] {
-#pragma omp barrier
-      });
+      work(omp_get_thread_num(), [&] { barrier.arrive_and_wait(); });
     } else {
 #pragma omp single
       granted = omp_get_num_threads();
@@ -46,6 +46,8 @@ RowExecutor<T>::RowExecutor(const Setup& setup) : setup_(setup), packed_(setup.p
   for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
     blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), method.stages * packed_.reach, !is_leapfrog(),
                          WavefrontStep<T>::sweeps(packed_, method, cuts.size() - 1));
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    steps_.emplace_back(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks_, b);
 }
 
 template <class T>
@@ -202,14 +204,11 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
   const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
   const int threads = int(blocks_.size());
   const long at_once = WavefrontStep<T>::steps_a_pass(packed_, setup_.method, blocks_.size());
-  std::vector<WavefrontStep<T>> step_of_block;
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    step_of_block.emplace_back(packed_, setup_.method, setup_.dt, stored_fields(), width, blocks_, b);
   std::atomic<long> failed_step{-1};
   const auto work = [&](int thread, auto&& synchronise) {
     const FlushDenormals guard;
     Block<T>& block = blocks_[std::size_t(thread)];
-    WavefrontStep<T>& step = step_of_block[std::size_t(thread)];
+    WavefrontStep<T>& step = steps_[std::size_t(thread)];
     block.failed_row = -1;
     for (long pass = 0, n = 0; n < steps; ++pass, n += at_once) {
       step(&signals[std::size_t(n) * step_width], int(std::min(at_once, steps - n)), (parity_ + int(pass & 1)) & 1);
@@ -274,6 +273,7 @@ template <class T>
 std::size_t RowExecutor<T>::bytes() const {
   std::size_t sum = packed_.bytes();
   for (const Block<T>& block : blocks_) sum += block.bytes();
+  for (const WavefrontStep<T>& step : steps_) sum += step.bytes();
   return staged_ ? sum + staged_->bytes() : sum;
 }
 

@@ -47,6 +47,7 @@ private:
   const Setup setup_;
   PackedRows<T> packed_;
   std::vector<Block<T>> blocks_;        ///< wavefront
+  std::vector<WavefrontStep<T>> steps_; ///< of each block
   std::optional<StagedRows<T>> staged_; ///< or stage by stage
   int parity_ = 0;
   bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before

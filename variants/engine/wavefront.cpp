@@ -136,6 +136,14 @@ auto WavefrontStep<T>::make_sweeps(const Method& method, int steps, const std::v
 }
 
 template <class T>
+std::size_t WavefrontStep<T>::bytes() const {
+  std::size_t sum = (state_rows_[0].size() + state_rows_[1].size()) * sizeof(T*);
+  for (const auto& sweeps : sweeps_)
+    for (const Sweep& sweep : sweeps) sum += sweep.rows.size() * sizeof(RowStage);
+  return sum;
+}
+
+template <class T>
 void WavefrontStep<T>::operator()(const double* signals, int steps, int parity) {
   const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
   int count = steps * stages_; // sweeps that run; after a failure only those of earlier steps, which may fail as well

@@ -1,5 +1,5 @@
 #pragma once
-/// The wavefront over rows (design.md section 4): stage s runs `reach` rows behind stage s - 1, intermediate stages
+/// The wavefront over rows (DESIGN.md section 4): stage s runs `reach` rows behind stage s - 1, intermediate stages
 /// live in rings of a few rows, the state is updated in place, threads recompute a halo of stages * reach rows and meet
 /// once a step.
 #include "variants/engine/schedule.hpp"
@@ -114,6 +114,7 @@ public:
   /// copies are current. The block's own rows end up updated in place and published under the other parity. Sets the block's
   /// failed_row and failed_step to the first row that the first failing step leaves non-finite.
   void operator()(const double* signals, int steps, int parity);
+  std::size_t bytes() const;
 
 private:
   using RowKernel = bool (*)(const RowTask<T>&);

@@ -61,7 +61,7 @@ json parse(const std::string& path, const std::string& text) {
   return root;
 }
 
-/// --set takes a JSON scalar, and anything else as a text.
+/// --set takes a JSON scalar, and anything else as a text: a name, or an expression where a number is wanted.
 json scalar_of(const Override& change) {
   const json value = json::parse(change.value, nullptr, false);
   if (value.is_discarded()) return change.value;
@@ -82,9 +82,10 @@ std::vector<std::string> keys_of(const json& object) {
 
 /// The member of an object, made if need be (the reader refuses keys it does not know), or the item of an array.
 json& step_into(json& parent, const std::string& part, const Override& change) {
-  if (parent.is_object() || parent.is_null()) return parent[part];
   const bool is_index = !part.empty() && part.size() < 10 &&
                         std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  if (parent.is_null() && is_index) parent = {0, 0, 0}; // the default of every vector that may be left out
+  if (parent.is_object() || parent.is_null()) return parent[part];
   if (parent.is_array() && is_index && std::stoul(part) < parent.size()) return parent[std::stoul(part)];
   if (parent.is_array())
     fail_override(
@@ -122,6 +123,14 @@ bool is_identifier(const std::string& name) {
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
 }
 
+/// None of these can be evaluated: because of a fault of its own, or because they refer to each other.
+[[noreturn]] void fail_unresolved(SceneText& text, ObjectNode& names, const std::vector<std::string>& pending) {
+  for (const std::string& name : pending) text.parameters[name] = 1; // what depends on others alone now resolves
+  for (const std::string& name : pending) names.require(name).number();
+  names.require(pending.front())
+      .fail(fmt::format("refers to itself; parameters must not form a circle: {}", listed(pending)));
+}
+
 /// Parameters may refer to each other in any order: each pass resolves those whose references are resolved.
 void resolve_parameters(SceneText& text) {
   ObjectNode root(Node(text, text.root, ""));
@@ -131,7 +140,8 @@ void resolve_parameters(SceneText& text) {
   std::vector<std::string> pending = keys_of(parameters->json());
   for (const std::string& name : pending)
     if (!is_identifier(name) || name == "pi")
-      names.require(name).fail(fmt::format("\"{}\" cannot name a parameter; use letters, digits and _", name));
+      names.require(name).fail(fmt::format("\"{}\" cannot name a parameter; use letters, digits and _{}", name,
+                                           name == "pi" ? "; pi is a constant" : ""));
   while (!pending.empty()) {
     const std::size_t before = pending.size();
     std::erase_if(pending, [&](const std::string& name) {
@@ -144,10 +154,7 @@ void resolve_parameters(SceneText& text) {
       }
     });
     if (pending.size() < before) continue;
-    // None resolves, so number() throws for each: the one to show is that which others may only refer to.
-    const auto culprit = std::find_if(pending.begin(), pending.end(),
-                                      [&](const std::string& name) { return !names.require(name).is_number(); });
-    names.require(culprit == pending.end() ? pending.front() : *culprit).number();
+    fail_unresolved(text, names, pending);
   }
 }
 

@@ -39,15 +39,18 @@ void Node::fail(const std::string& message) const {
   throw InputError(line);
 }
 
-bool Node::is_number() const {
-  return value_->is_number() || (value_->is_string() && value_->get_ref<const std::string&>().starts_with('='));
+bool Node::is_expression() const {
+  return value_->is_string() &&
+         (value_->get_ref<const std::string&>().starts_with('=') || text_->overrides.contains(pointer_));
 }
+bool Node::is_number() const { return value_->is_number() || is_expression(); }
 
 double Node::number() const {
   if (!is_number()) fail(fmt::format("{} is not a number; write a number or \"=expression\"", shown(*value_)));
   if (value_->is_number()) return value_->get<double>();
+  const auto& expression = value_->get_ref<const std::string&>();
   try {
-    return evaluate(value_->get_ref<const std::string&>().substr(1), text_->parameters);
+    return evaluate(expression.substr(expression.starts_with('=') ? 1 : 0), text_->parameters);
   } catch (const InputError& error) {
     const auto& names = text_->parameters;
     std::vector<std::string> known;
@@ -130,11 +133,7 @@ std::optional<Node> ObjectNode::find(const std::string& key) {
 
 Node ObjectNode::require(const std::string& key) {
   const std::optional<Node> node = find(key);
-  if (!node) {
-    std::vector<std::string> there; // among them may be the key, misspelt
-    for (const auto& item : node_.json().items()) there.push_back(item.key());
-    fail(fmt::format("\"{}\" is missing; there are: {}", key, there.empty() ? "no keys" : listed(there)));
-  }
+  if (!node) fail(fmt::format("\"{}\" is missing; {}", key, listed_keys()));
   return *node;
 }
 
@@ -162,12 +161,15 @@ std::string ObjectNode::require_one(const std::vector<std::string>& keys) {
   std::vector<std::string> there;
   for (const std::string& key : keys)
     if (find(key)) there.push_back(key);
-  if (there.empty()) {
-    finish();
-    fail(fmt::format("one of {} is missing", listed(keys)));
-  }
+  if (there.empty()) fail(fmt::format("one of {} is missing; {}", listed(keys), listed_keys()));
   if (there.size() > 1) fail(fmt::format("{} exclude each other; give one of them", listed(there)));
   return there.front();
+}
+
+std::string ObjectNode::listed_keys() const {
+  std::vector<std::string> there;
+  for (const auto& item : node_.json().items()) there.push_back(item.key());
+  return "there are: " + (there.empty() ? "no keys" : listed(there));
 }
 
 void ObjectNode::finish() const {

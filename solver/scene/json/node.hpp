@@ -54,6 +54,7 @@ public:
 
 private:
   friend class ObjectNode;
+  bool is_expression() const;                  ///< a text "=..."; from --set also without "="
   std::string with_source(double value) const; ///< and the expression that gave it
   const SceneText* text_;
   const nlohmann::json* value_;
@@ -79,6 +80,7 @@ public:
   const Node& node() const { return node_; }
 
 private:
+  std::string listed_keys() const; ///< of the object; among them may be a missing one, misspelt
   Node node_;
   std::set<std::string> known_;
 };

@@ -1,0 +1,56 @@
+#include "experiments/runner/circumstances.hpp"
+#include "experiments/runner/context.hpp"
+#include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+
+#include <fmt/format.h>
+#include <functional>
+
+namespace dss {
+namespace {
+
+nlohmann::json scene_digests(const Study& study) {
+  nlohmann::json digests;
+  for (const Cell& cell : study.cells)
+    if (nlohmann::json& digest = digests[fmt::format("{} {}", cell.scene, cell.set_text())]; digest.is_null())
+      digest = scene_digest(load_scene(cell.scene, cell.set));
+  return digests;
+}
+
+} // namespace
+
+std::string scene_digest(const Scene& scene) {
+  const Lattice& lattice = scene.problem.lattice;
+  std::string shape(lattice.present.begin(), lattice.present.end());
+  for (const Row& row : lattice.rows) shape += fmt::format("{} {} {} {},", row.body, row.x_begin, row.y, row.z);
+  return fmt::format("{:016x}", std::hash<std::string>{}(read_text(scene.path) + shape));
+}
+
+void write_circumstances(const std::string& path, const nlohmann::json& context, const Study& study) {
+  nlohmann::ordered_json json;
+  json["context"] = context;
+  json["experiment"] = study.name;
+  json["title"] = study.title;
+  json["scale"] = study.scale.name;
+  json["scenes"] = scene_digests(study);
+  AtomicFile file(path);
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
+void require_same_circumstances(const std::string& path, const Study& study) {
+  const nlohmann::json old = nlohmann::json::parse(read_text(path), nullptr, false);
+  if (!old.is_object() || !old.contains("context") || !old.contains("scenes"))
+    throw InputError(fmt::format("{}: does not say which program made the records; measure without --resume", path));
+  const nlohmann::json now = measurement_context();
+  for (const char* key : {"git_commit", "git_dirty", "compiler", "cpu_model"})
+    if (old["context"].value(key, nlohmann::json()) != now[key])
+      throw InputError(fmt::format("{}: the records are of {} {}, this is {}; measure without --resume", path, key,
+                                   old["context"].value(key, nlohmann::json()).dump(), now[key].dump()));
+  const nlohmann::json digests = scene_digests(study);
+  for (const auto& [scene, digest] : digests.items())
+    if (old["scenes"].contains(scene) && old["scenes"][scene] != digest)
+      throw InputError(fmt::format("{}: scene {} has changed since; measure without --resume", path, scene));
+}
+
+} // namespace dss

@@ -1,0 +1,21 @@
+#pragma once
+/// What the records of a study were made from: raw/NAME.json beside raw/NAME.csv.
+#include "experiments/runner/study.hpp"
+#include "solver/scene/scene.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace dss {
+
+/// Changes with the scene's file and with the voxels that a file beside it gives.
+std::string scene_digest(const Scene& scene);
+
+/// Writes the study's name and scale, the digests of its scenes, and the context as a measured process saw it.
+void write_circumstances(const std::string& path, const nlohmann::json& context, const Study& study);
+
+/// Repetitions of one cell must be of one program, machine and scene.
+/// @throws InputError if those of the file are not those of now
+void require_same_circumstances(const std::string& path, const Study& study);
+
+} // namespace dss
