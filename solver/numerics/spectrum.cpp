@@ -178,6 +178,7 @@ double lanczos(const ScaledMatrix& matrix, long& products) {
     diagonal.push_back(v.dot(next));
     next -= diagonal.back() * v + beta * previous;
     beta = next.norm();
+    if (!std::isfinite(beta)) return beta;
     const bool is_exhausted = beta <= 1e-13 * std::abs(diagonal.front());
     if (is_exhausted || n % check_every == 0) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;

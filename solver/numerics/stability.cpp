@@ -69,7 +69,7 @@ double mode_step_limit(const Method& method, double omega, double rate) {
     stable = unstable;
     unstable += increment;
   }
-  while (unstable - stable > 1e-12 * unstable && unstable > 1e-9) { // below: not a number at any step
+  while (unstable - stable > 1e-12 * unstable) {
     const double middle = (stable + unstable) / 2;
     (is_stable(middle) ? stable : unstable) = middle;
   }
