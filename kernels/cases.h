@@ -29,6 +29,16 @@ static inline material_law case_material(void) {
     case_exchange(                                                                                                     \
         paper_link(case_element(in), case_element(in + CASE_ELEMENT), axis, case_paper(), case_paper(), 1, 1), out);   \
   }                                                                                                                    \
+  static inline void case_plate_link_##axis_name(const REAL* in, REAL* out) {                                          \
+    exchange x =                                                                                                       \
+        paper_link(case_element(in), case_element(in + CASE_ELEMENT), axis, case_paper(), case_paper(), 0, 1);         \
+    x.couple_i = couple_moment(x.couple_i, case_paper(), 0, x.couple_j);                                               \
+    case_exchange(x, out);                                                                                             \
+  }                                                                                                                    \
+  static inline void case_undamped_link_##axis_name(const REAL* in, REAL* out) {                                       \
+    case_exchange(                                                                                                     \
+        paper_link(case_element(in), case_element(in + CASE_ELEMENT), axis, case_paper(), case_paper(), 1, 0), out);   \
+  }                                                                                                                    \
   static inline void case_material_link_##axis_name(const REAL* in, REAL* out) {                                       \
     case_exchange(material_link(case_element(in), case_element(in + CASE_ELEMENT), axis, case_material(), 1), out);    \
   }                                                                                                                    \
@@ -56,6 +66,18 @@ static inline void case_rk_update(const REAL* in, REAL* out) {
   t = rk_increment(SPLAT(2), in[2], in[0], t);
   t = rk_increment(SPLAT(1), in[3], in[0], t);
   out[1] = rk_finish(SPLAT(1.0 / 3.0), t, in[0]);
+}
+/* an element, its acceleration and its angular acceleration */
+static inline void case_leapfrog(const REAL* in, REAL* out) {
+  element e = case_element(in);
+  *(leap*)out = leapfrog(e.u, e.q, e.v, e.w, *(const vec*)(in + CASE_ELEMENT),
+                         *(const spin*)(in + CASE_ELEMENT + (int)(sizeof(vec) / sizeof(REAL))), SPLAT(0.01));
+}
+static inline void case_stabilization(const REAL* in, REAL* out) {
+  element e = case_element(in);
+  tie_law tie = {SPLAT(3.0), SPLAT(0.2), SPLAT(0.7), SPLAT(0.05)};
+  *(vec*)out = tie_force(e, tie, e.u);
+  *(spin*)(out + (int)(sizeof(vec) / sizeof(REAL))) = tie_moment(e, tie, e.w);
 }
 #ifndef PLANAR
 /* arm and force of one axis; the element's box motion under its moment */
