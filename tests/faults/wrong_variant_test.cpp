@@ -71,8 +71,9 @@ TEST(Verify, passes_what_is_right_and_catches_every_injected_fault_by_the_check_
   EXPECT_TRUE(failed_checks(Fault::none).empty());
   for (const auto& [injected, check] :
        {std::pair(Fault::rate, "evaluation"), std::pair(Fault::last_element, "run rk4"),
-        std::pair(Fault::last_bit, "bits rk4"), std::pair(Fault::lost_step, "run rk4"), std::pair(Fault::threads, "threads rk4"),
-        std::pair(Fault::not_a_number, "run rk4"), std::pair(Fault::unwritten, "run rk4")}) {
+        std::pair(Fault::last_bit, "bits rk4"), std::pair(Fault::lost_step, "run rk4"),
+        std::pair(Fault::threads, "threads rk4"), std::pair(Fault::not_a_number, "run rk4"),
+        std::pair(Fault::unwritten, "run rk4")}) {
     const std::vector<std::string> failed = failed_checks(injected);
     EXPECT_NE(std::find(failed.begin(), failed.end(), check), failed.end()) << "fault " << int(injected);
   }
