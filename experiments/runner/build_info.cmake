@@ -7,7 +7,8 @@ if(git)
     OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   if(NOT failed)
     set(commit "${found}")
-    execute_process(COMMAND ${git} status --porcelain --untracked-files=no WORKING_DIRECTORY ${SOURCE}
+    # results/ is what the program writes, not what it is made of
+    execute_process(COMMAND ${git} status --porcelain --untracked-files=no -- . :!results WORKING_DIRECTORY ${SOURCE}
       OUTPUT_VARIABLE changes ERROR_QUIET)
     if(changes STREQUAL "")
       set(dirty "false")
