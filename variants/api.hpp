@@ -5,11 +5,13 @@
 #include "solver/model/model.hpp"
 #include "solver/model/problem.hpp"
 #include "solver/numerics/method.hpp"
+#include "variants/halo.hpp"
 
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace dss {
 
@@ -21,6 +23,7 @@ struct Setup {
   Precision precision = Precision::f64;
   double dt = 0;
   int threads = 1;
+  const PartSetup* part = nullptr; ///< `problem` is a part of a larger one; outlives the executor
 };
 
 /// Result of advance(): finite, or where the state first was not.
@@ -49,6 +52,13 @@ public:
   virtual int workers() const = 0;
   /// Bytes held for state, halos, rings and masks.
   virtual std::size_t bytes() const = 0;
+  /// Copies of the elements that an executor of a part exchanges; 0: it cannot compute parts.
+  virtual int halo_copies() const { return 0; }
+  /// Where everything stored of these elements (ascending, local numbers) lies in a copy. Own elements are there to be read: every
+  /// offset is given once. Halo elements are there to be written, some offsets in several places.
+  virtual HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) {
+    return (void)elements, (void)copy, HaloLayout{};
+  }
 };
 
 struct Plugin {

@@ -90,6 +90,7 @@ struct Problem {
   std::vector<Clamp> clamps; ///< ascending by element, at most one each
   std::vector<Load> loads;
   std::vector<ExtraLink> extra_links;
+  bool has_damped_links_elsewhere = false; ///< part of a larger problem: some extra link of the whole is damped
   Stabilization stabilization;
   std::array<Signal, 3>
       frame_acceleration; ///< uniform acceleration of every element: gravity minus the frame's a(t) [m/s^2]

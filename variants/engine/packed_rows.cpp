@@ -3,6 +3,7 @@
 #include "solver/model/link_constants.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dss {
 
@@ -31,10 +32,11 @@ Place place_of(const PackedRows<T>& packed, std::size_t element) {
 }
 
 template <class T>
-PackedRows<T>::PackedRows(const Problem& problem, Model model)
-    : lattice(problem.lattice), layout(model_layout(model)), rows(lattice.rows.size()),
-      applied_index_(lattice.rows.size(), -1) {
+PackedRows<T>::PackedRows(const Problem& problem, Model model, const Part* part)
+    : lattice(problem.lattice), layout(model_layout(model)), rows(lattice.rows.size()), own_end(int(rows.size())),
+      part_(part), applied_index_(lattice.rows.size(), -1) {
   reach = lattice.row_reach();
+  if (part_ != nullptr) find_layers();
   choose_kernels(problem, model);
   std::size_t packs = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -87,7 +89,8 @@ void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
     }
     common.is_gyroscopic |= body.has_tensor_inertia() && model == Model::spatial;
   }
-  // The row kernels do not compute extra links, but leapfrog must carry predicted velocities for them.
+  // The row kernels do not compute extra links, but leapfrog must carry predicted velocities for them; in all parts alike.
+  common.is_damped |= problem.has_damped_links_elsewhere;
   for (const ExtraLink& link : problem.extra_links)
     common.is_damped |= link.constants.d_normal != 0 || link.constants.d_shear != 0 || link.constants.d_rot != Vec3{};
   const auto choose = [&] {
@@ -112,6 +115,40 @@ void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
     carry_size = std::max(carry_size, set->carry_size);
     leapfrog_fields = std::max(leapfrog_fields, set->leapfrog_fields);
   }
+}
+
+template <class T>
+void PackedRows<T>::find_layers() {
+  row_layer_.assign(rows.size(), UINT8_MAX);
+  has_halo_.assign(rows.size(), false);
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    each_cell(lattice, lattice.rows[r], [&](std::size_t element, int) {
+      row_layer_[r] = std::min(row_layer_[r], part_->layer[element]);
+      if (part_->layer[element] > 0) has_halo_[r] = true;
+    });
+  while (row_layer_[std::size_t(own_begin)] > 0) ++own_begin;
+  while (row_layer_[std::size_t(own_end - 1)] > 0) --own_end;
+}
+
+template <class T>
+bool PackedRows<T>::reads_halo(int row) const {
+  if (has_halo_.empty()) return false;
+  const Row& r = lattice.rows[std::size_t(row)];
+  for (const int read : {row, r.lower_y, r.upper_y, r.lower_z, r.upper_z})
+    if (read >= 0 && has_halo_[std::size_t(read)]) return true;
+  return false;
+}
+
+template <class T>
+std::optional<std::size_t> PackedRows<T>::first_failed(int row, const T* packs, int fields) const {
+  std::optional<std::size_t> failed;
+  each_cell(lattice, lattice.rows[std::size_t(row)], [&](std::size_t element, int x) {
+    if (failed || (part_ != nullptr && part_->layer[element] > 0)) return;
+    const T* lane = packs + std::ptrdiff_t(x / W - rows[std::size_t(row)].first_pack) * fields * W + x % W;
+    for (int f = 0; f < fields; ++f)
+      if (!std::isfinite(lane[f * W])) failed = element;
+  });
+  return failed;
 }
 
 template <class T>

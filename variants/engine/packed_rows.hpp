@@ -1,10 +1,11 @@
 #pragma once
 /// A problem cut into rows of packs: what is constant during a run.
-#include "solver/model/problem.hpp"
+#include "solver/decomposition/part.hpp"
 #include "variants/engine/buffer.hpp"
 #include "variants/engine/kernel_set.hpp"
 #include "variants/engine/layout.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace dss {
@@ -24,7 +25,8 @@ template <class T>
 class PackedRows {
 public:
   static constexpr int W = simd::lanes<T>;
-  PackedRows(const Problem& problem, Model model);
+  /// @param part  null, or the part that `problem` is
+  PackedRows(const Problem& problem, Model model, const Part* part);
   PackedRows(const PackedRows&) = delete;
   PackedRows& operator=(const PackedRows&) = delete;
 
@@ -37,6 +39,20 @@ public:
   int carry_size = 0;   ///< scalars a pack of a carry buffer, largest over the bodies
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
+
+  int own_begin = 0,
+      own_end = 0; ///< from the first row with an own element to behind the last: all rows of a whole problem
+  bool is_part() const { return part_ != nullptr; }
+  /// Whether a row has anything to compute in a stage after which `stages_left` more follow before the next exchange: each needs
+  /// one layer of halo less.
+  bool is_computed(int row, int stages_left) const {
+    return row_layer_.empty() || row_layer_[std::size_t(row)] <= stages_left;
+  }
+  /// Whether computing a row reads halo elements: its own, or those of a row beside it.
+  bool reads_halo(int row) const;
+  /// First own element of a row that is not finite, if one is. The halo's outermost elements lack links: what becomes of them says
+  /// nothing, and they are received anew.
+  std::optional<std::size_t> first_failed(int row, const T* packs, int fields) const;
 
   /// Where a row's extra wrenches go (links outside the grid), or null; six (three) components a pack, in newtons.
   /// Signal: constant 1.
@@ -51,12 +67,16 @@ private:
     std::vector<simd::LaneMask> free_lanes;
   };
   void choose_kernels(const Problem& problem, Model model);
+  void find_layers();
   void mark_links();
   void apply_loads(const Problem& problem);
   void apply_clamps(const Problem& problem);
   void apply_extra_links(const Problem& problem);
   AppliedRow& applied_row(std::size_t row);
 
+  const Part* part_;
+  std::vector<std::uint8_t> row_layer_; ///< least layer of a row's elements; empty for a whole problem
+  std::vector<bool> has_halo_;          ///< rows with an element of the halo
   std::vector<const KernelSet<T>*> kernels_;
   std::vector<BodyConstants<T>> bodies_;
   std::vector<PackMasks> masks_;

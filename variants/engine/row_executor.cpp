@@ -5,7 +5,8 @@
 #include "variants/engine/barrier.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <atomic>
+#include <mutex>
 #include <omp.h>
 
 namespace dss {
@@ -35,27 +36,121 @@ static void run_team(int threads, Work&& work) {
                      " (OMP_THREAD_LIMIT?); give at most that");
 }
 
+static const PartSetup* part_with_neighbours(const PartSetup* setup) {
+  return setup == nullptr || setup->part.neighbours.empty() ? nullptr : setup;
+}
+
 template <class T>
-RowExecutor<T>::RowExecutor(const Setup& setup) : setup_(setup), packed_(setup.problem, setup.model) {
+RowExecutor<T>::RowExecutor(const Setup& setup)
+    : setup_(setup), part_(part_with_neighbours(setup.part)),
+      packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part) {
+  if (!setup_.problem.extra_links.empty() || (part_ != nullptr && part_->is_every_stage))
+    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, stored_fields(), setup_.threads, part_);
+  else
+    make_blocks();
+}
+
+template <class T>
+void RowExecutor<T>::make_blocks() {
   const Method& method = setup_.method;
-  if (!setup_.problem.extra_links.empty()) {
-    staged_.emplace(packed_, setup_.problem, method, setup_.dt, stored_fields(), setup_.threads);
-    return;
-  }
-  const std::vector<int> cuts = cut_rows(packed_, setup_.threads);
+  const int rows = int(packed_.rows.size()), halo = method.stages * packed_.reach;
+  std::vector<int> cuts = cut_rows(packed_, setup_.threads);
+  threads_ = int(cuts.size()) - 1;
+  // The rows that the upper neighbours wait for make a block of their own, which is computed first.
+  if (const int edge = packed_.own_end - halo; is_part() && part_->is_overlapped && threads_ == 1 &&
+                                               packed_.own_end < rows && edge - packed_.own_begin >= 2 * halo)
+    cuts = {packed_.own_begin, edge, packed_.own_end};
+  const bool is_alone = cuts.size() == 2 && !is_part();
+  if (packed_.own_begin > 0) blocks_.emplace_back(packed_, 0, packed_.own_begin, stored_fields(), halo);
   for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-    blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), method.stages * packed_.reach, !is_leapfrog(),
-                         WavefrontStep<T>::sweeps(packed_, method, cuts.size() - 1));
+    blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), halo, !is_leapfrog(),
+                         WavefrontStep<T>::sweeps(packed_, method, is_alone));
+  if (packed_.own_end < rows) blocks_.emplace_back(packed_, packed_.own_end, rows, stored_fields(), halo);
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    steps_.emplace_back(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks_, b);
+    if (!blocks_[b].is_remote())
+      steps_.emplace_back(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks_, b);
+}
+
+template <class T>
+Block<T>& RowExecutor<T>::block_of(int r) {
+  return *std::find_if(blocks_.begin(), blocks_.end(), [&](const Block<T>& block) { return block.owns(r); });
 }
 
 template <class T>
 T* RowExecutor<T>::row(int r) {
   if (staged_) return staged_->row(r);
+  Block<T>& block = block_of(r);
+  return block.is_remote() ? block.published(r, parity_) : block.row(r);
+}
+
+template <class T>
+std::pair<T*, T*> RowExecutor<T>::copy_row(int copy, int r) {
+  if (staged_) return {staged_->copy_row(copy, r), nullptr};
+  Block<T>& block = block_of(r);
+  T* const published = block.is_published(r) ? block.published(r, copy) : nullptr;
+  return {block.is_remote() ? published : block.row(r), block.is_remote() ? nullptr : published};
+}
+
+template <class T>
+HaloLayout RowExecutor<T>::halo_layout(std::span<const std::size_t> elements, int copy) {
+  const std::size_t number = sizeof(T), fields = std::size_t(stored_fields());
+  HaloLayout layout;
+  layout.is_stable = true;
+  const auto add = [&](T* at, std::size_t offset, std::size_t count) {
+    auto& pieces = layout.pieces;
+    auto* const bytes = reinterpret_cast<std::byte*>(at);
+    if (!pieces.empty() && pieces.back().at + pieces.back().count == bytes &&
+        pieces.back().offset + pieces.back().count == offset)
+      pieces.back().count += count;
+    else
+      pieces.push_back({bytes, offset, count});
+  };
+  // Messages hold pack after pack, field after field, the elements' lanes: as whole packs lie in memory.
+  std::vector<HaloLayout::Piece> second;
+  for (std::size_t from = 0, to = 0; from < elements.size(); from = to) {
+    const Place place = place_of(packed_, elements[from]);
+    std::vector<int> lanes;
+    for (; to < elements.size(); ++to) {
+      const Place other = place_of(packed_, elements[to]);
+      if (other.row != place.row || other.pack != place.pack) break;
+      lanes.push_back(other.lane);
+    }
+    const auto [first, twin] = copy_row(copy, int(place.row));
+    const bool is_own = part_->part.layer[elements[from]] == 0;
+    const bool is_halo_row = !packed_.is_computed(int(place.row), 0);
+    if (staged_) // own rows are written whole, with the halo elements among them
+      layout.is_stable &= staged_->copies() > 1 && (is_own || is_halo_row);
+    else
+      layout.is_stable &= is_own ? twin != nullptr : block_of(int(place.row)).is_remote();
+    for (T* const target : {is_own && twin != nullptr ? twin : first, is_own ? nullptr : twin}) {
+      if (target == nullptr) continue;
+      T* const pack = target + std::size_t(place.pack) * fields * W;
+      for (std::size_t f = 0; f < fields; ++f)
+        for (std::size_t l = 0; l < lanes.size(); ++l)
+          add(pack + f * W + lanes[l], layout.size + (f * lanes.size() + l) * number, number);
+    }
+    layout.size += fields * lanes.size() * number;
+  }
+  return layout;
+}
+
+template <class T>
+void RowExecutor<T>::exchange(void (Halo::*act)(Side, int), int copy) {
+  for (const Side side : all_sides) (part_->halo.*act)(side, copy);
+}
+
+template <class T>
+void RowExecutor<T>::refresh_halo() {
+  if (!is_part()) return;
+  exchange(&Halo::send, current_copy());
+  exchange(&Halo::receive, current_copy());
+}
+
+template <class T>
+void RowExecutor<T>::publish_all() {
   for (Block<T>& block : blocks_)
-    if (block.owns(r)) return block.row(r);
-  return nullptr;
+    for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
+      if (block.is_published(r)) block.publish(r, parity_);
 }
 
 template <class T>
@@ -91,9 +186,7 @@ void RowExecutor<T>::write(std::size_t first, std::span<const double> fields) {
     const double* from = &fields[(element - first) * field_count];
     for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
   });
-  for (Block<T>& block : blocks_)
-    for (int r = block.begin; r < block.end; ++r)
-      if (block.is_published(r)) block.publish(r, parity_);
+  publish_all();
 }
 
 template <class T>
@@ -122,6 +215,7 @@ void RowExecutor<T>::read_synchronised(std::size_t element, const T* lane, std::
 
 template <class T>
 Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
+  refresh_halo();
   const FlushDenormals guard;
   const std::size_t pack_size = std::size_t(packed_.fields() * W), stored_size = std::size_t(stored_fields() * W);
   const std::size_t packs = packed_.rows.back().pack_offset + std::size_t(packed_.rows.back().packs) + 1;
@@ -184,9 +278,7 @@ void RowExecutor<T>::start_leapfrog(std::span<const double> signals) {
         each_velocity(
             [&](int f, int half) { lane[half * W] = simd::fma(T(-setup_.dt / 2), rate[f * W], lane[f * W]); });
       }
-  for (Block<T>& block : blocks_)
-    for (int r = block.begin; r < block.end; ++r)
-      if (block.is_published(r)) block.publish(r, parity_);
+  publish_all();
 }
 
 template <class T>
@@ -199,68 +291,106 @@ Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
   return staged_ ? run_staged(steps, signals) : run_blocks(steps, signals);
 }
 
+/// The first failure of a run; threads of a team may meet it at once.
+class FirstFailure {
+public:
+  bool is_met() const { return step_ >= 0; }
+  long step() const { return step_; }
+  void meet(long step, std::size_t element) {
+    const std::lock_guard lock(mutex_);
+    if (step_ < 0 || step < step_ || (step == step_ && element < element_)) step_ = step, element_ = element;
+  }
+  Outcome outcome(long steps) const { return is_met() ? Outcome{false, step_, element_} : Outcome{true, steps, 0}; }
+
+private:
+  std::mutex mutex_;
+  std::atomic<long> step_{-1};
+  std::size_t element_ = 0;
+};
+
+// A part goes on after a failure, since its neighbours wait for it; they soon fail as well, and all are told at the end.
 template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
-  const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
-  const int threads = int(blocks_.size());
-  const long at_once = WavefrontStep<T>::steps_a_pass(packed_, setup_.method, blocks_.size());
-  std::atomic<long> failed_step{-1};
+  const std::size_t step_width = signal_count(setup_.problem) * std::size_t(setup_.method.stages);
+  const long at_once = WavefrontStep<T>::steps_a_pass(packed_, setup_.method, steps_.size() == 1 && !is_part());
+  const std::size_t first_own = blocks_.front().is_remote() ? 1 : 0;
+  const bool is_overlapped = is_part() && part_->is_overlapped && threads_ == 1;
+  FirstFailure failure;
+  if (is_part()) exchange(&Halo::send, parity_);
   const auto work = [&](int thread, auto&& synchronise) {
     const FlushDenormals guard;
-    Block<T>& block = blocks_[std::size_t(thread)];
-    WavefrontStep<T>& step = steps_[std::size_t(thread)];
-    block.failed_row = -1;
     for (long pass = 0, n = 0; n < steps; ++pass, n += at_once) {
-      step(&signals[std::size_t(n) * step_width], int(std::min(at_once, steps - n)), (parity_ + int(pass & 1)) & 1);
-      if (block.failed_row >= 0) failed_step = n + block.failed_step;
+      const double* const values = &signals[std::size_t(n) * step_width];
+      const int parity = (parity_ + int(pass & 1)) & 1;
+      const bool is_last = n + at_once >= steps;
+      for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
+        blocks_[first_own + b].failed_row = -1;
+      if (is_overlapped) {
+        step_overlapped(values, parity, is_last);
+      } else {
+        if (is_part() && thread == 0) exchange(&Halo::receive, parity);
+        if (is_part()) synchronise();
+        steps_[std::size_t(thread)](values, int(std::min(at_once, steps - n)), parity);
+      }
+      for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
+        if (Block<T>& block = blocks_[first_own + b]; block.failed_row >= 0)
+          failure.meet(n + block.failed_step,
+                       *packed_.first_failed(block.failed_row, block.row(block.failed_row), stored_fields()));
       synchronise();
-      if (failed_step >= 0 && failed_step < n + at_once)
+      if (!is_part() && failure.is_met() && failure.step() < n + at_once)
         break; // a faster thread may already have failed in the next pass
+      if (is_part() && !is_overlapped && !is_last && thread == 0) exchange(&Halo::send, parity ^ 1);
     }
   };
-  run_team(threads, work);
+  run_team(threads_, work);
   parity_ = (parity_ + int(steps & 1)) & 1; // passes of several steps publish nothing
-  for (const Block<T>& block : blocks_)
-    if (block.failed_row >= 0) return {false, failed_step, first_failed_element(block.failed_row)};
-  return {true, steps, 0};
+  return failure.outcome(steps);
+}
+
+template <class T>
+void RowExecutor<T>::step_overlapped(const double* signals, int parity, bool is_last) {
+  Halo& halo = part_->halo;
+  const auto send = [&](Side side) {
+    if (!is_last) halo.send(side, parity ^ 1);
+  };
+  const bool is_split = steps_.size() == 2;
+  WavefrontStep<T>& lower = steps_.front();
+  // The lower neighbours wait for the first rows, which are done early in the pass.
+  const int edge = std::min(packed_.own_begin + setup_.method.stages * packed_.reach, packed_.own_end) - 1;
+  lower.watch(edge, [&] { send(Side::lower); });
+  halo.receive(Side::among, parity);
+  halo.receive(Side::upper, parity);
+  if (is_split) {
+    steps_.back()(signals, 1, parity);
+    send(Side::upper);
+  }
+  halo.receive(Side::lower, parity);
+  lower(signals, 1, parity);
+  if (!is_split) send(Side::upper);
+  send(Side::among);
 }
 
 template <class T>
 Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) {
   const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
-  const int threads = staged_->threads();
   staged_->forget_failures();
-  long failed_step = -1;
+  FirstFailure failure;
+  if (is_part()) exchange(&Halo::send, current_copy());
   const auto work = [&](int thread, auto&& synchronise) {
     const FlushDenormals guard;
     StepSignals<T> values(width, setup_.method.stages);
     for (long n = 0; n < steps; ++n) {
       values.set(&signals[std::size_t(n) * step_width], setup_.method.stages);
-      staged_->step(thread, values, synchronise);
-      if (staged_->failed_row() >= 0) {
-        if (thread == 0) failed_step = n;
-        break;
-      }
+      staged_->step(thread, values, n + 1 == steps, synchronise);
+      const int failed = staged_->failed_row();
+      if (failed >= 0 && thread == 0 && !failure.is_met())
+        failure.meet(n, *packed_.first_failed(failed, row(failed), stored_fields()));
+      if (failed >= 0 && !is_part()) break;
       synchronise(); // nobody starts the next step, and fails in it, before all have looked
     }
   };
-  run_team(threads, work);
-  if (failed_step >= 0) return {false, failed_step, first_failed_element(staged_->failed_row())};
-  return {true, steps, 0};
-}
-
-template <class T>
-std::size_t RowExecutor<T>::first_failed_element(int r) {
-  std::size_t failed = packed_.lattice.rows[std::size_t(r)].first_element;
-  bool is_found = false;
-  const Row& lattice_row = packed_.lattice.rows[std::size_t(r)];
-  each_cell(packed_.lattice, lattice_row, [&](std::size_t element, int x) {
-    const T* lane =
-        row(r) + std::ptrdiff_t(x / W - packed_.rows[std::size_t(r)].first_pack) * stored_fields() * W + x % W;
-    for (int f = 0; f < packed_.fields() && !is_found; ++f)
-      if (!std::isfinite(lane[f * W])) failed = element, is_found = true;
-  });
-  return failed;
+  run_team(staged_->threads(), work);
+  return failure.outcome(steps);
 }
 
 template <class T>

@@ -19,7 +19,9 @@ public:
   Outcome advance(long steps, std::span<const double> signals) override;
   std::string schedule() const override;
   std::size_t bytes() const override;
-  int workers() const override { return staged_ ? staged_->threads() : int(blocks_.size()); }
+  int workers() const override { return staged_ ? staged_->threads() : threads_; }
+  int halo_copies() const override { return staged_ ? staged_->copies() : 2; }
+  HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) override;
 
 private:
   static constexpr int W = PackedRows<T>::W;
@@ -27,7 +29,17 @@ private:
   /// Leapfrog rows of velocity-dependent problems hold half-step velocities behind the model's fields.
   bool is_predicted() const { return is_leapfrog() && packed_.leapfrog_fields > packed_.fields(); }
   int stored_fields() const { return is_leapfrog() ? packed_.leapfrog_fields : packed_.fields(); }
+  bool is_part() const { return packed_.is_part(); }
+  void make_blocks();
+  Block<T>& block_of(int r);
   T* row(int r);
+  /// Row of a copy that parts exchange, and where else it is kept (or null).
+  std::pair<T*, T*> copy_row(int copy, int r);
+  int current_copy() const { return staged_ ? staged_->current_copy() : parity_; }
+  void exchange(void (Halo::*act)(Side, int), int copy);
+  /// All of the halo anew, of the present state. Every part must take part.
+  void refresh_halo();
+  void publish_all();
   /// Calls visit(element, lane pointer to the first field) for elements [first, first + count).
   template <class Visit>
   void each_element(std::size_t first, std::size_t count, Visit&& visit);
@@ -41,13 +53,16 @@ private:
   void stop_leapfrog();
   void read_synchronised(std::size_t element, const T* lane, std::span<double> out);
   Outcome run_blocks(long steps, std::span<const double> signals);
+  /// One step of a part by one thread, which sends as early and receives as late as it can.
+  void step_overlapped(const double* signals, int parity, bool is_last);
   Outcome run_staged(long steps, std::span<const double> signals);
-  std::size_t first_failed_element(int row);
 
   const Setup setup_;
+  const PartSetup* part_; ///< null for a whole problem, or a part that has no neighbours
   PackedRows<T> packed_;
-  std::vector<Block<T>> blocks_;        ///< wavefront
-  std::vector<WavefrontStep<T>> steps_; ///< of each block
+  std::vector<Block<T>> blocks_; ///< wavefront; of a part: remote blocks first and last where it has a halo there
+  std::vector<WavefrontStep<T>> steps_; ///< of each own block
+  int threads_ = 1;
   std::optional<StagedRows<T>> staged_; ///< or stage by stage
   int parity_ = 0;
   bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before

@@ -52,6 +52,14 @@ void set_row(RowTask<T>& task, const PackedRows<T>& packed, int row, int fields,
   if (r.lower_z >= 0) task.from_z = carry.z(r.lower_z) + carry_offset;
 }
 
+/// Computes only the links that a row leaves for its upper neighbours.
+template <class T>
+void prime_upper(const PackedRows<T>& packed, int row, const RowTask<T>& task, int fields) {
+  const KernelSet<T>& kernels = *packed.rows[std::size_t(row)].kernels;
+  if (task.upper_y != nullptr) kernels.prime(task, 1, fields);
+  if (task.upper_z != nullptr) kernels.prime(task, 2, fields);
+}
+
 /// Computes the links that rows before `begin` leave for rows from `begin` on: what a block needs before its first row.
 template <class T, class Input>
 void prime_links(const PackedRows<T>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input) {
@@ -67,7 +75,7 @@ void prime_links(const PackedRows<T>& packed, int begin, int fields, CarryRings<
     if (const int lower = packed.lattice.rows[std::size_t(row)].lower_z; lower >= 0 && lower < begin) prime(lower, 2);
 }
 
-/// First row of each of `parts` blocks with about equal packs, and the end.
+/// First row of each of `parts` blocks of own rows with about equal packs, and the end.
 template <class T>
 std::vector<int> cut_rows(const PackedRows<T>& packed, int parts);
 

@@ -4,8 +4,8 @@ namespace dss {
 
 template <class T>
 StagedRows<T>::StagedRows(PackedRows<T>& packed, const Problem& problem, const Method& method, double dt, int fields,
-                          int threads)
-    : packed_(packed), method_(method), fields_(fields),
+                          int threads, const PartSetup* exchange)
+    : packed_(packed), method_(method), exchange_(exchange), fields_(fields),
       pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)), cuts_(cut_rows(packed, threads)),
       failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, dt)), extra_links_(problem, packed) {
   const PackedRow<T>& last = packed.rows.back();
@@ -13,6 +13,62 @@ StagedRows<T>::StagedRows(PackedRows<T>& packed, const Problem& problem, const M
   const int copies = std::max(method.stages, 2);
   for (int m = 0; m < copies; ++m) stages_.emplace_back(packs * pack_size_);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
+  plan_rows();
+}
+
+/// The rows of [begin, end) that are computed, and before them the rows whose links they need.
+template <class T>
+template <class IsComputed>
+auto StagedRows<T>::actions(int begin, int end, IsComputed&& is_computed) const -> RowActions {
+  const auto is_whole = [&](int r) { return r >= begin && r < end && is_computed(r); };
+  RowActions list;
+  for (int r = std::max(0, begin - packed_.reach); r < end; ++r) {
+    const Row& row = packed_.lattice.rows[std::size_t(r)];
+    if (is_whole(r) || is_whole(row.upper_y) || is_whole(row.upper_z)) list.push_back({r, is_whole(r)});
+  }
+  return list;
+}
+
+template <class T>
+void StagedRows<T>::plan_rows() {
+  const int rows = int(packed_.rows.size()), threads = int(cuts_.size()) - 1;
+  const bool is_overlapped = exchange_ != nullptr && exchange_->is_overlapped;
+  for (int t = 0; t < threads; ++t) {
+    // The first and the last thread also compute what later stages read of the halo beside the own rows.
+    const int begin = t == 0 ? 0 : cuts_[std::size_t(t)], end = t + 1 == threads ? rows : cuts_[std::size_t(t) + 1];
+    plan_.emplace_back();
+    for (int s = 0; s < method_.stages; ++s) {
+      const int stages_left = exchange_ != nullptr && exchange_->is_every_stage ? 0 : method_.stages - 1 - s;
+      const auto is_computed = [&](int r) { return packed_.is_computed(r, stages_left); };
+      StageRows stage;
+      if (is_overlapped)
+        stage.inner = actions(begin, end, [&](int r) { return is_computed(r) && !packed_.reads_halo(r); });
+      stage.outer =
+          actions(begin, end, [&](int r) { return is_computed(r) && !(is_overlapped && !packed_.reads_halo(r)); });
+      plan_.back().push_back(std::move(stage));
+    }
+  }
+}
+
+template <class T>
+void StagedRows<T>::compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows) {
+  const bool is_leapfrog = method_.family == Method::Family::leapfrog, is_last = stage + 1 == method_.stages;
+  CarryRings<T>& carry = carry_[std::size_t(thread)];
+  for (const auto [r, is_whole] : rows) {
+    RowTask<T> task;
+    set_row(task, packed_, r, fields_, carry, [&](int row) { return stage_row(stage, row); });
+    if (!is_whole) {
+      prime_upper(packed_, r, task, fields_);
+      continue;
+    }
+    task.signals = signals.stage(stage);
+    T* const out = is_swapped() ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(stage + 1, r);
+    updates_[std::size_t(stage)].set(task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); });
+    const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
+    const bool is_finite = is_leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
+    if (!is_finite && is_last && failed_rows_[std::size_t(thread)] < 0 && packed_.first_failed(r, out, fields_))
+      failed_rows_[std::size_t(thread)] = r;
+  }
 }
 
 template <class T>

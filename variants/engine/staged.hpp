@@ -2,6 +2,7 @@
 /// Stage by stage: the fallback for scenes whose extra links break the order of rows. Every stage keeps all rows;
 /// threads meet twice a stage.
 #include "variants/engine/wavefront.hpp"
+#include "variants/halo.hpp"
 
 #include <algorithm>
 
@@ -34,27 +35,59 @@ private:
 template <class T>
 class StagedRows {
 public:
-  StagedRows(PackedRows<T>& packed, const Problem& problem, const Method& method, double dt, int fields, int threads);
+  /// @param exchange  null, or how the halo of the part is exchanged
+  StagedRows(PackedRows<T>& packed, const Problem& problem, const Method& method, double dt, int fields, int threads,
+             const PartSetup* exchange);
   T* row(int r) { return stage_row(0, r); }
+  /// Row r of a copy that parts exchange: an input of a stage, or the present and the next state of a method of one stage.
+  T* copy_row(int copy, int r) { return buffer_row(std::size_t(copy), r); }
+  int copies() const {
+    return is_swapped() ? 2 : exchange_ != nullptr && exchange_->is_every_stage ? method_.stages : 1;
+  }
+  int current_copy() const { return parity_; }
   /// One step by the calling thread of a team of `threads`; all call it together. Synchronise() is the team's barrier.
+  /// With a part, the halo of the first stage's input has been sent; that of the next step's is, unless this is the last.
   template <class Synchronise>
-  void step(int thread, const StepSignals<T>& signals, Synchronise&& synchronise);
+  void step(int thread, const StepSignals<T>& signals, bool is_last_step, Synchronise&& synchronise);
   int failed_row() const;
   void forget_failures() { std::fill(failed_rows_.begin(), failed_rows_.end(), -1); }
   std::size_t bytes() const;
   int threads() const { return int(cuts_.size()) - 1; }
 
 private:
-  T* stage_row(int stage, int r) {
-    return stages_[std::size_t(stage)].data() + packed_.rows[std::size_t(r)].pack_offset * pack_size_;
+  /// What a thread does with a row in a stage: all of it, or only its links to upper rows that are computed.
+  struct RowAction {
+    int row;
+    bool is_whole;
+  };
+  using RowActions = std::vector<RowAction>;
+  /// The rows of a thread in two groups: those that read no halo, and the rest.
+  struct StageRows {
+    RowActions inner, outer;
+  };
+  /// Method of one stage: it reads neighbours while it writes, so output and state change places.
+  bool is_swapped() const { return method_.stages == 1; }
+  T* buffer_row(std::size_t buffer, int r) {
+    return stages_[buffer].data() + packed_.rows[std::size_t(r)].pack_offset * pack_size_;
   }
+  T* stage_row(int stage, int r) { return buffer_row(std::size_t(is_swapped() ? stage ^ parity_ : stage), r); }
+  template <class IsComputed>
+  RowActions actions(int begin, int end, IsComputed&& is_computed) const;
+  void plan_rows();
+  void compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows);
+  bool is_exchanged(int stage) const { return exchange_ != nullptr && (stage == 0 || exchange_->is_every_stage); }
+  int copy_of(int stage) const { return is_swapped() ? parity_ : stage; }
+
   PackedRows<T>& packed_;
   const Method& method_;
+  const PartSetup* exchange_;
   const int fields_;
   const std::size_t pack_size_;
   std::vector<int> cuts_;
+  std::vector<std::vector<StageRows>> plan_; ///< thread, stage
   std::vector<Buffer<T>>
-      stages_; ///< [0] the state, [m] the output of stage m - 1; one-stage methods: [1] the next state
+      stages_; ///< [0] the state, [m] the output of stage m - 1; one-stage methods: state and next state by parity
+  int parity_ = 0;
   std::vector<CarryRings<T>> carry_;
   std::vector<int> failed_rows_;
   const std::vector<StageUpdate<T>> updates_;
@@ -95,31 +128,32 @@ void ExtraLinks<T>::evaluate(RowAddress&& row, int fields) {
 
 template <class T>
 template <class Synchronise>
-void StagedRows<T>::step(int thread, const StepSignals<T>& signals, Synchronise&& synchronise) {
-  const bool is_leapfrog = method_.family == Method::Family::leapfrog, is_swapped = method_.stages == 1;
-  CarryRings<T>& carry = carry_[std::size_t(thread)];
+void StagedRows<T>::step(int thread, const StepSignals<T>& signals, bool is_last_step, Synchronise&& synchronise) {
+  const auto receive = [&](int s) {
+    for (const Side side : all_sides) exchange_->halo.receive(side, copy_of(s));
+  };
   for (int s = 0; s < method_.stages; ++s) {
-    const auto input = [&](int r) -> T* { return stage_row(s, r); };
-    if (thread == 0) extra_links_.evaluate(input, fields_);
-    synchronise();
     const bool is_last = s + 1 == method_.stages;
-    const int begin = cuts_[std::size_t(thread)], end = cuts_[std::size_t(thread) + 1];
-    if (begin > 0) prime_links(packed_, begin, fields_, carry, input);
-    for (int r = begin; r < end; ++r) {
-      RowTask<T> task;
-      set_row(task, packed_, r, fields_, carry, input);
-      task.signals = signals.stage(s);
-      T* const out = is_swapped ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(s + 1, r);
-      updates_[std::size_t(s)].set(task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); });
-      const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
-      const bool is_finite = is_leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
-      if (!is_finite && is_last && failed_rows_[std::size_t(thread)] < 0) failed_rows_[std::size_t(thread)] = r;
+    // Extra links may read the halo and come first.
+    const bool is_hidden = is_exchanged(s) && exchange_->is_overlapped && extra_links_.empty();
+    const StageRows& rows = plan_[std::size_t(thread)][std::size_t(s)];
+    if (thread == 0 && is_exchanged(s) && !is_hidden) receive(s);
+    if (thread == 0) extra_links_.evaluate([&](int r) { return stage_row(s, r); }, fields_);
+    synchronise();
+    compute(thread, s, signals, rows.inner);
+    if (is_hidden) {
+      if (thread == 0) receive(s);
+      synchronise();
     }
+    compute(thread, s, signals, rows.outer);
     synchronise();
-  }
-  if (is_swapped) { // one stage reads neighbours while it writes
-    if (thread == 0) std::swap(stages_[0], stages_[1]);
-    synchronise();
+    if (is_last && is_swapped()) {
+      if (thread == 0) parity_ ^= 1;
+      synchronise();
+    }
+    const int next = is_last ? 0 : s + 1;
+    if (thread == 0 && is_exchanged(next) && !(is_last && is_last_step))
+      for (const Side side : all_sides) exchange_->halo.send(side, copy_of(next));
   }
 }
 

@@ -7,17 +7,19 @@ namespace dss {
 
 template <class T>
 std::vector<int> cut_rows(const PackedRows<T>& packed, int parts) {
-  const int rows = int(packed.rows.size());
-  parts = std::clamp(parts, 1, rows);
-  const std::size_t packs = packed.rows.back().pack_offset + std::size_t(packed.rows.back().packs);
-  std::vector<int> cuts{0};
+  const int begin = packed.own_begin, end = packed.own_end;
+  parts = std::clamp(parts, 1, end - begin);
+  const std::size_t first = packed.rows[std::size_t(begin)].pack_offset;
+  const PackedRow<T>& last = packed.rows[std::size_t(end - 1)];
+  const std::size_t packs = last.pack_offset + std::size_t(last.packs) - first;
+  std::vector<int> cuts{begin};
   for (int p = 1; p < parts; ++p) {
-    const std::size_t target = packs * std::size_t(p) / std::size_t(parts);
+    const std::size_t target = first + packs * std::size_t(p) / std::size_t(parts);
     int row = cuts.back() + 1; // every block has a row
-    while (row < rows - (parts - p) && packed.rows[std::size_t(row)].pack_offset < target) ++row;
+    while (row < end - (parts - p) && packed.rows[std::size_t(row)].pack_offset < target) ++row;
     cuts.push_back(row);
   }
-  cuts.push_back(rows);
+  cuts.push_back(end);
   return cuts;
 }
 
@@ -45,16 +47,12 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
 template <class T>
 Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, int halo, bool has_rings, int sweeps)
     : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)),
-      row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo),
-      published_index_(std::size_t(last - first), -1) {
+      row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo) {
   const PackedRow<T>& last_row = packed.rows[std::size_t(end - 1)];
   const std::size_t packs =
       last_row.pack_offset + std::size_t(last_row.packs) - packed.rows[std::size_t(begin)].pack_offset;
   state_ = Buffer<T>((packs + 1) * pack_size_); // one pack more: rows look one pack ahead
-  int count = 0;
-  for (int r = begin; r < end; ++r)
-    if (is_published(r)) published_index_[std::size_t(r - begin)] = count++;
-  for (auto& copy : published_) copy = Buffer<T>(std::size_t(count) * row_size_);
+  make_published();
   for (int s = 0; s < sweeps; ++s) carry.emplace_back(packed);
   if (!has_rings) return;
   const int stages = sweeps; // rings are for methods of several stages, whose pass is one step
@@ -68,6 +66,23 @@ Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, in
     for (int r = 0; r < int(packed.rows.size()); ++r)
       ring_rows_.back().push_back(rings_.back().data() + std::size_t(r % rows) * row_size_);
   }
+}
+
+template <class T>
+Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, int halo)
+    : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)),
+      row_size_(0), halo_(halo) {
+  make_published();
+}
+
+template <class T>
+void Block<T>::make_published() {
+  std::size_t packs = 0;
+  for (int r = begin; r < end; ++r) {
+    published_offset_.push_back(packs * pack_size_);
+    if (is_published(r)) packs += std::size_t(packed_->rows[std::size_t(r)].packs);
+  }
+  for (auto& copy : published_) copy = Buffer<T>(packs == 0 ? 0 : (packs + 1) * pack_size_);
 }
 
 template <class T>
@@ -89,10 +104,10 @@ template <class T>
 WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
                                 std::size_t signal_count, std::vector<Block<T>>& blocks, std::size_t index)
     : packed_(packed), fields_(fields), stages_(method.stages), block_(blocks[index]),
-      signals_(signal_count, sweeps(packed, method, blocks.size())) {
+      signals_(signal_count, sweeps(packed, method, blocks.size() == 1 && !packed.is_part())) {
   find_state_rows(method, blocks);
   const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, dt);
-  const int steps = steps_a_pass(packed, method, blocks.size());
+  const int steps = steps_a_pass(packed, method, blocks.size() == 1 && !packed.is_part());
   sweeps_[0] = make_sweeps(method, steps, updates, 0);
   if (blocks.size() > 1) sweeps_[1] = make_sweeps(method, steps, updates, 1);
 }
@@ -128,7 +143,8 @@ auto WavefrontStep<T>::make_sweeps(const Method& method, int steps, const std::v
       updates[std::size_t(s)].set(task, base, is_last ? base : block_.ring_row(s, r),
                                   [&](int m) { return block_.ring_row(m, r); });
       const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
-      sweep.rows.push_back({is_leapfrog ? kernels.leapfrog : kernels.stage_kernel(task.has_increments), task});
+      const RowKernel kernel = is_leapfrog ? kernels.leapfrog : kernels.stage_kernel(task.has_increments);
+      sweep.rows.push_back({packed_.is_computed(r, stages_ - 1 - s) ? kernel : nullptr, task});
     }
     sweeps.push_back(std::move(sweep));
   }
@@ -158,10 +174,14 @@ void WavefrontStep<T>::operator()(const double* signals, int steps, int parity) 
         prime_links(packed_, r, fields_, block_.carry[std::size_t(n)],
                     [&](int row) { return input_row(s, row, parity); });
       const RowStage& row = sweep.rows[std::size_t(r - sweep.begin)];
-      const bool is_finite = row.kernel(row.task);
-      if (s + 1 < stages_) continue;
-      if (!is_finite) block_.failed_row = r, block_.failed_step = n / stages_, count = n;
-      if (block_.is_published(r)) block_.publish(r, parity ^ 1);
+      const bool is_last = s + 1 == stages_;
+      if (row.kernel == nullptr) {
+        prime_upper(packed_, r, row.task, fields_);
+      } else if (!row.kernel(row.task) && is_last && packed_.first_failed(r, block_.row(r), fields_)) {
+        block_.failed_row = r, block_.failed_step = n / stages_, count = n;
+      }
+      if (is_last && block_.is_published(r)) block_.publish(r, parity ^ 1);
+      if (is_last && r == watched_row_) watched_row_done_();
     }
 }
 

@@ -4,19 +4,22 @@
 /// once a step.
 #include "variants/engine/schedule.hpp"
 
-#include <atomic>
+#include <functional>
 
 namespace dss {
 
 /// A contiguous block of rows with its own storage. What other blocks need of it is published twice over, by parity of
 /// the step, so that one synchronisation a step is enough: while step n reads one copy, the other is written for step n
-/// + 1.
+/// + 1. Halo rows of a part beside its own rows are a remote block: published by messages, computed elsewhere.
 template <class T>
 class Block {
 public:
   Block(const PackedRows<T>& packed, int begin, int end, int fields, int halo, bool has_rings, int sweeps);
+  /// A remote block.
+  Block(const PackedRows<T>& packed, int begin, int end, int fields, int halo);
 
   int begin, end;
+  bool is_remote() const { return state_.empty(); }
   T* row(int r) {
     return state_.data() +
            (packed_->rows[std::size_t(r)].pack_offset - packed_->rows[std::size_t(begin)].pack_offset) * pack_size_;
@@ -26,7 +29,7 @@ public:
     return (r < begin + halo_ && begin > 0) || (r >= end - halo_ && end < int(packed_->rows.size()));
   }
   T* published(int r, int parity) {
-    return published_[std::size_t(parity)].data() + std::size_t(published_index_[std::size_t(r - begin)]) * row_size_;
+    return published_[std::size_t(parity)].data() + published_offset_[std::size_t(r - begin)];
   }
   void publish(int r, int parity);
   /// Row r of Y_{stage + 1}, in a ring that holds what stages up to the last still read.
@@ -37,12 +40,13 @@ public:
   std::size_t bytes() const;
 
 private:
+  void make_published();
   const PackedRows<T>* packed_;
   std::size_t pack_size_, row_size_;
   int halo_;
   Buffer<T> state_;
   std::array<Buffer<T>, 2> published_;
-  std::vector<int> published_index_;
+  std::vector<std::size_t> published_offset_; ///< row after row without gaps: neighbouring rows make one message
   std::vector<Buffer<T>> rings_;
   std::vector<std::vector<T*>>
       ring_rows_; ///< stage, row of the lattice: looked up, since divisions cost as much as a short row
@@ -98,15 +102,15 @@ class WavefrontStep {
 public:
   WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields, std::size_t signal_count,
                 std::vector<Block<T>>& blocks, std::size_t index);
-  /// Sweeps that a block needs carry buffers for.
-  static int sweeps(const PackedRows<T>& packed, const Method& method, std::size_t blocks) {
-    return method.stages * steps_a_pass(packed, method, blocks);
+  /// Sweeps that a block needs carry buffers for. `is_alone`: nothing but this block computes any of the problem.
+  static int sweeps(const PackedRows<T>& packed, const Method& method, bool is_alone) {
+    return method.stages * steps_a_pass(packed, method, is_alone);
   }
   /// Leapfrog updates in place, so a step can follow `reach` rows behind the one before: several steps for one trip
   /// through memory. Measured: eight for a plate; four where a link reaches over a plane of rows, of which eight leave L2.
   /// Several blocks would need halos as many times deeper, and take one step a pass.
-  static int steps_a_pass(const PackedRows<T>& packed, const Method& method, std::size_t blocks) {
-    if (method.family != Method::Family::leapfrog || blocks > 1) return 1;
+  static int steps_a_pass(const PackedRows<T>& packed, const Method& method, bool is_alone) {
+    if (method.family != Method::Family::leapfrog || !is_alone) return 1;
     return packed.reach == 1 ? 8 : 4;
   }
 
@@ -114,12 +118,17 @@ public:
   /// copies are current. The block's own rows end up updated in place and published under the other parity. Sets the block's
   /// failed_row and failed_step to the first row that the first failing step leaves non-finite.
   void operator()(const double* signals, int steps, int parity);
+  /// Calls `done` in each pass as soon as this row is updated and published.
+  void watch(int row, std::function<void()> done) {
+    watched_row_ = row;
+    watched_row_done_ = std::move(done);
+  }
   std::size_t bytes() const;
 
 private:
   using RowKernel = bool (*)(const RowTask<T>&);
   struct RowStage {
-    RowKernel kernel;
+    RowKernel kernel; ///< null: this stage needs no more of the row than its links to upper rows
     RowTask<T> task;
   };
   /// One stage of one step over rows [begin, end): the block, and what the step's later stages read on either side.
@@ -141,6 +150,8 @@ private:
   StepSignals<T> signals_;
   std::array<std::vector<T*>, 2> state_rows_; ///< parity, row: the block's own rows and its neighbours' published ones
   std::array<std::vector<Sweep>, 2> sweeps_;  ///< parity, sweep; a block without neighbours needs one parity
+  int watched_row_ = -1;
+  std::function<void()> watched_row_done_;
 };
 
 } // namespace dss

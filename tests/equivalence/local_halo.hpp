@@ -1,0 +1,68 @@
+#pragma once
+/// A halo whose neighbours are threads of the same process: parts without MPI.
+#include "variants/api.hpp"
+
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <utility>
+
+namespace dss::test {
+
+/// Letters from part to part, in order.
+class Mailboxes {
+public:
+  using Letter = std::vector<std::byte>;
+  void put(int from, int to, Letter letter) {
+    const std::lock_guard lock(mutex_);
+    boxes_[{from, to}].push_back(std::move(letter));
+    filled_.notify_all();
+  }
+  Letter take(int from, int to) {
+    std::unique_lock lock(mutex_);
+    auto& box = boxes_[{from, to}];
+    filled_.wait(lock, [&] { return !box.empty(); });
+    Letter letter = std::move(box.front());
+    box.pop_front();
+    return letter;
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable filled_;
+  std::map<std::pair<int, int>, std::deque<Letter>> boxes_;
+};
+
+class LocalHalo final : public Halo {
+public:
+  LocalHalo(const Part& part, Mailboxes& mailboxes) : part_(part), mailboxes_(mailboxes) {}
+  void attach(Executor& executor) { executor_ = &executor; }
+
+  void send(Side side, int copy) override {
+    for (const Neighbour& neighbour : part_.neighbours) {
+      if (side_of(part_, neighbour) != side) continue;
+      const HaloLayout layout = executor_->halo_layout(neighbour.send, copy);
+      Mailboxes::Letter letter(layout.size);
+      for (const auto& piece : layout.pieces) std::memcpy(&letter[piece.offset], piece.at, piece.count);
+      mailboxes_.put(part_.index, neighbour.part, std::move(letter));
+    }
+  }
+  void receive(Side side, int copy) override {
+    for (const Neighbour& neighbour : part_.neighbours) {
+      if (side_of(part_, neighbour) != side) continue;
+      const HaloLayout layout = executor_->halo_layout(neighbour.receive, copy);
+      const Mailboxes::Letter letter = mailboxes_.take(neighbour.part, part_.index);
+      if (letter.size() != layout.size) throw std::logic_error("the letter is not as long as the halo");
+      for (const auto& piece : layout.pieces) std::memcpy(piece.at, &letter[piece.offset], piece.count);
+    }
+  }
+
+private:
+  const Part& part_;
+  Mailboxes& mailboxes_;
+  Executor* executor_ = nullptr;
+};
+
+} // namespace dss::test

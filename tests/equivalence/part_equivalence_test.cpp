@@ -1,0 +1,151 @@
+/// Parts with halos, exchanged within this process, against the whole: equal to the last bit, whatever the
+/// decomposition, the schedule of exchanges and the threads. What messages do on top is tested by tests/mpi.
+#include "solver/decomposition/decomposition.hpp"
+#include "tests/equivalence/comparison.hpp"
+#include "tests/equivalence/local_halo.hpp"
+#include "tests/fixtures/problems.hpp"
+
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace dss::test {
+namespace {
+
+struct Case {
+  std::string name;
+  Problem problem;
+};
+
+std::vector<Case> cases() {
+  return {{"plate", fixture::make_plate(31)},
+          {"everything", fixture::make_everything()},
+          {"damped_joint", fixture::make_damped_joint()},
+          {"sponge", fixture::make_sponge(21, 9, 7, LinkLaw::paper, 1)},
+          {"flat_sponge", fixture::make_sponge(37, 13, 1, LinkLaw::material, 3)},
+          {"undamped_block", fixture::make_block(6, 11, 13, LinkLaw::material, 0)},
+          {"column", fixture::make_block(3, 2, 40, LinkLaw::paper)}};
+}
+
+/// What all parts do, each in its thread: the state after a run in two calls, or the derivative.
+struct PartsRun {
+  const Plugin& plugin;
+  const Problem& problem;
+  const Method& method;
+  Precision precision = Precision::f64;
+  bool is_every_stage = false, is_overlapped = false;
+  int threads = 1;
+
+  template <class Act>
+  State run(const Decomposition& decomposition, const State& state, Act&& act) const {
+    Mailboxes mailboxes;
+    std::vector<Part> parts;
+    for (int p = 0; p < decomposition.parts; ++p)
+      parts.push_back(make_part(problem, decomposition, p, is_every_stage ? 1 : method.stages));
+    State result = poisoned(problem);
+    std::vector<std::thread> team;
+    for (const Part& part : parts)
+      team.emplace_back([&] {
+        LocalHalo halo(part, mailboxes);
+        const PartSetup setup{part, halo, is_every_stage, is_overlapped};
+        const auto executor =
+            plugin.create({part.problem, method, Model::spatial, precision, problem.dt, threads, &setup});
+        halo.attach(*executor);
+        for (const Run& run : part.runs)
+          executor->write(run.local, std::span(state).subspan(run.global * field_count, run.count * field_count));
+        const State own = act(*executor, part);
+        for (const Run& run : part.runs)
+          std::copy_n(&own[run.local * field_count], run.count * field_count, &result[run.global * field_count]);
+      });
+    for (std::thread& thread : team) thread.join();
+    return result;
+  }
+  State after(const Decomposition& decomposition, const State& state, long steps) const {
+    return run(decomposition, state, [&](Executor& executor, const Part& part) {
+      const long first = steps / 3;
+      executor.advance(first, signal_rows(problem, method, problem.dt, 0, first));
+      executor.advance(steps - first, signal_rows(problem, method, problem.dt, first, steps - first));
+      State own = poisoned(part.problem);
+      executor.read(0, own);
+      return own;
+    });
+  }
+  State derivative(const Decomposition& decomposition, const State& state) const {
+    return run(decomposition, state, [&](Executor& executor, const Part& part) {
+      const std::vector<double> signals = signal_rows(problem, method, problem.dt, 0, 1);
+      State rates = poisoned(part.problem);
+      executor.derivative(std::span(signals).first(signal_count(problem)), rates);
+      return rates;
+    });
+  }
+};
+
+std::vector<std::string_view> usable_methods() {
+  std::vector<std::string_view> names;
+  for (const std::string_view name : decomposition_methods())
+    if (why_no_decomposition(name).empty()) names.push_back(name);
+  return names;
+}
+
+class Parts : public testing::TestWithParam<std::string> {
+protected:
+  const Plugin& plugin = load_variant(GetParam());
+  void SetUp() override {
+    if (plugin.create({fixture_problem_, methods().front()})->halo_copies() == 0)
+      GTEST_SKIP() << plugin.name << " does not compute parts";
+  }
+
+private:
+  const Problem fixture_problem_ = fixture::make_plate(4);
+};
+
+TEST_P(Parts, make_up_the_whole_to_the_last_bit) {
+  for (const Case& c : cases())
+    for (const Precision precision : {Precision::f64, Precision::f32})
+      for (const Method& method : methods()) {
+        const State start = rounded(fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01), precision);
+        const State whole = VariantRun{plugin, c.problem, method, Model::spatial, precision}.after(start, 30);
+        for (const std::string_view how : usable_methods())
+          for (const int parts : {2, 3, 4})
+            for (const bool is_every_stage : {false, true})
+              for (const bool is_overlapped : {false, true}) {
+                if (how == "strips" && std::size_t(parts) > c.problem.lattice.rows.size()) continue;
+                const PartsRun run{plugin, c.problem, method, precision, is_every_stage, is_overlapped};
+                EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, parts), start, 30), precision), 0u)
+                    << c.name << ' ' << name(precision) << ' ' << method.name << ", " << parts << ' ' << how
+                    << (is_every_stage ? ", every stage" : ", every step") << (is_overlapped ? ", overlapped" : "");
+              }
+      }
+}
+
+TEST_P(Parts, have_the_derivative_of_the_whole) {
+  for (const Case& c : cases())
+    for (const std::string_view how : usable_methods()) {
+      const State start = fixture::random_state(c.problem, 5);
+      const State whole = VariantRun{plugin, c.problem, methods().front()}.derivative(start);
+      const State parts =
+          PartsRun{plugin, c.problem, methods().front()}.derivative(decompose(c.problem, how, 3), start);
+      EXPECT_EQ(differing_bits(whole, parts, Precision::f64), 0u) << c.name << ' ' << how;
+    }
+}
+
+TEST_P(Parts, of_several_threads_make_up_the_whole) {
+  for (const Case& c : cases())
+    for (const Method& method : methods())
+      for (const std::string_view how : usable_methods())
+        for (const bool is_every_stage : {false, true}) {
+          const State start = fixture::random_state(c.problem, 6, 1e-4, 0.02, 0.01);
+          const State whole = VariantRun{plugin, c.problem, method}.after(start, 12);
+          const PartsRun run{plugin, c.problem, method, Precision::f64, is_every_stage, true, 3};
+          EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, 2), start, 12), Precision::f64), 0u)
+              << c.name << ' ' << method.name << ' ' << how << (is_every_stage ? ", every stage" : "");
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, Parts, testing::ValuesIn(usable_variants()), [](const auto& registered) {
+  std::string name = registered.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+} // namespace
+} // namespace dss::test

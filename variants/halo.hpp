@@ -1,0 +1,52 @@
+#pragma once
+/// What an executor of a part and the exchange between parts know of one another. The executor says when; the exchange
+/// (variants/mpi) says how.
+#include "solver/decomposition/part.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace dss {
+
+/// Where a neighbour's elements lie among the rows of a part: all before its own rows, all behind them, or among them.
+/// An executor may start on one side while messages from the other are under way.
+enum class Side { lower, upper, among };
+inline constexpr Side all_sides[] = {Side::lower, Side::upper, Side::among};
+Side side_of(const Part& part, const Neighbour& neighbour);
+
+/// Where elements lie in an executor's memory, in the order of a message.
+struct HaloLayout {
+  struct Piece {
+    std::byte* at = nullptr;
+    std::size_t offset = 0, count = 0; ///< bytes; offset into the message
+  };
+  std::vector<Piece> pieces;
+  std::size_t size = 0; ///< of the message
+  /// The executor touches them in no other way than by its own copy: a message may be under way while other copies are
+  /// computed. Otherwise they are only good until the next computation.
+  bool is_stable = false;
+};
+
+/// The halo of one part as its executor sees it. An executor may keep several copies of its elements (stages, parities
+/// of the step) and numbers them as it likes: messages between two parts are matched by their order. All calls come from
+/// the thread that made the executor.
+class Halo {
+public:
+  virtual ~Halo() = default;
+  /// The own elements that neighbours on this side read are written in this copy.
+  virtual void send(Side side, int copy) = 0;
+  /// Returns when the neighbours' elements on this side are in this copy, and what was sent to that side from other
+  /// copies (from this one, if there is but one) may be overwritten. @throws if they cannot come any more
+  virtual void receive(Side side, int copy) = 0;
+};
+
+/// Makes an executor compute one part of a problem.
+struct PartSetup {
+  const Part& part; ///< Setup::problem is part.problem
+  Halo& halo;
+  bool is_every_stage = false; ///< exchange after every stage (one layer of halo); else once a step (a layer a stage)
+  bool is_overlapped = false;  ///< compute what needs no halo first, and what neighbours wait for as early as possible
+  int depth(int stages) const { return is_every_stage ? 1 : stages; }
+};
+
+} // namespace dss
