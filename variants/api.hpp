@@ -5,6 +5,7 @@
 #include "solver/model/model.hpp"
 #include "solver/model/problem.hpp"
 #include "solver/numerics/method.hpp"
+#include "variants/distribution.hpp"
 #include "variants/halo.hpp"
 
 #include <cstddef>
@@ -24,6 +25,7 @@ struct Setup {
   double dt = 0;
   int threads = 1;
   const PartSetup* part = nullptr; ///< `problem` is a part of a larger one; outlives the executor
+  const Distribution* distribution = nullptr; ///< for distributed variants, which take the default without
 };
 
 /// Result of advance(): finite, or where the state first was not.
@@ -33,7 +35,7 @@ struct Outcome {
   std::size_t element = 0; ///< first element that is not finite
 };
 
-/// One scene on one target. Fields are as in solver/model/fields.hpp, whatever the model and the precision inside.
+/// One scene on one target. On several ranks each of them makes one, calls are collective, and all ranks get the same results. Fields are as in solver/model/fields.hpp, whatever the model and the precision inside.
 class Executor {
 public:
   virtual ~Executor() = default;
@@ -59,6 +61,10 @@ public:
   virtual HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) {
     return (void)elements, (void)copy, HaloLayout{};
   }
+  virtual RankInfo rank_info() const { return {}; }
+  virtual Traffic traffic() const { return {}; }
+  /// This value of every rank, in their order. Collective.
+  virtual std::vector<double> gather(double value) { return {value}; }
 };
 
 struct Plugin {
@@ -67,11 +73,13 @@ struct Plugin {
   const char* isa; ///< of the code that runs, reported by that code: "avx512", "avx2", "x86-64-v2", ...
   bool has_fma;    ///< results are bitwise equal to every other variant that says so
   bool is_threaded;
+  bool is_distributed; ///< computes on all ranks of the job
   std::unique_ptr<Executor> (*create)(const Setup& setup);
   std::span<const CompiledKernel> (*kernels)(); ///< null if the variant has no kernels of its own
+  void (*end)(bool is_in_order); ///< null, or to be called before the program ends; not in order: other ranks may still wait
 };
 
-constexpr int plugin_abi = 1;
+constexpr int plugin_abi = 2;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

@@ -17,5 +17,6 @@ void add_verify_command(CLI::App& app, Chosen& chosen);
 void add_experiment_command(CLI::App& app, Chosen& chosen);
 void add_stability_command(CLI::App& app, Chosen& chosen);
 void add_compare_command(CLI::App& app, Chosen& chosen);
+void add_decompose_command(CLI::App& app, Chosen& chosen);
 
 } // namespace dss

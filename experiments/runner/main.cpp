@@ -57,6 +57,7 @@ int run_program(int argc, char** argv) {
   add_experiment_command(app, chosen);
   add_stability_command(app, chosen);
   add_compare_command(app, chosen);
+  add_decompose_command(app, chosen);
   require_known_command(argc, argv, app);
   try {
     app.parse(argc, argv);

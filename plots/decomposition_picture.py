@@ -1,0 +1,146 @@
+#!/usr/bin/python3
+"""Picture of a decomposition: a colour for each part, darker where its elements are sent to others; a few z layers of 3-D bodies.
+
+Reads the file of `dssbench decompose --output` and nothing else; never runs a solver.
+Example: plots/decomposition_picture.py plate.json -o results/figures/plate_parts.png
+"""
+import argparse
+import json
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy  # noqa: E402
+
+# Okabe and Ito: told apart with any colour vision. More parts repeat them, never beside each other if that can be.
+COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999")
+NEEDED = ("scene", "method", "elements", "depth", "bodies", "row_places", "parts")
+MOST_ELEMENTS = 20_000_000
+MOST_LAYERS = 4
+MOST_LABELS = 64
+
+
+def read(path):
+    """The file's content, if it has all that a picture needs."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        sys.exit(f"{path}: {error}; make it with `dssbench decompose SCENE --parts P --output FILE`")
+    lacking = [key for key in NEEDED if key not in content] if isinstance(content, dict) else NEEDED
+    if lacking or not all("boundary" in part for part in content["parts"]):
+        sys.exit(f"{path}: lacks {', '.join(lacking) or 'the boundary of a part'}; give a file of `dssbench decompose --output`")
+    if content["elements"] > MOST_ELEMENTS:
+        sys.exit(f"{path}: {content['elements']} elements are too many for a picture; decompose a smaller scene (--set n=1000)")
+    return content
+
+
+def elements_of(content):
+    """Of every element, in the order of their numbers: row, x, part, and whether it is sent."""
+    segments = numpy.array([[*segment, part["part"]] for part in content["parts"] for segment in part["segments"]])
+    segments = segments[numpy.lexsort((segments[:, 1], segments[:, 0]))]
+    lengths = segments[:, 2] - segments[:, 1]
+    first = numpy.repeat(numpy.cumsum(lengths) - lengths, lengths)
+    row, begin, part = (numpy.repeat(segments[:, column], lengths) for column in (0, 1, 3))
+    is_sent = numpy.zeros(len(row), dtype=bool)
+    for one in content["parts"]:
+        for face in one["boundary"]:
+            for start, count in face["send"]:
+                is_sent[start:start + count] = True
+    return row, begin + numpy.arange(len(row)) - first, part, is_sent
+
+
+def colours_of(content):
+    """Of each part, one that no earlier neighbour has; the least used of those."""
+    used = [0] * len(COLOURS)
+    chosen = []
+    for number, part in enumerate(content["parts"]):
+        taken = {chosen[face["part"]] for face in part["boundary"] if face["part"] < number}
+        free = [colour for colour in range(len(COLOURS)) if colour not in taken] or range(len(COLOURS))
+        chosen.append(min(free, key=lambda colour: (used[colour], colour)))
+        used[chosen[-1]] += 1
+    return numpy.array([matplotlib.colors.to_rgb(COLOURS[colour]) for colour in chosen])
+
+
+def layers_of(bodies, place):
+    """Heights of at most MOST_LAYERS layers of cells, spread over all that there are."""
+    heights = set()
+    for number, body in enumerate(bodies):
+        indices = numpy.unique(place[place[:, 0] == number, 2])
+        heights.update(round(float(body["origin"][2] + body["edge"][2] * (index + 0.5)), 9) for index in indices)
+    heights = sorted(heights)
+    picked = numpy.unique(numpy.linspace(0, len(heights) - 1, MOST_LAYERS).round().astype(int))
+    return [heights[k] for k in picked]
+
+
+def draw_layer(axes, content, elements, height, colours):
+    """All bodies as they are at this height."""
+    row, x, part, is_sent = elements
+    place = numpy.array(content["row_places"])
+    for number, body in enumerate(content["bodies"]):
+        (hx, hy, hz), (x0, y0, z0) = body["edge"], body["origin"]
+        # a height on a face between two layers is of the upper one, whatever the rounding
+        layer = int(numpy.floor((height - z0) / hz + 1e-6))
+        here = (place[row, 0] == number) & (place[row, 2] == layer)
+        if not here.any():
+            continue
+        columns, lines = x[here], place[row[here], 1]
+        image = numpy.zeros((lines.max() + 1, columns.max() + 1, 4))
+        shade = numpy.where(is_sent[here], 0.6, 1.0)[:, None]
+        image[lines, columns] = numpy.hstack((colours[part[here]] * shade, numpy.ones_like(shade)))
+        extent = (x0, x0 + hx * image.shape[1], y0, y0 + hy * image.shape[0])
+        axes.imshow(image, origin="lower", extent=extent, interpolation="nearest")
+        if len(colours) > MOST_LABELS:
+            continue
+        for one in numpy.unique(part[here]):
+            mine = part[here] == one
+            axes.text(x0 + hx * (columns[mine].mean() + 0.5), y0 + hy * (lines[mine].mean() + 0.5), str(one), ha="center", va="center", fontsize=9,
+                      bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75})
+
+
+def limits(content, elements):
+    """Lowest and highest x and y of all elements [m]."""
+    row, x, _, _ = elements
+    place = numpy.array(content["row_places"])[row]
+    edge = numpy.array([body["edge"] for body in content["bodies"]])[place[:, 0]]
+    low = numpy.array([body["origin"] for body in content["bodies"]])[place[:, 0]]
+    low = low[:, :2] + edge[:, :2] * numpy.column_stack((x, place[:, 1]))
+    return low.min(axis=0), (low + edge[:, :2]).max(axis=0)
+
+
+def draw(content, output):
+    """One panel a layer."""
+    elements, colours = elements_of(content), colours_of(content)
+    heights = layers_of(content["bodies"], numpy.array(content["row_places"]))
+    low, high = limits(content, elements)
+    width = 7.5 if len(heights) == 1 else 3.5 * len(heights)
+    figure, panels = plt.subplots(1, len(heights), figsize=(width, 6 if len(heights) == 1 else 4.5), layout="constrained", squeeze=False)
+    for axes, height in zip(panels[0], heights):
+        draw_layer(axes, content, elements, height, colours)
+        axes.set_xlim(low[0], high[0])
+        axes.set_ylim(low[1], high[1])
+        axes.set_aspect("equal")
+        axes.set_xlabel("x [m]")
+        axes.set_ylabel("y [m]")
+        if len(heights) > 1:
+            axes.set_title(f"z = {height:.3g} m", fontsize=10)
+    figure.suptitle(f"{content['scene']}: {content['elements']} elements in {len(colours)} parts by {content['method']}; "
+                    f"darker: sent to others, halo of {content['depth']}", fontsize=10)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(output, dpi=150)
+    plt.close(figure)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("file", type=pathlib.Path, help="file of `dssbench decompose --output`")
+    parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="PNG, SVG or PDF")
+    arguments = parser.parse_args()
+    draw(read(arguments.file), arguments.output)
+    print(arguments.output)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,48 @@
+#pragma once
+/// How a problem is spread over ranks, and the strategies by which their parts exchange halos.
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace dss {
+
+/// A way to exchange halos.
+struct HaloStrategy {
+  enum class Transport { sendrecv, messages, shared };
+  std::string_view name;
+  bool is_every_stage; ///< one layer after every stage; else a layer a stage, once a step, and stages are recomputed
+  bool is_overlapped;  ///< as in PartSetup
+  Transport transport;
+  std::string_view what; ///< one line for people
+};
+
+/// sendrecv, overlap, deep, deep-overlap, shared.
+std::span<const HaloStrategy> halo_strategies();
+/// By name; null if there is none.
+const HaloStrategy* find_halo_strategy(std::string_view name);
+
+/// What a distributed variant is asked for.
+struct Distribution {
+  int ranks = 1;
+  std::string variant = "auto";          ///< that computes each part
+  std::string decomposition = "strips";  ///< a method, or the path of a decomposition file
+  std::string halo = "auto";             ///< a strategy; auto: the fastest by the model of halo_cost.hpp
+  bool is_measured = false;              ///< parts in proportion to each rank's measured speed; else equal
+};
+
+/// What became of it.
+struct RankInfo {
+  int ranks = 1;
+  std::string variant, isa, decomposition, halo;
+  bool has_fma = false;
+  double imbalance = 1; ///< own elements of the largest part over the mean
+  std::string halo_reason; ///< of an automatic choice: the predicted times
+};
+
+/// What one rank has exchanged since its executor was made.
+struct Traffic {
+  double messages = 0, bytes = 0; ///< sent
+  double wait_s = 0;              ///< in exchanges [s]
+};
+
+} // namespace dss

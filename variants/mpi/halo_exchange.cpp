@@ -1,0 +1,36 @@
+#include "variants/mpi/halo_exchange.hpp"
+
+#include "variants/mpi/transports.hpp"
+
+#include <cstring>
+
+namespace dss {
+
+std::vector<Face> faces_of(const Part& part) {
+  std::vector<Face> faces;
+  for (const Neighbour& neighbour : part.neighbours)
+    faces.push_back({neighbour.part, side_of(part, neighbour), neighbour.send, neighbour.receive});
+  return faces;
+}
+
+void gather(const HaloLayout& layout, std::byte* message) {
+  for (const auto& piece : layout.pieces) std::memcpy(message + piece.offset, piece.at, piece.count);
+}
+
+void scatter(const HaloLayout& layout, const std::byte* message) {
+  for (const auto& piece : layout.pieces) std::memcpy(piece.at, message + piece.offset, piece.count);
+}
+
+std::unique_ptr<HaloExchange> make_exchange(HaloStrategy::Transport transport, std::vector<Face> faces, MPI_Comm comm) {
+  switch (transport) {
+  case HaloStrategy::Transport::sendrecv:
+    return make_sendrecv_exchange(std::move(faces), comm);
+  case HaloStrategy::Transport::messages:
+    return make_message_exchange(std::move(faces), comm);
+  case HaloStrategy::Transport::shared:
+    break;
+  }
+  return make_shared_exchange(std::move(faces), comm);
+}
+
+} // namespace dss

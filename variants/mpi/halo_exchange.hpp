@@ -1,0 +1,48 @@
+#pragma once
+/// How the halos of parts on ranks are exchanged: one class a transport (variants/distribution.hpp names the
+/// strategies). Also compiled for simulated clusters.
+#include "variants/distribution.hpp"
+#include "variants/halo.hpp"
+
+#include <functional>
+#include <memory>
+#include <mpi.h>
+#include <span>
+#include <vector>
+
+namespace dss {
+
+/// One neighbour of a part: rank n computes part n.
+struct Face {
+  int rank = 0;
+  Side side = Side::among;
+  std::vector<std::size_t> send, receive; ///< elements, as in Neighbour
+};
+std::vector<Face> faces_of(const Part& part);
+
+class HaloExchange : public Halo {
+public:
+  /// Where elements lie in a copy: Executor::halo_layout, or a stand-in for it.
+  using LayoutOf = std::function<HaloLayout(std::span<const std::size_t> elements, int copy)>;
+  /// Makes everything ready that needs to know the memory. Collective.
+  virtual void attach(int copies, const LayoutOf& layout_of) = 0;
+  const Traffic& traffic() const { return traffic_; }
+
+protected:
+  explicit HaloExchange(std::vector<Face> faces) : faces_(std::move(faces)) {}
+  void count(std::size_t bytes) {
+    traffic_.messages += 1;
+    traffic_.bytes += double(bytes);
+  }
+  const std::vector<Face> faces_;
+  Traffic traffic_;
+};
+
+/// The exchange of a transport between the ranks of `comm`. Collective.
+std::unique_ptr<HaloExchange> make_exchange(HaloStrategy::Transport transport, std::vector<Face> faces, MPI_Comm comm);
+
+/// Copies between memory and a message.
+void gather(const HaloLayout& layout, std::byte* message);
+void scatter(const HaloLayout& layout, const std::byte* message);
+
+} // namespace dss

@@ -1,0 +1,127 @@
+#include "variants/mpi/transports.hpp"
+#include "variants/mpi/world.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace dss {
+namespace {
+
+/// An indexed datatype over the pieces of a layout, relative to the first.
+class PiecesType {
+public:
+  explicit PiecesType(const HaloLayout& layout) : start_(layout.pieces.front().at) {
+    std::vector<int> lengths;
+    std::vector<MPI_Aint> places;
+    for (const auto& piece : layout.pieces) {
+      lengths.push_back(int(piece.count));
+      places.push_back(MPI_Aint(piece.at - start_));
+    }
+    MPI_Type_create_hindexed(int(lengths.size()), lengths.data(), places.data(), MPI_BYTE, &type_);
+    MPI_Type_commit(&type_);
+  }
+  PiecesType(PiecesType&& other) noexcept : start_(other.start_), type_(std::exchange(other.type_, MPI_DATATYPE_NULL)) {}
+  PiecesType& operator=(PiecesType&&) = delete;
+  ~PiecesType() {
+    if (type_ != MPI_DATATYPE_NULL) MPI_Type_free(&type_);
+  }
+  std::byte* start() const { return start_; }
+  MPI_Datatype type() const { return type_; }
+
+private:
+  std::byte* start_;
+  MPI_Datatype type_ = MPI_DATATYPE_NULL;
+};
+
+std::vector<std::pair<int, int>> edges_of_all(const std::vector<Face>& faces, MPI_Comm comm) {
+  int rank = 0, ranks = 1, count = 0;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  std::vector<int> upper; // each edge is told by its lower rank
+  for (const Face& face : faces)
+    if (face.rank > rank) upper.push_back(face.rank);
+  count = int(upper.size());
+  std::vector<int> counts(std::size_t(ranks), 0), places(std::size_t(ranks), 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  for (std::size_t r = 1; r < counts.size(); ++r) places[r] = places[r - 1] + counts[r - 1];
+  std::vector<int> all(std::size_t(places.back() + counts.back()), 0);
+  MPI_Allgatherv(upper.data(), count, MPI_INT, all.data(), counts.data(), places.data(), MPI_INT, comm);
+  std::vector<std::pair<int, int>> edges;
+  for (int r = 0; r < ranks; ++r)
+    for (int n = 0; n < counts[std::size_t(r)]; ++n) edges.emplace_back(r, all[std::size_t(places[std::size_t(r)] + n)]);
+  return edges;
+}
+
+class SendrecvExchange final : public HaloExchange {
+public:
+  SendrecvExchange(std::vector<Face> faces, MPI_Comm comm) : HaloExchange(std::move(faces)), comm_(comm) {
+    int rank = 0, ranks = 1;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &ranks);
+    const auto edges = edges_of_all(faces_, comm);
+    const std::vector<int> rounds = colour_edges(edges, ranks);
+    std::vector<std::pair<int, std::size_t>> order; // round, face
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const std::pair edge{std::min(rank, faces_[f].rank), std::max(rank, faces_[f].rank)};
+      const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+      order.emplace_back(rounds[std::size_t(found - edges.begin())], f);
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [round, face] : order) order_.push_back(face);
+  }
+
+  void attach(int copies, const LayoutOf& layout_of) override {
+    for (const Face& face : faces_) {
+      types_.emplace_back();
+      for (int copy = 0; copy < copies; ++copy) {
+        const HaloLayout out = layout_of(face.send, copy);
+        types_.back().push_back({PiecesType(out), PiecesType(layout_of(face.receive, copy)), out.size});
+      }
+    }
+  }
+
+  void send(Side, int) override {}
+
+  /// All neighbours at once, on the call for the first side: sides one by one would make a chain of ranks wait.
+  void receive(Side side, int copy) override {
+    if (side != all_sides[0]) return;
+    for (const std::size_t f : order_) {
+      const Types& types = types_[f][std::size_t(copy)];
+      const int rank = faces_[f].rank;
+      const Waiting waiting(rank);
+      MPI_Sendrecv(types.send.start(), 1, types.send.type(), rank, 0, types.receive.start(), 1, types.receive.type(),
+                   rank, 0, comm_, MPI_STATUS_IGNORE);
+      count(types.bytes);
+    }
+  }
+
+private:
+  struct Types {
+    PiecesType send, receive;
+    std::size_t bytes;
+  };
+  MPI_Comm comm_;
+  std::vector<std::size_t> order_;
+  std::vector<std::vector<Types>> types_; ///< face, copy
+};
+
+} // namespace
+
+std::vector<int> colour_edges(const std::vector<std::pair<int, int>>& edges, int vertices) {
+  std::vector<std::set<int>> used(static_cast<std::size_t>(vertices));
+  std::vector<int> rounds;
+  for (const auto& [a, b] : edges) {
+    int round = 0;
+    while (used[std::size_t(a)].contains(round) || used[std::size_t(b)].contains(round)) ++round;
+    used[std::size_t(a)].insert(round);
+    used[std::size_t(b)].insert(round);
+    rounds.push_back(round);
+  }
+  return rounds;
+}
+
+std::unique_ptr<HaloExchange> make_sendrecv_exchange(std::vector<Face> faces, MPI_Comm comm) {
+  return std::make_unique<SendrecvExchange>(std::move(faces), comm);
+}
+
+} // namespace dss

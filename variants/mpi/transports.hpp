@@ -1,0 +1,19 @@
+#pragma once
+/// The classes behind make_exchange.
+#include "variants/mpi/halo_exchange.hpp"
+
+namespace dss {
+
+/// MPI_Sendrecv straight from and to the executor's memory by indexed datatypes, as in figure 7 of the paper. Neighbours
+/// meet in rounds (a colouring of the graph of parts), so that nobody waits for a chain of others.
+std::unique_ptr<HaloExchange> make_sendrecv_exchange(std::vector<Face> faces, MPI_Comm comm);
+/// Persistent messages. They go straight from and to the executor's memory where that is one stable piece.
+std::unique_ptr<HaloExchange> make_message_exchange(std::vector<Face> faces, MPI_Comm comm);
+/// Through a window of memory that the ranks of the node share. @throws InputError if `comm` spans several nodes
+std::unique_ptr<HaloExchange> make_shared_exchange(std::vector<Face> faces, MPI_Comm comm);
+
+/// Round in which each edge of a graph is used, so that no vertex is used twice in a round. Edges (a, b), a < b,
+/// ascending.
+std::vector<int> colour_edges(const std::vector<std::pair<int, int>>& edges, int vertices);
+
+} // namespace dss

@@ -1,0 +1,138 @@
+#include "variants/mpi/watch.hpp"
+
+#include "variants/mpi/world.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace dss {
+namespace {
+
+constexpr double default_patience_s = 7; ///< with what mpirun takes to end the others, a hung job lasts below 10 s
+constexpr double grace_s = 1.5;          ///< for those nearer to the culprit to speak first
+constexpr int exit_hung = 70;
+
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double patience_s() {
+  const char* text = std::getenv("DSSBENCH_PATIENCE_S");
+  const double asked = text == nullptr ? 0 : std::atof(text);
+  return asked > 0 ? asked : default_patience_s;
+}
+
+double waited_s = 0; ///< by this rank in exchanges
+
+} // namespace
+
+Watch::Watch(MPI_Comm comm, MPI_Comm node) : patience_s_(patience_s()), idle_since_s_(now_s()) {
+  MPI_Comm_rank(comm, &rank_);
+  MPI_Comm_size(comm, &ranks_);
+  int node_rank = 0, node_size = 1;
+  MPI_Comm_rank(node, &node_rank);
+  MPI_Comm_size(node, &node_size);
+  node_ranks_.resize(std::size_t(node_size));
+  MPI_Allgather(&rank_, 1, MPI_INT, node_ranks_.data(), 1, MPI_INT, node);
+  const MPI_Aint bytes = node_rank == 0 ? MPI_Aint(sizeof(Post)) * node_size : 0;
+  void* memory = nullptr;
+  MPI_Win_allocate_shared(bytes, 1, MPI_INFO_NULL, node, &memory, &window_);
+  MPI_Aint size = 0;
+  int unit = 0;
+  MPI_Win_shared_query(window_, 0, &size, &unit, &memory);
+  posts_ = static_cast<Post*>(memory);
+  own_ = new (&posts_[node_rank]) Post{nobody, 0.0, 0};
+  MPI_Barrier(node);
+  thread_ = std::thread([this] { look(); });
+}
+
+Watch::~Watch() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopped_ = true;
+  }
+  stopped_.notify_one();
+  thread_.join();
+  MPI_Win_free(&window_);
+}
+
+void Watch::begin_waiting(int rank, double now) {
+  work_s_.store(now - idle_since_s_, std::memory_order_relaxed);
+  own_->since_s.store(now, std::memory_order_relaxed);
+  if (rank == Waiting::for_all) own_->calls.fetch_add(1, std::memory_order_relaxed);
+  own_->waits_for.store(rank, std::memory_order_release);
+}
+
+void Watch::end_waiting(double now) {
+  own_->waits_for.store(nobody, std::memory_order_release);
+  idle_since_s_ = now;
+}
+
+Watch::Post* Watch::post_of(int rank) const {
+  const auto found = std::find(node_ranks_.begin(), node_ranks_.end(), rank);
+  return found == node_ranks_.end() ? nullptr : &posts_[found - node_ranks_.begin()];
+}
+
+int Watch::culprit() const {
+  int rank = rank_;
+  for (int steps = 0; steps < ranks_; ++steps) {
+    const Post* const post = post_of(rank);
+    if (post == nullptr) return rank;
+    int next = post->waits_for.load(std::memory_order_acquire);
+    if (next == nobody) return rank;
+    if (next == Waiting::for_all) { // who has not come to this call yet?
+      const auto late = std::min_element(node_ranks_.begin(), node_ranks_.end(), [&](int a, int b) {
+        return post_of(a)->calls.load(std::memory_order_relaxed) < post_of(b)->calls.load(std::memory_order_relaxed);
+      });
+      if (*late == rank || post_of(*late)->calls.load() >= post->calls.load()) return nobody; // on another node
+      next = *late;
+    }
+    rank = next;
+  }
+  return nobody; // they wait for one another
+}
+
+/// One rank speaks: the first on this node of those who wait for the culprit itself.
+bool Watch::is_speaker(int culprit) const {
+  for (const int rank : node_ranks_) {
+    const int waits_for = post_of(rank)->waits_for.load(std::memory_order_acquire);
+    if (waits_for == culprit || waits_for == Waiting::for_all) return rank == rank_;
+  }
+  return false;
+}
+
+std::string Watch::message(int rank) const {
+  if (rank == nobody) return fmt::format("rank {} of {} has waited too long for all others", rank_, ranks_);
+  return fmt::format("rank {} of {} has not answered for {:.0f} s (rank {} waits for it)", rank, ranks_,
+                     now_s() - own_->since_s.load(std::memory_order_relaxed), rank_);
+}
+
+void Watch::look() {
+  std::unique_lock lock(mutex_);
+  while (!stopped_.wait_for(lock, std::chrono::milliseconds(200), [&] { return is_stopped_; })) {
+    if (own_->waits_for.load(std::memory_order_acquire) == nobody) continue;
+    const double limit_s = std::max(patience_s_, 5 * work_s_.load(std::memory_order_relaxed));
+    const double over_s = now_s() - own_->since_s.load(std::memory_order_relaxed) - limit_s;
+    if (over_s < 0) continue;
+    const int found = culprit();
+    if (found == rank_ || (!is_speaker(found) && over_s < grace_s)) continue;
+    const std::string line = fmt::format("dssbench: {}; the job is ended\n", message(found));
+    const auto written = ::write(2, line.data(), line.size());
+    ::_exit(written < 0 ? exit_hung + 1 : exit_hung); // mpirun ends the others
+  }
+}
+
+Waiting::Waiting(int rank) : start_s_(now_s()), rank_(rank) {
+  if (const auto& watch = World::instance().watch_) watch->begin_waiting(rank, start_s_);
+}
+
+Waiting::~Waiting() {
+  const double end_s = now_s();
+  if (rank_ != for_all) waited_s += end_s - start_s_;
+  if (const auto& watch = World::instance().watch_) watch->end_waiting(end_s);
+}
+
+double Waiting::total_s() { return waited_s; }
+
+} // namespace dss

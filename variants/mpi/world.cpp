@@ -1,0 +1,79 @@
+#include "variants/mpi/world.hpp"
+
+#include "solver/error.hpp"
+#include "variants/mpi/watch.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <sys/prctl.h>
+
+namespace dss {
+namespace {
+
+World* world = nullptr;
+
+/// Without mpirun a process is a job of its own, which needs no daemon.
+void prepare_environment() {
+  ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0); // fails in containers without ptrace
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && std::getenv("PMIX_RANK") == nullptr)
+    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+}
+
+} // namespace
+
+bool World::is_started() { return world != nullptr; }
+
+World& World::instance() {
+  if (world == nullptr) world = new World; // ends with the program, by end()
+  return *world;
+}
+
+World::World() {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL); // mpirun gone, rank gone
+  prepare_environment();
+  int provided = 0;
+  if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
+      provided < MPI_THREAD_FUNNELED)
+    throw InputError("variant mpi: MPI cannot be started with threads beside it");
+  MPI_Comm_dup(MPI_COMM_WORLD, &comm_);
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &ranks_);
+  MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &node_);
+  MPI_Comm_size(node_, &node_ranks_);
+  if (ranks_ > 1) watch_ = std::make_shared<Watch>(comm_, node_);
+}
+
+std::vector<double> World::gather(double value) {
+  std::vector<double> all(std::size_t(ranks_), value);
+  const Waiting waiting(Waiting::for_all);
+  MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, comm_);
+  return all;
+}
+
+void World::join(std::span<double> values) {
+  if (ranks_ == 1) return;
+  const Waiting waiting(Waiting::for_all);
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_UINT64_T, MPI_BOR, comm_);
+}
+
+double World::least(double value) {
+  const Waiting waiting(Waiting::for_all);
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MIN, comm_);
+  return value;
+}
+
+double World::largest(double value) { return -least(-value); }
+
+void World::meet() {
+  const Waiting waiting(Waiting::for_all);
+  MPI_Barrier(comm_);
+}
+
+void World::end(bool is_in_order) {
+  if (!is_in_order && ranks_ > 1) MPI_Abort(comm_, 1);
+  if (ranks_ > 1) meet(); // under the watch; MPI_Finalize is not
+  watch_.reset();
+  MPI_Finalize();
+}
+
+} // namespace dss

@@ -1,0 +1,63 @@
+#pragma once
+/// The ranks of a job, and the watch over them: a rank that dies or hangs must end the job, not hold it up.
+#include <mpi.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace dss {
+
+class Watch;
+
+/// MPI from its first use to the end of the program. Collective calls, unless said otherwise.
+class World {
+public:
+  /// Starts MPI on the first call. @throws InputError if it cannot be started
+  static World& instance();
+  static bool is_started();
+
+  MPI_Comm comm() const { return comm_; }
+  MPI_Comm node() const { return node_; }
+  int rank() const { return rank_; }
+  int ranks() const { return ranks_; }
+  /// Whether all ranks share one node's memory.
+  bool is_one_node() const { return node_ranks_ == ranks_; }
+  int node_ranks() const { return node_ranks_; }
+
+  std::vector<double> gather(double value);
+  /// Bitwise or over all ranks, for all: joins what each rank filled in where the others left zeros.
+  void join(std::span<double> values);
+  double least(double value);
+  double largest(double value);
+  void meet();
+
+  /// In order: all ranks end together. Otherwise the job is ended with exit code 1 as it is. Not collective.
+  void end(bool is_in_order);
+
+private:
+  friend class Waiting;
+  World();
+  MPI_Comm comm_ = MPI_COMM_NULL, node_ = MPI_COMM_NULL;
+  int rank_ = 0, ranks_ = 1, node_ranks_ = 1;
+  std::shared_ptr<Watch> watch_;
+};
+
+/// While one lives, this rank waits for another (or for all): the watch knows for whom, and for how long.
+class Waiting {
+public:
+  static constexpr int for_all = -2;
+  explicit Waiting(int rank);
+  ~Waiting();
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  /// Time that this rank has waited in exchanges (not for all) so far [s].
+  static double total_s();
+
+private:
+  double start_s_;
+  int rank_;
+};
+
+} // namespace dss
