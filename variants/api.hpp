@@ -76,7 +76,7 @@ struct Plugin {
   bool is_distributed; ///< computes on all ranks of the job
   std::unique_ptr<Executor> (*create)(const Setup& setup);
   std::span<const CompiledKernel> (*kernels)(); ///< null if the variant has no kernels of its own
-  void (*end)(bool is_in_order); ///< null, or to be called before the program ends; not in order: other ranks may still wait
+  void (*end)(int exit_code, bool is_in_order); ///< null, or see end_variants
 };
 
 constexpr int plugin_abi = 2;

@@ -17,7 +17,9 @@ namespace {
 struct Entry {
   const char* name;
   const char* isa;
-  const char* needs; ///< CPU features, comma-separated
+  const char* needs;   ///< CPU features, comma-separated
+  const char* missing; ///< why this build lacks it, or empty
+  bool is_distributed; ///< computes by other variants
 };
 constexpr Entry registry[] = {
 #include "variants/registry.inc"
@@ -93,7 +95,8 @@ const std::vector<VariantStatus>& variants() {
     std::vector<VariantStatus> list;
     for (const Entry& entry : registry) {
       const std::string missing = missing_feature(entry.needs);
-      list.push_back({entry.name, entry.isa, missing.empty() ? "" : fmt::format("this CPU lacks {}", missing)});
+      const std::string cannot = missing.empty() ? entry.missing : fmt::format("this CPU lacks {}", missing);
+      list.push_back({entry.name, entry.isa, cannot, entry.is_distributed});
     }
     return list;
   }();
@@ -107,14 +110,24 @@ std::vector<std::string> usable_variants() {
   return names;
 }
 
+static std::map<std::string, const Plugin*>& opened_plugins() {
+  static std::map<std::string, const Plugin*> opened;
+  return opened;
+}
+
+void end_variants(int exit_code, bool is_in_order) {
+  for (const auto& [name, plugin] : opened_plugins())
+    if (plugin->end != nullptr) plugin->end(exit_code, is_in_order);
+}
+
 const Plugin& load_variant(const std::string& name) {
   static std::mutex mutex;
-  static std::map<std::string, const Plugin*> opened;
+  auto& opened = opened_plugins();
   const VariantStatus* found = nullptr;
   std::vector<std::string> names{"auto"};
   for (const VariantStatus& variant : variants()) {
     names.push_back(variant.name);
-    if (variant.name == name || (name == "auto" && variant.is_usable())) found = &variant;
+    if (variant.name == name || (name == "auto" && variant.is_usable() && !variant.is_distributed)) found = &variant;
   }
   if (found == nullptr)
     throw InputError(fmt::format("variant \"{}\" does not exist; {}", name, nearest_name(name, names)));
@@ -122,9 +135,8 @@ const Plugin& load_variant(const std::string& name) {
     throw InputError(fmt::format("variant {} cannot run here: {}; `dssbench list variants` shows those that can", name,
                                  found->unusable));
   const std::lock_guard lock(mutex);
-  const Plugin*& plugin = opened[found->name];
-  if (plugin == nullptr) plugin = &open_module(*found);
-  return *plugin;
+  if (const auto known = opened.find(found->name); known != opened.end()) return *known->second;
+  return *opened.emplace(found->name, &open_module(*found)).first->second;
 }
 
 } // namespace dss

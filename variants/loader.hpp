@@ -13,6 +13,7 @@ struct VariantStatus {
   std::string name;
   std::string isa;      ///< what the module is compiled for
   std::string unusable; ///< empty if it can run here, else the reason: "this CPU lacks avx512f"
+  bool is_distributed = false; ///< computes on ranks, by other variants
   bool is_usable() const { return unusable.empty(); }
 };
 
@@ -25,5 +26,9 @@ std::vector<std::string> usable_variants();
 /// @throws InputError for an unknown name (naming the known ones), a CPU that lacks a feature, or a module that does
 /// not load.
 const Plugin& load_variant(const std::string& name);
+
+/// To be called once before the program ends with `exit_code`. Not in order: after an error that other ranks may not have
+/// met, whom nobody may wait for.
+void end_variants(int exit_code, bool is_in_order);
 
 } // namespace dss

@@ -1,21 +1,28 @@
 /// The program `dssbench`: command line, exit codes, and one line for every error.
 #include "experiments/runner/commands.hpp"
+#include "experiments/runner/job.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
+#include "variants/loader.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
 #include <new>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace dss {
 namespace {
 
+/// Of several ranks the first one speaks: what it says ends the others, and only what it does not say is theirs to say.
 int fail(int exit_code, const std::string& what) {
+  if (!job_rank().is_root()) std::this_thread::sleep_for(std::chrono::seconds(1));
   fmt::print(stderr, "dssbench: {}\n", what);
+  end_variants(exit_code, false);
   return exit_code;
 }
 
@@ -70,6 +77,7 @@ int run_program(int argc, char** argv) {
                 fmt::format("{}; see dssbench {} --help", what, argc > 1 && argv[1][0] != '-' ? argv[1] : ""));
   }
   const int exit_code = chosen();
+  end_variants(exit_code, true);
   if (std::fflush(stdout) != 0) throw InputError("standard output: cannot write; is the disk full?");
   return exit_code;
 }
@@ -79,6 +87,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes then is an error of write(), told like a full disk
+  if (!dss::job_rank().is_root() && std::freopen("/dev/null", "w", stdout) == nullptr) return dss::exit_bad_input;
   try {
     return dss::run_program(argc, argv);
   } catch (const dss::UnstableError& error) {

@@ -22,19 +22,26 @@ class TimedRun {
 public:
   TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result)
       : plan_(plan), problem_(plan.scene.problem), result_(result),
-        executor_(plan.plugin->create({problem_, *plan.method, plan.model, plan.precision, plan.dt, request.threads})),
-        series_(request.output, plan.frame_steps.size() > 1) {}
+        executor_(plan.plugin->create({problem_, *plan.method, plan.model, plan.precision, plan.dt, request.threads, nullptr, &plan.distribution})),
+        series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1), is_root_(request.is_root) {}
 
   void run(long warmup_steps) {
     result_.schedule = executor_->schedule();
     result_.bytes = executor_->bytes();
     result_.workers = executor_->workers();
+    result_.ranks = executor_->rank_info();
+    if (!result_.ranks.variant.empty()) {
+      result_.variant = fmt::format("{}:{}", plan_.plugin->name, result_.ranks.variant);
+      result_.isa = result_.ranks.isa;
+      result_.has_fma = result_.ranks.has_fma;
+    }
     if (warmup_steps > 0) {
       RunResult discarded;
       write_initial_state(*executor_, problem_);
       advance_to(0, warmup_steps, discarded);
     }
     write_initial_state(*executor_, problem_);
+    const Traffic before = executor_->traffic();
     long step = 0;
     look(step);
     for (const long stop : stops()) {
@@ -42,6 +49,7 @@ public:
       step = stop;
       look(step);
     }
+    sum_over_ranks(before);
     if (const std::string written = series_.finish(); !written.empty()) result_.files.push_back(written);
   }
 
@@ -84,6 +92,22 @@ private:
     return is_finite;
   }
 
+  void sum_over_ranks(const Traffic& before) {
+    const auto sum = [&](double value) {
+      double total = 0;
+      for (const double of_rank : executor_->gather(value)) total += of_rank;
+      return total;
+    };
+    const Traffic now = executor_->traffic();
+    const double steps = double(plan_.steps);
+    result_.messages_per_step = sum(now.messages - before.messages) / steps;
+    result_.bytes_per_step = sum(now.bytes - before.bytes) / steps;
+    result_.communication_share = sum(now.wait_s - before.wait_s) / (result_.wall_s * result_.ranks.ranks);
+    result_.usage.cpu_s = sum(result_.usage.cpu_s);
+    result_.usage.wait_s = sum(result_.usage.wait_s);
+    result_.usage.involuntary_switches = long(sum(double(result_.usage.involuntary_switches)));
+  }
+
   void report_breakdown(long step, std::size_t element, RunResult& result) const {
     result.status = "unstable";
     result.steps = step + 1;
@@ -100,7 +124,8 @@ private:
       check.is_done = true;
       check.how = fmt::format("oracle after {} steps", step);
       check.tolerance = plan_.tolerance().run;
-      check.error = state_error(problem_, plan_.expected->state, whole_state(*executor_, count));
+      const std::vector<double> state = whole_state(*executor_, count);
+      if (is_root_) check.error = state_error(problem_, plan_.expected->state, state);
     }
     if (has_tail() && step == tail_start()) tail_state_ = whole_state(*executor_, count);
     if (has_tail() && step == plan_.steps) check_tail();
@@ -110,8 +135,10 @@ private:
 
   void check_tail() {
     const long steps = plan_.steps - tail_start();
+    const std::vector<double> state = whole_state(*executor_, problem_.lattice.element_count);
+    if (!is_root_) return;
     const auto expected = continue_by_oracle(problem_, *plan_.method, plan_.dt, tail_start(), steps, tail_state_);
-    result_.check.tail_error = state_error(problem_, expected, whole_state(*executor_, problem_.lattice.element_count));
+    result_.check.tail_error = state_error(problem_, expected, state);
     result_.check.how += fmt::format(", and over the last {}", steps);
   }
 
@@ -120,6 +147,7 @@ private:
   RunResult& result_;
   std::unique_ptr<Executor> executor_;
   FrameSeries series_;
+  bool is_root_;
   std::vector<double> tail_state_;
 };
 
@@ -167,7 +195,8 @@ RunResult run_scene(const RunRequest& request) {
   result.digest = state_digest(timed.executor(), count, plan.precision);
   if (count <= energy_elements) result.energy_j = total_energy(problem, whole_state(timed.executor(), count));
   if (!request.state_csv.empty()) {
-    write_state(request.state_csv, problem, whole_state(timed.executor(), count));
+    const std::vector<double> state = whole_state(timed.executor(), count);
+    if (request.is_root) write_state(request.state_csv, problem, state);
     result.files.push_back(request.state_csv);
   }
   judge(result.check, result);
@@ -188,7 +217,14 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["integrator"] = result.integrator;
   json["threads"] = result.threads;
   json["workers"] = result.workers;
-  json["ranks"] = request.ranks;
+  json["ranks"] = result.ranks.ranks;
+  json["decomposition"] = result.ranks.decomposition;
+  json["halo"] = result.ranks.halo;
+  json["halo_reason"] = result.ranks.halo_reason;
+  json["imbalance"] = result.ranks.imbalance;
+  json["messages_per_step"] = result.messages_per_step;
+  json["bytes_per_step"] = result.bytes_per_step;
+  json["communication_share"] = result.communication_share;
   json["elements"] = result.elements;
   json["links"] = result.links;
   json["steps"] = result.steps;

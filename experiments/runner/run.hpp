@@ -2,6 +2,7 @@
 /// One run of one scene on one variant: the body of `dssbench run`.
 #include "experiments/runner/usage.hpp"
 #include "solver/model/model.hpp"
+#include "variants/distribution.hpp"
 #include "solver/scene/scene.hpp"
 
 #include <nlohmann/json.hpp>
@@ -18,9 +19,11 @@ struct RunRequest {
   std::string variant = "auto";
   int threads = 1;
   int ranks = 1;
+  std::string decomposition = "strips", halo = "auto", shares = "equal"; ///< see Distribution
   std::optional<std::string> model, precision, integrator;
   std::optional<double> dt; ///< [s]
   std::optional<long> steps;
+  bool is_root = true;     ///< of several ranks all do the same, and one writes
   bool is_forced = false;  ///< run above the stability limit
   long warmup_steps = 0;   ///< steps before the clock starts; the state then starts anew
   std::string output;      ///< .vtu file, or empty
@@ -45,7 +48,10 @@ struct RunResult {
   std::string scene, variant, isa, model, precision, integrator, schedule;
   bool has_fma = false; ///< its bits are those of every other variant that has FMA
   int threads = 1;
-  int workers = 1; ///< threads that compute: fewer than `threads` where the scene has too few rows
+  int workers = 1; ///< threads that compute, on all ranks: fewer than `threads` each where the scene has too few rows
+  RankInfo ranks;
+  double messages_per_step = 0, bytes_per_step = 0; ///< sent by all ranks
+  double communication_share = 0;                   ///< of the wall time, mean over the ranks
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;

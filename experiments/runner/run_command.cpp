@@ -1,5 +1,6 @@
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
+#include "experiments/runner/job.hpp"
 #include "experiments/runner/run.hpp"
 #include "solver/error.hpp"
 
@@ -27,14 +28,22 @@ void print_summary(const RunResult& result) {
   if (result.check.is_done)
     fmt::print("check: {} ({}): error {:.3g}, tolerance {:.3g}\n", result.check.is_passed() ? "passed" : "failed",
                result.check.how, result.check.error, result.check.tolerance);
+  if (result.ranks.ranks > 1)
+    fmt::print("{:.4g} messages and {:.4g} bytes a step, {:.1f} % of the time in exchanges, imbalance {:.3f}\n",
+               result.messages_per_step, result.bytes_per_step, 100 * result.communication_share,
+               result.ranks.imbalance);
+  if (!result.ranks.halo_reason.empty()) fmt::print("halo {}: {}\n", result.ranks.halo, result.ranks.halo_reason);
   for (const std::string& file : result.files) fmt::print("wrote {}\n", file);
 }
 
 int run(const RunArguments& arguments) {
   RunRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.set);
+  if (job_rank().ranks > 1 && request.ranks == 1) request.ranks = job_rank().ranks; // started by mpirun itself
+  if (request.ranks > 1 && job_rank().ranks == 1) return run_on_ranks(request.ranks, request.threads);
+  request.is_root = job_rank().is_root();
   const RunResult result = run_scene(request);
-  if (!request.json.empty()) write_json(request.json, run_json(request, result));
+  if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));
   if (result.status == "unstable") throw UnstableError(result.reason);
   if (request.json != "-") print_summary(result);
   if (result.status == "ok") return exit_success;
@@ -54,7 +63,23 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--variant", request.variant, "A name from `dssbench list variants`; auto: the fastest here")
       ->capture_default_str();
   command->add_option("--threads", request.threads, "Threads of the variant")->capture_default_str();
-  command->add_option("--ranks", request.ranks, "Processes of the variant")->capture_default_str();
+  command->add_option("--ranks", request.ranks, "Processes: the variant on each, with a part of the scene")
+      ->capture_default_str();
+  command
+      ->add_option("--decomposition", request.decomposition,
+                   "Of the scene into parts for ranks: strips, blocks, metis, or a file of `dssbench decompose`")
+      ->capture_default_str()
+      ->group("Ranks");
+  command
+      ->add_option("--halo", request.halo,
+                   "How ranks exchange what they share: sendrecv, overlap, deep, deep-overlap, shared; auto: what a model "
+                   "predicts to be fastest")
+      ->capture_default_str()
+      ->group("Ranks");
+  command
+      ->add_option("--shares", request.shares, "equal parts, or by each rank's speed as measured before the run: measured")
+      ->capture_default_str()
+      ->group("Ranks");
   command->add_option("--model", request.model, "spatial or planar (default: the scene's)");
   command->add_option("--precision", request.precision, "f64 or f32 (default: f64)");
   command->add_option("--integrator", request.integrator, "rk4 or velocity_verlet (default: the scene's)");

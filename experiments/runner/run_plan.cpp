@@ -1,4 +1,5 @@
 #include "experiments/runner/run_plan.hpp"
+#include "experiments/runner/job.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "solver/nearest_name.hpp"
@@ -28,8 +29,12 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (request.threads > 1 && !plan.plugin->is_threaded)
     refuse(fmt::format("--threads {}: variant \"{}\" runs on one thread; give --threads 1", request.threads,
                        plan.plugin->name));
-  if (request.ranks != 1)
-    refuse(fmt::format("--ranks {}: no variant of this build has ranks; give --ranks 1", request.ranks));
+  if (request.ranks < 1 || request.ranks > 65536) refuse(fmt::format("--ranks {}: give 1 to 65536", request.ranks));
+  if (const int started = job_rank().ranks; started > 1 && request.ranks != started)
+    refuse(fmt::format("--ranks {}: mpirun has started {} ranks; give --ranks {}, or none", request.ranks, started,
+                       started));
+  if (request.shares != "equal" && request.shares != "measured")
+    refuse(fmt::format("--shares {}: unknown; {}", request.shares, nearest_name(request.shares, {"equal", "measured"})));
   if (!(plan.dt > 0) || !std::isfinite(plan.dt))
     refuse(fmt::format("--dt {:g}: the step must be positive [s]", plan.dt));
   if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));
@@ -84,7 +89,9 @@ RunPlan plan_run(const RunRequest& request) {
   RunPlan plan;
   plan.scene = load_scene(request.scene, request.overrides);
   const Problem& problem = plan.scene.problem;
-  plan.plugin = &load_variant(request.variant);
+  const VariantName variant = parse_variant(request.variant, request.ranks);
+  plan.plugin = &load_variant(variant.name);
+  plan.distribution = {request.ranks, variant.part, request.decomposition, request.halo, request.shares == "measured"};
   plan.model = chosen_model(request.model.value_or(plan.scene.model));
   plan.precision = chosen_precision(request.precision.value_or("f64"));
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
@@ -93,7 +100,7 @@ RunPlan plan_run(const RunRequest& request) {
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
     throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));
-  require_outputs_writable(request);
+  if (request.is_root) require_outputs_writable(request);
   plan.stability_limit = require_stable(problem, *plan.method, plan.dt, request.is_forced);
   if (!request.check_state.empty()) plan.expected = expected_state(request, plan);
   for (int frame = 0; frame <= request.frames && !request.output.empty(); ++frame) {

@@ -14,6 +14,7 @@ constexpr long tail_steps = 2;
 struct RunPlan {
   Scene scene;
   const Plugin* plugin = nullptr;
+  Distribution distribution; ///< of a distributed variant
   const Method* method = nullptr;
   Model model = Model::spatial;
   Precision precision = Precision::f64;

@@ -1,5 +1,7 @@
 #include "variants/mpi/transports.hpp"
-#include "variants/mpi/world.hpp"
+#include "variants/mpi/waiting.hpp"
+
+#include <utility>
 
 namespace dss {
 namespace {

@@ -1,8 +1,9 @@
 #include "variants/mpi/transports.hpp"
-#include "variants/mpi/world.hpp"
+#include "variants/mpi/waiting.hpp"
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace dss {
 namespace {

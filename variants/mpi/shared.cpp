@@ -1,6 +1,6 @@
 #include "solver/error.hpp"
 #include "variants/mpi/transports.hpp"
-#include "variants/mpi/world.hpp"
+#include "variants/mpi/waiting.hpp"
 
 #include <atomic>
 #include <sched.h>

@@ -69,8 +69,8 @@ void World::meet() {
   MPI_Barrier(comm_);
 }
 
-void World::end(bool is_in_order) {
-  if (!is_in_order && ranks_ > 1) MPI_Abort(comm_, 1);
+void World::end(int exit_code, bool is_in_order) {
+  if (!is_in_order && ranks_ > 1) MPI_Abort(comm_, exit_code);
   if (ranks_ > 1) meet(); // under the watch; MPI_Finalize is not
   watch_.reset();
   MPI_Finalize();

@@ -1,5 +1,7 @@
 #pragma once
 /// The ranks of a job, and the watch over them: a rank that dies or hangs must end the job, not hold it up.
+#include "variants/mpi/waiting.hpp"
+
 #include <mpi.h>
 
 #include <cstdint>
@@ -33,8 +35,8 @@ public:
   double largest(double value);
   void meet();
 
-  /// In order: all ranks end together. Otherwise the job is ended with exit code 1 as it is. Not collective.
-  void end(bool is_in_order);
+  /// See end_variants.
+  void end(int exit_code, bool is_in_order);
 
 private:
   friend class Waiting;
@@ -42,22 +44,6 @@ private:
   MPI_Comm comm_ = MPI_COMM_NULL, node_ = MPI_COMM_NULL;
   int rank_ = 0, ranks_ = 1, node_ranks_ = 1;
   std::shared_ptr<Watch> watch_;
-};
-
-/// While one lives, this rank waits for another (or for all): the watch knows for whom, and for how long.
-class Waiting {
-public:
-  static constexpr int for_all = -2;
-  explicit Waiting(int rank);
-  ~Waiting();
-  Waiting(const Waiting&) = delete;
-  Waiting& operator=(const Waiting&) = delete;
-  /// Time that this rank has waited in exchanges (not for all) so far [s].
-  static double total_s();
-
-private:
-  double start_s_;
-  int rank_;
 };
 
 } // namespace dss

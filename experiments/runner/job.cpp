@@ -1,0 +1,102 @@
+#include "experiments/runner/job.hpp"
+
+#include "experiments/runner/child.hpp"
+#include "experiments/runner/context.hpp"
+#include "experiments/runner/commands.hpp"
+#include "solver/error.hpp"
+#include "variants/loader.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <limits>
+#include <regex>
+#include <sstream>
+#include <unistd.h>
+
+namespace dss {
+namespace {
+
+/// Environment of a rank: Open MPI's, PMIx's (srun --mpi=pmix) with Slurm's, PMI's.
+constexpr const char* rank_names[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
+                                         {"PMIX_RANK", "SLURM_STEP_NUM_TASKS"},
+                                         {"PMI_RANK", "PMI_SIZE"}};
+
+std::string mpirun_path() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "/usr/bin" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (const std::string file = folder + "/mpirun"; ::access(file.c_str(), X_OK) == 0) return file;
+  return {};
+}
+
+std::vector<std::string> own_arguments() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> arguments;
+  for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
+  return arguments;
+}
+
+/// What the ranks and mpirun said, in one line.
+std::string failure_line(const ChildResult& job, int ranks) {
+  std::istringstream lines(job.error);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("dssbench: ")) return line;
+  std::smatch match;
+  if (std::regex_search(job.error, match, std::regex("process rank (\\d+) .*exited on signal (\\d+) \\(([^)]*)\\)")))
+    return fmt::format("dssbench: rank {} of {} was ended by signal {} ({})", match.str(1), ranks, match.str(2),
+                       match.str(3));
+  if (std::regex_search(job.error, match, std::regex("Process name: \\[\\[\\d+,\\d+\\],(\\d+)\\]\\s+Exit code: +(\\d+)")))
+    return fmt::format("dssbench: rank {} of {} ended with exit code {}", match.str(1), ranks, match.str(2));
+  const std::string failure = job.failure(0);
+  return fmt::format("dssbench: mpirun: {}", failure);
+}
+
+} // namespace
+
+JobRank job_rank() {
+  for (const auto& [rank_name, size_name] : rank_names) {
+    const char *rank = std::getenv(rank_name), *size = std::getenv(size_name);
+    if (rank != nullptr && size != nullptr) return {std::atoi(rank), std::max(1, std::atoi(size))};
+  }
+  return {};
+}
+
+VariantName parse_variant(const std::string& text, int ranks) {
+  if (text == "mpi") return {"mpi", "auto"};
+  if (text.starts_with("mpi:")) return {"mpi", text.substr(4)};
+  if (ranks > 1) return {"mpi", text};
+  return {text, ""};
+}
+
+std::string why_no_ranks() {
+  for (const VariantStatus& status : variants())
+    if (status.name == "mpi" && !status.is_usable()) return status.unusable;
+  return mpirun_path().empty() ? "mpirun is not installed (openmpi-bin)" : "";
+}
+
+int run_on_ranks(int ranks, int threads) {
+  if (const std::string why = why_no_ranks(); !why.empty()) throw InputError(fmt::format("--ranks {}: {}", ranks, why));
+  std::vector<std::string> line = {"mpirun", "-np", fmt::format("{}", ranks)};
+  if (ranks * threads > usable_cores())
+    line.insert(line.end(), {"--oversubscribe", "--bind-to", "none"});
+  else
+    line.insert(line.end(), {"--map-by", fmt::format("slot:PE={}", threads), "--bind-to", "core"});
+  line.push_back(std::filesystem::read_symlink(this_program).string());
+  const std::vector<std::string> own = own_arguments();
+  line.insert(line.end(), own.begin() + 1, own.end());
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0); // containers have no other user
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
+  ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0); // fails in containers without ptrace
+  const ChildResult job = run_child(mpirun_path(), line, std::numeric_limits<double>::infinity());
+  fmt::print("{}", job.output);
+  if (job.exit_code == exit_success && job.signal == 0) {
+    fmt::print(stderr, "{}", job.error);
+    return exit_success;
+  }
+  fmt::print(stderr, "{}\n", failure_line(job, ranks));
+  return job.exit_code == exit_bad_input || job.exit_code == exit_unstable ? job.exit_code : exit_check_failed;
+}
+
+} // namespace dss

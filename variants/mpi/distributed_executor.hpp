@@ -1,0 +1,47 @@
+#pragma once
+/// One problem on all ranks of a job: each computes its part by the executor of another variant.
+#include "variants/mpi/halo_exchange.hpp"
+#include "variants/mpi/spread.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace dss {
+
+class DistributedExecutor final : public Executor {
+public:
+  explicit DistributedExecutor(const Setup& setup);
+  void write(std::size_t first, std::span<const double> fields) override;
+  void read(std::size_t first, std::span<double> fields) override;
+  void derivative(std::span<const double> signals, std::span<double> rates) override;
+  /// A rank whose state fails goes on to the end of the call, since others wait for it; then all agree on the first
+  /// failure.
+  Outcome advance(long steps, std::span<const double> signals) override;
+  std::string schedule() const override;
+  int workers() const override { return workers_; }
+  std::size_t bytes() const override { return bytes_; }
+  RankInfo rank_info() const override { return info_; }
+  Traffic traffic() const override;
+  std::vector<double> gather(double value) override { return world_.gather(value); }
+
+private:
+  /// Calls visit(local first, global first, count) for the own elements among [first, first + count).
+  template <class Visit>
+  void each_own(std::size_t first, std::size_t count, Visit&& visit) const;
+  std::size_t global_of(std::size_t local) const;
+  const Plugin& find_plugin(const std::string& name);
+
+  World& world_;
+  const Fault fault_;
+  Part part_;
+  RankInfo info_;
+  std::unique_ptr<HaloExchange> exchange_;
+  std::optional<FaultyHalo> halo_;
+  std::optional<PartSetup> part_setup_;
+  std::unique_ptr<Executor> executor_;
+  int workers_ = 0;
+  std::size_t bytes_ = 0;
+  double waited_before_s_ = 0;
+};
+
+} // namespace dss

@@ -1,0 +1,31 @@
+#pragma once
+/// Faults on purpose, so that what follows from them can be tested: DSSBENCH_FAULT=die:RANK:STEP, hang:RANK:STEP or
+/// slow:RANK:FACTOR.
+#include "variants/halo.hpp"
+
+namespace dss {
+
+struct Fault {
+  enum class Kind { none, die, hang, slow };
+  Kind kind = Kind::none;
+  double number = 0; ///< step, or factor
+  /// The one asked for on this rank. @throws InputError for one that is none of these
+  static Fault of_rank(int rank);
+  double slowdown() const { return kind == Kind::slow ? number : 1; }
+};
+
+/// A halo whose rank meets a fault.
+class FaultyHalo final : public Halo {
+public:
+  FaultyHalo(Halo& halo, const Fault& fault) : halo_(halo), fault_(fault) {}
+  void send(Side side, int copy) override;
+  void receive(Side side, int copy) override;
+
+private:
+  Halo& halo_;
+  const Fault fault_;
+  long exchanges_ = 0;
+  double computing_since_s_ = 0; ///< 0: not since the last receive
+};
+
+} // namespace dss

@@ -1,0 +1,21 @@
+#pragma once
+
+namespace dss {
+
+/// While one lives, this rank waits for another (or for all): the watch knows for whom, and for how long.
+class Waiting {
+public:
+  static constexpr int for_all = -2;
+  explicit Waiting(int rank);
+  ~Waiting();
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  /// Time that this rank has waited in exchanges (not for all) so far [s].
+  static double total_s();
+
+private:
+  double start_s_;
+  int rank_;
+};
+
+} // namespace dss
