@@ -35,8 +35,8 @@ public:
   virtual ~Halo() = default;
   /// The own elements that neighbours on this side read are written in this copy.
   virtual void send(Side side, int copy) = 0;
-  /// Returns when the neighbours' elements on this side are in this copy, and what was sent to that side from other
-  /// copies (from this one, if there is but one) may be overwritten. @throws if they cannot come any more
+  /// Returns when the neighbours' elements on this side are in this copy, and what was sent to that side may be
+  /// overwritten. @throws if they cannot come any more
   virtual void receive(Side side, int copy) = 0;
 };
 
