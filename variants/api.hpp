@@ -24,7 +24,7 @@ struct Setup {
   Precision precision = Precision::f64;
   double dt = 0;
   int threads = 1;
-  const PartSetup* part = nullptr; ///< `problem` is a part of a larger one; outlives the executor
+  const PartSetup* part = nullptr;            ///< `problem` is a part of a larger one; outlives the executor
   const Distribution* distribution = nullptr; ///< for distributed variants, which take the default without
 };
 

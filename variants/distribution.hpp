@@ -24,10 +24,10 @@ const HaloStrategy* find_halo_strategy(std::string_view name);
 /// What a distributed variant is asked for.
 struct Distribution {
   int ranks = 1;
-  std::string variant = "auto";          ///< that computes each part
-  std::string decomposition = "strips";  ///< a method, or the path of a decomposition file
-  std::string halo = "auto";             ///< a strategy; auto: the fastest by the model of halo_cost.hpp
-  bool is_measured = false;              ///< parts in proportion to each rank's measured speed; else equal
+  std::string variant = "auto";         ///< that computes each part
+  std::string decomposition = "strips"; ///< a method, or the path of a decomposition file
+  std::string halo = "auto";            ///< a strategy; auto: the fastest by the model of halo_cost.hpp
+  bool is_measured = false;             ///< parts in proportion to each rank's measured speed; else equal
 };
 
 /// What became of it.
@@ -35,7 +35,7 @@ struct RankInfo {
   int ranks = 1;
   std::string variant, isa, decomposition, halo;
   bool has_fma = false;
-  double imbalance = 1; ///< own elements of the largest part over the mean
+  double imbalance = 1;    ///< own elements of the largest part over the mean
   std::string halo_reason; ///< of an automatic choice: the predicted times
 };
 

@@ -11,11 +11,11 @@ struct Network {
 
 /// One rank's step under a strategy.
 struct HaloCost {
-  double compute_s = 0;      ///< of a step, halo elements that are computed again among it
-  double hiding_s = 0;       ///< part of it during which messages are under way
-  int exchanges = 1;         ///< a step: its stages, or one
-  int faces = 0;             ///< neighbours
-  double bytes = 0;          ///< sent to all neighbours in one exchange
+  double compute_s = 0; ///< of a step, halo elements that are computed again among it
+  double hiding_s = 0;  ///< part of it during which messages are under way
+  int exchanges = 1;    ///< a step: its stages, or one
+  int faces = 0;        ///< neighbours
+  double bytes = 0;     ///< sent to all neighbours in one exchange
 };
 
 /// Messages in rounds one after the other (sendrecv), or all at once; what is not hidden behind computation adds to it.

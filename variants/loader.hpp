@@ -11,8 +11,8 @@ namespace dss {
 /// A variant this build knows, and whether it can run here.
 struct VariantStatus {
   std::string name;
-  std::string isa;      ///< what the module is compiled for
-  std::string unusable; ///< empty if it can run here, else the reason: "this CPU lacks avx512f"
+  std::string isa;             ///< what the module is compiled for
+  std::string unusable;        ///< empty if it can run here, else the reason: "this CPU lacks avx512f"
   bool is_distributed = false; ///< computes on ranks, by other variants
   bool is_usable() const { return unusable.empty(); }
 };

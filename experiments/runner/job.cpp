@@ -1,8 +1,8 @@
 #include "experiments/runner/job.hpp"
 
 #include "experiments/runner/child.hpp"
-#include "experiments/runner/context.hpp"
 #include "experiments/runner/commands.hpp"
+#include "experiments/runner/context.hpp"
 #include "solver/error.hpp"
 #include "variants/loader.hpp"
 
@@ -19,9 +19,8 @@ namespace dss {
 namespace {
 
 /// Environment of a rank: Open MPI's, PMIx's (srun --mpi=pmix) with Slurm's, PMI's.
-constexpr const char* rank_names[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
-                                         {"PMIX_RANK", "SLURM_STEP_NUM_TASKS"},
-                                         {"PMI_RANK", "PMI_SIZE"}};
+constexpr const char* rank_names[][2] = {
+    {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, {"PMIX_RANK", "SLURM_STEP_NUM_TASKS"}, {"PMI_RANK", "PMI_SIZE"}};
 
 std::string mpirun_path() {
   const char* path = std::getenv("PATH");
@@ -47,10 +46,10 @@ std::string failure_line(const ChildResult& job, int ranks) {
   if (std::regex_search(job.error, match, std::regex("process rank (\\d+) .*exited on signal (\\d+) \\(([^)]*)\\)")))
     return fmt::format("dssbench: rank {} of {} was ended by signal {} ({})", match.str(1), ranks, match.str(2),
                        match.str(3));
-  if (std::regex_search(job.error, match, std::regex("Process name: \\[\\[\\d+,\\d+\\],(\\d+)\\]\\s+Exit code: +(\\d+)")))
+  if (std::regex_search(job.error, match,
+                        std::regex("Process name: \\[\\[\\d+,\\d+\\],(\\d+)\\]\\s+Exit code: +(\\d+)")))
     return fmt::format("dssbench: rank {} of {} ended with exit code {}", match.str(1), ranks, match.str(2));
-  const std::string failure = job.failure(0);
-  return fmt::format("dssbench: mpirun: {}", failure);
+  return fmt::format("dssbench: mpirun: {}", job.failure(0));
 }
 
 } // namespace
@@ -76,7 +75,7 @@ std::string why_no_ranks() {
   return mpirun_path().empty() ? "mpirun is not installed (openmpi-bin)" : "";
 }
 
-int run_on_ranks(int ranks, int threads) {
+JobResult run_job(int ranks, int threads, const std::vector<std::string>& arguments) {
   if (const std::string why = why_no_ranks(); !why.empty()) throw InputError(fmt::format("--ranks {}: {}", ranks, why));
   std::vector<std::string> line = {"mpirun", "-np", fmt::format("{}", ranks)};
   if (ranks * threads > usable_cores())
@@ -84,19 +83,26 @@ int run_on_ranks(int ranks, int threads) {
   else
     line.insert(line.end(), {"--map-by", fmt::format("slot:PE={}", threads), "--bind-to", "core"});
   line.push_back(std::filesystem::read_symlink(this_program).string());
-  const std::vector<std::string> own = own_arguments();
-  line.insert(line.end(), own.begin() + 1, own.end());
+  line.insert(line.end(), arguments.begin(), arguments.end());
   ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0); // containers have no other user
   ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
   ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0); // fails in containers without ptrace
   const ChildResult job = run_child(mpirun_path(), line, std::numeric_limits<double>::infinity());
+  JobResult result{exit_success, job.output, job.error, ""};
+  if (job.exit_code == exit_success && job.signal == 0) return result;
+  const bool is_own = job.exit_code == exit_bad_input || job.exit_code == exit_unstable;
+  result.exit_code = is_own ? job.exit_code : exit_check_failed;
+  result.failure = failure_line(job, ranks);
+  return result;
+}
+
+int run_on_ranks(int ranks, int threads) {
+  std::vector<std::string> arguments = own_arguments();
+  arguments.erase(arguments.begin());
+  const JobResult job = run_job(ranks, threads, arguments);
   fmt::print("{}", job.output);
-  if (job.exit_code == exit_success && job.signal == 0) {
-    fmt::print(stderr, "{}", job.error);
-    return exit_success;
-  }
-  fmt::print(stderr, "{}\n", failure_line(job, ranks));
-  return job.exit_code == exit_bad_input || job.exit_code == exit_unstable ? job.exit_code : exit_check_failed;
+  fmt::print(stderr, "{}", job.failure.empty() ? job.error : job.failure + "\n");
+  return job.exit_code;
 }
 
 } // namespace dss

@@ -3,6 +3,7 @@
 #include "variants/distribution.hpp"
 
 #include <string>
+#include <vector>
 
 namespace dss {
 
@@ -24,9 +25,18 @@ VariantName parse_variant(const std::string& text, int ranks);
 /// Why a job of several ranks cannot be started here, or empty.
 std::string why_no_ranks();
 
-/// Starts this very command line again on `ranks` ranks of `threads` threads by mpirun, passes on what rank 0 prints, and on
-/// failure prints one line that says which rank failed. @return the exit code
+/// What a job of this program left.
+struct JobResult {
+  int exit_code = 0; ///< as this program's own
+  std::string output, error;
+  std::string failure; ///< one line that says which rank failed and how, or empty
+};
+
+/// Runs this program with these arguments on `ranks` ranks of `threads` threads by mpirun.
 /// @throws InputError if mpirun is missing
+JobResult run_job(int ranks, int threads, const std::vector<std::string>& arguments);
+
+/// This very command line, as a job; prints what it says. @return the exit code
 int run_on_ranks(int ranks, int threads);
 
 } // namespace dss

@@ -22,7 +22,8 @@ class TimedRun {
 public:
   TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result)
       : plan_(plan), problem_(plan.scene.problem), result_(result),
-        executor_(plan.plugin->create({problem_, *plan.method, plan.model, plan.precision, plan.dt, request.threads, nullptr, &plan.distribution})),
+        executor_(plan.plugin->create({problem_, *plan.method, plan.model, plan.precision, plan.dt, request.threads,
+                                       nullptr, &plan.distribution})),
         series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1), is_root_(request.is_root) {}
 
   void run(long warmup_steps) {

@@ -2,8 +2,8 @@
 /// One run of one scene on one variant: the body of `dssbench run`.
 #include "experiments/runner/usage.hpp"
 #include "solver/model/model.hpp"
-#include "variants/distribution.hpp"
 #include "solver/scene/scene.hpp"
+#include "variants/distribution.hpp"
 
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -71,13 +71,15 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       ->capture_default_str()
       ->group("Ranks");
   command
-      ->add_option("--halo", request.halo,
-                   "How ranks exchange what they share: sendrecv, overlap, deep, deep-overlap, shared; auto: what a model "
-                   "predicts to be fastest")
+      ->add_option(
+          "--halo", request.halo,
+          "How ranks exchange what they share: sendrecv, overlap, deep, deep-overlap, shared; auto: what a model "
+          "predicts to be fastest")
       ->capture_default_str()
       ->group("Ranks");
   command
-      ->add_option("--shares", request.shares, "equal parts, or by each rank's speed as measured before the run: measured")
+      ->add_option("--shares", request.shares,
+                   "equal parts, or by each rank's speed as measured before the run: measured")
       ->capture_default_str()
       ->group("Ranks");
   command->add_option("--model", request.model, "spatial or planar (default: the scene's)");

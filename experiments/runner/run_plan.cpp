@@ -34,7 +34,8 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
     refuse(fmt::format("--ranks {}: mpirun has started {} ranks; give --ranks {}, or none", request.ranks, started,
                        started));
   if (request.shares != "equal" && request.shares != "measured")
-    refuse(fmt::format("--shares {}: unknown; {}", request.shares, nearest_name(request.shares, {"equal", "measured"})));
+    refuse(
+        fmt::format("--shares {}: unknown; {}", request.shares, nearest_name(request.shares, {"equal", "measured"})));
   if (!(plan.dt > 0) || !std::isfinite(plan.dt))
     refuse(fmt::format("--dt {:g}: the step must be positive [s]", plan.dt));
   if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));

@@ -1,5 +1,7 @@
 #include "experiments/runner/verify.hpp"
 #include "experiments/runner/state_access.hpp"
+#include "solver/decomposition/decomposition.hpp"
+#include "solver/error.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
@@ -149,6 +151,51 @@ private:
 };
 
 } // namespace
+
+std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin& distributed, const Plugin& part,
+                                    int ranks) {
+  const Problem& problem = scene.problem;
+  std::vector<VerifyRow> rows;
+  for (const Model model : {Model::spatial, Model::planar}) {
+    if (model == Model::planar && !why_not_planar(problem).empty()) continue;
+    for (const Precision precision : {Precision::f64, Precision::f32})
+      for (const Method& method : methods()) {
+        const double dt = std::min(problem.dt, 0.9 * stable_step(problem, method).dt);
+        const auto digest_of = [&](const Plugin& plugin, const Distribution* distribution) {
+          const auto executor = plugin.create({problem, method, model, precision, dt, 1, nullptr, distribution});
+          write_initial_state(*executor, problem);
+          executor->advance(steps, signal_rows(problem, method, dt, 0, steps));
+          return state_digest(*executor, problem.lattice.element_count, precision);
+        };
+        const std::uint64_t alone = digest_of(part, nullptr);
+        for (const std::string_view decomposition : decomposition_methods())
+          for (const HaloStrategy& halo : halo_strategies()) {
+            VerifyRow row{scene.name,
+                          std::string(name(model)),
+                          std::string(name(precision)),
+                          fmt::format("{}:{}", distributed.name, part.name),
+                          fmt::format("{} ranks {} {} {}", ranks, decomposition, halo.name, method.name),
+                          {},
+                          {},
+                          Verdict::passed,
+                          fmt::format("equal to one process of {}", part.name)};
+            const Distribution distribution{ranks, part.name, std::string(decomposition), std::string(halo.name)};
+            try {
+              if (const std::string why = why_no_decomposition(decomposition); !why.empty())
+                row.verdict = Verdict::skipped, row.reason = why;
+              else if (digest_of(distributed, &distribution) != alone)
+                row.verdict = Verdict::failed, row.reason = fmt::format("other bits than one process of {}", part.name);
+            } catch (const InputError& error) { // more parts than rows, say; the same on every rank
+              row.verdict = Verdict::skipped;
+              row.reason = error.what();
+            }
+            rows.push_back(std::move(row));
+            if (rows.back().verdict == Verdict::skipped) break; // by any strategy
+          }
+      }
+  }
+  return rows;
+}
 
 std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::vector<const Plugin*>& plugins) {
   SceneVerification verification(scene, steps);

@@ -23,6 +23,11 @@ struct VerifyRow {
 /// Thread counts over which states must be equal to the last bit.
 constexpr int verified_threads[] = {1, 2, 3, 4, 7};
 
+/// Verifies a distributed variant on the ranks of this job: for every decomposition method and halo strategy, each integrator, model
+/// and precision, equal bits with the variant that computes its parts, alone on one process. Collective; one row for each.
+std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin& distributed, const Plugin& part,
+                                    int ranks);
+
 /// Verifies variants on a scene, `steps` steps long:
 /// (1) one evaluation of all derivatives at a random state with large rotations against the oracle in long double;
 /// (2) the state after the run, for every integrator, against the oracle in long double;

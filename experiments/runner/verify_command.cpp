@@ -1,6 +1,7 @@
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
+#include "experiments/runner/job.hpp"
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "experiments/runner/verify.hpp"
@@ -20,8 +21,11 @@ namespace {
 struct VerifyArguments {
   std::vector<std::string> scenes, variants;
   std::string json;
+  std::vector<int> ranks;
   bool is_quiet = false;
 };
+
+constexpr long most_steps_on_ranks = 40; ///< there are many combinations
 
 const char* text_of(VerifyRow::Verdict verdict) {
   return verdict == VerifyRow::Verdict::passed   ? "passed"
@@ -64,6 +68,15 @@ nlohmann::ordered_json rows_json(const std::vector<VerifyRow>& rows) {
   return json;
 }
 
+VerifyRow row_of(const nlohmann::json& json) {
+  const std::string verdict = json["verdict"];
+  VerifyRow row{json["scene"], json["model"], json["precision"], json["variant"], json["check"], {}, {}, {},
+                json["reason"]};
+  for (const auto one : {VerifyRow::Verdict::passed, VerifyRow::Verdict::failed, VerifyRow::Verdict::skipped})
+    if (verdict == text_of(one)) row.verdict = one;
+  return row;
+}
+
 void print_rows(const std::vector<VerifyRow>& rows) {
   std::vector<std::vector<std::string>> cells;
   for (const VerifyRow& row : rows)
@@ -75,13 +88,9 @@ void print_rows(const std::vector<VerifyRow>& rows) {
                         cells));
 }
 
-int verify(const VerifyArguments& arguments) {
-  if (!arguments.json.empty() && arguments.json != "-") require_writable(arguments.json);
-  std::vector<VerifyRow> rows;
-  const std::vector<const Plugin*> plugins = chosen_plugins(arguments.variants, rows);
-  std::vector<std::string> names = arguments.scenes;
-  if (names.empty())
-    for (const SceneListing& listing : list_scenes()) names.push_back(listing.name);
+/// Calls visit(name with overrides, scene, steps) for every small version of these scenes.
+template <class Visit>
+void each_case(const std::vector<std::string>& names, Visit&& visit) {
   std::vector<Scene> defaults; // all are read before any is run: a wrong name costs no waiting
   for (const std::string& name : names) defaults.push_back(load_scene(name));
   flush_denormals();
@@ -92,18 +101,83 @@ int verify(const VerifyArguments& arguments) {
       const std::vector<Override> overrides = verify_overrides(small);
       std::string set; // a scene may have several small versions
       for (const Override& item : overrides) set += fmt::format(" {}={}", item.key, item.value);
-      const Scene scene = load_scene(names[place], overrides);
-      for (VerifyRow& row : verify_scene(scene, small.steps, plugins)) {
-        row.scene += set;
-        rows.push_back(std::move(row));
-      }
+      visit(set, load_scene(names[place], overrides), small.steps);
     }
   }
+}
+
+void add_rows(std::vector<VerifyRow> of_scene, const std::string& set, std::vector<VerifyRow>& rows) {
+  for (VerifyRow& row : of_scene) {
+    row.scene += set;
+    rows.push_back(std::move(row));
+  }
+}
+
+/// On the ranks of this job.
+std::vector<VerifyRow> rows_of_ranks(const std::vector<std::string>& names, const std::string& variant) {
+  const Plugin &distributed = load_variant("mpi"), &part = load_variant(variant);
+  std::vector<VerifyRow> rows;
+  each_case(names, [&](const std::string& set, const Scene& scene, long steps) {
+    add_rows(verify_ranks(scene, std::min(steps, most_steps_on_ranks), distributed, part, job_rank().ranks), set, rows);
+  });
+  return rows;
+}
+
+/// A job for each number of ranks.
+std::vector<VerifyRow> rows_of_jobs(const VerifyArguments& arguments, const std::vector<std::string>& names) {
+  std::vector<VerifyRow> rows;
+  for (const int ranks : arguments.ranks) {
+    if (const std::string why = why_no_ranks(); !why.empty()) {
+      rows.push_back({"all", "", "", "mpi", fmt::format("{} ranks", ranks), {}, {}, VerifyRow::Verdict::skipped, why});
+      continue;
+    }
+    std::vector<std::string> line = {"verify", "--json", "-", "--ranks", fmt::format("{}", ranks)};
+    if (!arguments.variants.empty()) line.insert(line.end(), {"--variant", arguments.variants.front()});
+    line.insert(line.end(), names.begin(), names.end());
+    const JobResult job = run_job(ranks, 1, line);
+    const auto json = nlohmann::json::parse(job.output, nullptr, false);
+    if (!json.is_object())
+      rows.push_back({"all",
+                      "",
+                      "",
+                      "mpi",
+                      fmt::format("{} ranks", ranks),
+                      {},
+                      {},
+                      VerifyRow::Verdict::failed,
+                      job.failure.empty() ? "its result is no JSON" : job.failure});
+    else
+      for (const auto& row : json["rows"]) rows.push_back(row_of(row));
+  }
+  return rows;
+}
+
+std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments, const std::vector<std::string>& names) {
+  std::vector<VerifyRow> rows;
+  const std::vector<const Plugin*> plugins = chosen_plugins(arguments.variants, rows);
+  each_case(names, [&](const std::string& set, const Scene& scene, long steps) {
+    add_rows(verify_scene(scene, steps, plugins), set, rows);
+  });
+  return rows;
+}
+
+int verify(const VerifyArguments& arguments) {
+  if (!arguments.json.empty() && arguments.json != "-") require_writable(arguments.json);
+  if (!arguments.ranks.empty() && arguments.variants.size() > 1)
+    throw InputError("--ranks: give at most one --variant, which computes the parts");
+  std::vector<std::string> names = arguments.scenes;
+  if (names.empty())
+    for (const SceneListing& listing : list_scenes()) names.push_back(listing.name);
+  const std::vector<VerifyRow> rows =
+      arguments.ranks.empty() ? rows_of_variants(arguments, names)
+      : arguments.ranks.size() > 1 || arguments.ranks.front() != job_rank().ranks
+          ? rows_of_jobs(arguments, names)
+          : rows_of_ranks(names, arguments.variants.empty() ? "auto" : arguments.variants.front());
   const auto count = [&](VerifyRow::Verdict verdict) {
     return std::count_if(rows.begin(), rows.end(), [&](const VerifyRow& row) { return row.verdict == verdict; });
   };
   const auto failed = count(VerifyRow::Verdict::failed), passed = count(VerifyRow::Verdict::passed);
-  if (!arguments.json.empty()) write_json(arguments.json, rows_json(rows));
+  if (!arguments.json.empty() && job_rank().is_root()) write_json(arguments.json, rows_json(rows));
   if (arguments.json != "-") {
     std::vector<VerifyRow> shown = rows;
     if (arguments.is_quiet)
@@ -126,10 +200,17 @@ void add_verify_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--variant", arguments->variants, "V,...: only these variants")
       ->delimiter(',')
       ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--ranks", arguments->ranks,
+          "R,...: instead, on so many ranks, every decomposition and halo strategy: equal bits with one process")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 4096))
+      ->allow_extra_args(false);
   command->add_option("--json", arguments->json, "File for the table, or - for standard output");
   command->add_flag("--quiet", arguments->is_quiet, "Print only what failed or was skipped");
-  command->footer(
-      "Example: dssbench verify plate_paper tumbling_box --variant avx2,avx512\nExit code 1 if anything failed.");
+  command->footer("Example: dssbench verify plate_paper tumbling_box --variant avx2,avx512\n"
+                  "         dssbench verify plate_paper --ranks 1,2,3\nExit code 1 if anything failed.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return verify(*arguments); }; });
 }
 

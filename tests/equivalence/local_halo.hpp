@@ -37,7 +37,9 @@ private:
 
 class LocalHalo final : public Halo {
 public:
-  LocalHalo(const Part& part, Mailboxes& mailboxes) : part_(part), mailboxes_(mailboxes) {}
+  /// @param has_wrong_bit  one bit of every letter is flipped
+  LocalHalo(const Part& part, Mailboxes& mailboxes, bool has_wrong_bit)
+      : part_(part), mailboxes_(mailboxes), has_wrong_bit_(has_wrong_bit) {}
   void attach(Executor& executor) { executor_ = &executor; }
 
   void send(Side side, int copy) override {
@@ -46,6 +48,7 @@ public:
       const HaloLayout layout = executor_->halo_layout(neighbour.send, copy);
       Mailboxes::Letter letter(layout.size);
       for (const auto& piece : layout.pieces) std::memcpy(&letter[piece.offset], piece.at, piece.count);
+      if (has_wrong_bit_) letter.back() ^= std::byte(1);
       mailboxes_.put(part_.index, neighbour.part, std::move(letter));
     }
   }
@@ -62,6 +65,7 @@ public:
 private:
   const Part& part_;
   Mailboxes& mailboxes_;
+  bool has_wrong_bit_;
   Executor* executor_ = nullptr;
 };
 

@@ -34,6 +34,7 @@ struct PartsRun {
   Precision precision = Precision::f64;
   bool is_every_stage = false, is_overlapped = false;
   int threads = 1;
+  bool has_wrong_bit = false;
 
   template <class Act>
   State run(const Decomposition& decomposition, const State& state, Act&& act) const {
@@ -45,7 +46,7 @@ struct PartsRun {
     std::vector<std::thread> team;
     for (const Part& part : parts)
       team.emplace_back([&] {
-        LocalHalo halo(part, mailboxes);
+        LocalHalo halo(part, mailboxes, has_wrong_bit);
         const PartSetup setup{part, halo, is_every_stage, is_overlapped};
         const auto executor =
             plugin.create({part.problem, method, Model::spatial, precision, problem.dt, threads, &setup});
@@ -139,6 +140,16 @@ TEST_P(Parts, of_several_threads_make_up_the_whole) {
           EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, 2), start, 12), Precision::f64), 0u)
               << c.name << ' ' << method.name << ' ' << how << (is_every_stage ? ", every stage" : "");
         }
+}
+
+/// The comparison must be able to fail.
+TEST_P(Parts, with_one_bit_of_a_halo_wrong_are_noticed) {
+  const Problem problem = fixture::make_plate(13);
+  const State start = fixture::random_state(problem, 7, 1e-4, 0.02, 0.01);
+  const State whole = VariantRun{plugin, problem, methods().front()}.after(start, 12);
+  PartsRun run{plugin, problem, methods().front()};
+  run.has_wrong_bit = true;
+  EXPECT_GT(differing_bits(whole, run.after(decompose(problem, "strips", 2), start, 12), Precision::f64), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, Parts, testing::ValuesIn(usable_variants()), [](const auto& registered) {

@@ -395,7 +395,8 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
 
 template <class T>
 std::string RowExecutor<T>::schedule() const {
-  if (staged_) return setup_.problem.extra_links.empty() ? "stage by stage: halos are exchanged in between"
+  if (staged_)
+    return setup_.problem.extra_links.empty() ? "stage by stage: halos are exchanged in between"
                                               : "stage by stage: extra links break the order of rows";
   return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place";
 }

@@ -33,8 +33,8 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   executor_ = plugin.create(
       {part_.problem, setup.method, setup.model, setup.precision, setup.dt, setup.threads, &*part_setup_});
   if (executor_->halo_copies() == 0 && world_.ranks() > 1)
-    throw InputError(fmt::format("variant mpi:{}: {} does not compute parts; give one that does", plugin.name,
-                                 plugin.name));
+    throw InputError(
+        fmt::format("variant mpi:{}: {} does not compute parts; give one that does", plugin.name, plugin.name));
   exchange_->attach(executor_->halo_copies(), [this](std::span<const std::size_t> elements, int copy) {
     return executor_->halo_layout(elements, copy);
   });
@@ -42,8 +42,8 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   info_.decomposition = found.decomposition.method;
   info_.halo = found.halo->name;
   info_.halo_reason = found.halo_reason;
-  info_.imbalance = world_.largest(double(part_.own_elements)) * world_.ranks() /
-                    double(setup.problem.lattice.element_count);
+  info_.imbalance =
+      world_.largest(double(part_.own_elements)) * world_.ranks() / double(setup.problem.lattice.element_count);
   for (const double workers : world_.gather(executor_->workers())) workers_ += int(workers);
   for (const double bytes : world_.gather(double(executor_->bytes()))) bytes_ += std::size_t(bytes);
   waited_before_s_ = Waiting::total_s();

@@ -14,6 +14,7 @@ void end(int exit_code, bool is_in_order) {
 } // namespace dss
 
 extern "C" const dss::Plugin* dss_plugin() {
-  static constexpr dss::Plugin plugin{dss::plugin_abi, DSS_VARIANT, DSS_ISA, true, true, true, dss::create, nullptr, dss::end};
+  static constexpr dss::Plugin plugin{dss::plugin_abi, DSS_VARIANT, DSS_ISA, true, true, true,
+                                      dss::create,     nullptr,     dss::end};
   return &plugin;
 }

@@ -21,7 +21,8 @@ public:
     MPI_Type_create_hindexed(int(lengths.size()), lengths.data(), places.data(), MPI_BYTE, &type_);
     MPI_Type_commit(&type_);
   }
-  PiecesType(PiecesType&& other) noexcept : start_(other.start_), type_(std::exchange(other.type_, MPI_DATATYPE_NULL)) {}
+  PiecesType(PiecesType&& other) noexcept
+      : start_(other.start_), type_(std::exchange(other.type_, MPI_DATATYPE_NULL)) {}
   PiecesType& operator=(PiecesType&&) = delete;
   ~PiecesType() {
     if (type_ != MPI_DATATYPE_NULL) MPI_Type_free(&type_);
@@ -49,7 +50,8 @@ std::vector<std::pair<int, int>> edges_of_all(const std::vector<Face>& faces, MP
   MPI_Allgatherv(upper.data(), count, MPI_INT, all.data(), counts.data(), places.data(), MPI_INT, comm);
   std::vector<std::pair<int, int>> edges;
   for (int r = 0; r < ranks; ++r)
-    for (int n = 0; n < counts[std::size_t(r)]; ++n) edges.emplace_back(r, all[std::size_t(places[std::size_t(r)] + n)]);
+    for (int n = 0; n < counts[std::size_t(r)]; ++n)
+      edges.emplace_back(r, all[std::size_t(places[std::size_t(r)] + n)]);
   return edges;
 }
 

@@ -89,8 +89,7 @@ HaloCost cost_of(const Setup& setup, const Plugin& plugin, const Decomposition& 
   cost.exchanges = strategy.is_every_stage ? setup.method.stages : 1;
   cost.faces = int(part.neighbours.size());
   const std::size_t number = setup.precision == Precision::f64 ? 8 : 4;
-  for (const Neighbour& neighbour : part.neighbours)
-    cost.bytes += double(neighbour.send.size() * field_count * number);
+  for (const Neighbour& neighbour : part.neighbours) cost.bytes += double(neighbour.send.size() * field_count * number);
   return cost;
 }
 
@@ -119,8 +118,8 @@ Spread spread(const Setup& setup, const Plugin& plugin, World& world, const Faul
   Spread result;
   result.decomposition = decomposition_of(setup, asked, {});
   if (asked.is_measured && world.ranks() > 1)
-    result.decomposition = decomposition_of(
-        setup, asked, measured_weights(setup, plugin, result.decomposition, world, fault));
+    result.decomposition =
+        decomposition_of(setup, asked, measured_weights(setup, plugin, result.decomposition, world, fault));
   if (asked.halo != "auto") {
     result.halo = find_halo_strategy(asked.halo);
     std::vector<std::string> known{"auto"};

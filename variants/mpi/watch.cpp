@@ -12,6 +12,7 @@ namespace dss {
 namespace {
 
 constexpr double default_patience_s = 7; ///< with what mpirun takes to end the others, a hung job lasts below 10 s
+constexpr double silence_s = 3;          ///< of a watch, which speaks five times a second
 constexpr double grace_s = 1.5;          ///< for those nearer to the culprit to speak first
 constexpr int exit_hung = 70;
 
@@ -42,7 +43,7 @@ Watch::Watch(MPI_Comm comm, MPI_Comm node) : patience_s_(patience_s()), idle_sin
   int unit = 0;
   MPI_Win_shared_query(window_, 0, &size, &unit, &memory);
   posts_ = static_cast<Post*>(memory);
-  own_ = new (&posts_[node_rank]) Post{nobody, 0.0, 0};
+  own_ = new (&posts_[node_rank]) Post{nobody, 0.0, 0, now_s()};
   MPI_Barrier(node);
   thread_ = std::thread([this] { look(); });
 }
@@ -75,6 +76,8 @@ Watch::Post* Watch::post_of(int rank) const {
 }
 
 int Watch::culprit() const {
+  for (const int rank : node_ranks_)
+    if (now_s() - post_of(rank)->beat_s.load(std::memory_order_relaxed) > silence_s) return rank;
   int rank = rank_;
   for (int steps = 0; steps < ranks_; ++steps) {
     const Post* const post = post_of(rank);
@@ -96,6 +99,7 @@ int Watch::culprit() const {
 /// One rank speaks: the first on this node of those who wait for the culprit itself.
 bool Watch::is_speaker(int culprit) const {
   for (const int rank : node_ranks_) {
+    if (rank == culprit) continue;
     const int waits_for = post_of(rank)->waits_for.load(std::memory_order_acquire);
     if (waits_for == culprit || waits_for == Waiting::for_all) return rank == rank_;
   }
@@ -111,6 +115,7 @@ std::string Watch::message(int rank) const {
 void Watch::look() {
   std::unique_lock lock(mutex_);
   while (!stopped_.wait_for(lock, std::chrono::milliseconds(200), [&] { return is_stopped_; })) {
+    own_->beat_s.store(now_s(), std::memory_order_relaxed);
     if (own_->waits_for.load(std::memory_order_acquire) == nobody) continue;
     const double limit_s = std::max(patience_s_, 5 * work_s_.load(std::memory_order_relaxed));
     const double over_s = now_s() - own_->since_s.load(std::memory_order_relaxed) - limit_s;

@@ -29,7 +29,8 @@ private:
   struct alignas(64) Post {
     std::atomic<int> waits_for;
     std::atomic<double> since_s;
-    std::atomic<long> calls; ///< for all: ranks that have made fewer hold the others up
+    std::atomic<long> calls;    ///< for all: ranks that have made fewer hold the others up
+    std::atomic<double> beat_s; ///< last sign of life of its watch: a stopped process gives none
   };
   void look();
   /// The rank at the end of the chain of those who wait for one another, as far as this node knows.
