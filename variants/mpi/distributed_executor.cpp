@@ -90,6 +90,7 @@ void DistributedExecutor::derivative(std::span<const double> signals, std::span<
 }
 
 Outcome DistributedExecutor::advance(long steps, std::span<const double> signals) {
+  halo_->start();
   const Outcome own = executor_->advance(steps, signals);
   constexpr double never = std::numeric_limits<double>::infinity();
   const double step = world_.least(own.is_finite ? never : double(own.step));

@@ -36,18 +36,25 @@ void FaultyHalo::send(Side side, int copy) {
   if (fault_.kind == Fault::Kind::die && double(exchanges_) > fault_.number) std::raise(SIGKILL);
   while (fault_.kind == Fault::Kind::hang && double(exchanges_) > fault_.number)
     std::this_thread::sleep_for(std::chrono::seconds(1));
-  if (computing_since_s_ > 0 && fault_.kind == Fault::Kind::slow) {
-    const double start_s = now_s(), end_s = start_s + (fault_.number - 1) * (start_s - computing_since_s_);
-    while (now_s() < end_s) {
-    }
-  }
-  computing_since_s_ = 0;
+  compute_slowly();
   halo_.send(side, copy);
+  computing_since_s_ = now_s();
 }
 
 void FaultyHalo::receive(Side side, int copy) {
+  compute_slowly();
   halo_.receive(side, copy);
   computing_since_s_ = now_s();
+}
+
+void FaultyHalo::start() { computing_since_s_ = now_s(); }
+
+/// Between two calls a rank computes.
+void FaultyHalo::compute_slowly() const {
+  const double start_s = now_s(), computed_s = start_s - computing_since_s_;
+  if (fault_.kind != Fault::Kind::slow) return;
+  while (now_s() < start_s + (fault_.number - 1) * computed_s) {
+  }
 }
 
 } // namespace dss

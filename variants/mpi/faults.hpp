@@ -20,12 +20,15 @@ public:
   FaultyHalo(Halo& halo, const Fault& fault) : halo_(halo), fault_(fault) {}
   void send(Side side, int copy) override;
   void receive(Side side, int copy) override;
+  /// Computation starts now.
+  void start();
 
 private:
   Halo& halo_;
   const Fault fault_;
+  void compute_slowly() const;
   long exchanges_ = 0;
-  double computing_since_s_ = 0; ///< 0: not since the last receive
+  double computing_since_s_ = 0; ///< end of the last call, or start()
 };
 
 } // namespace dss
