@@ -8,12 +8,6 @@
 
 namespace dss {
 
-/// Where a neighbour's elements lie among the rows of a part: all before its own rows, all behind them, or among them.
-/// An executor may start on one side while messages from the other are under way.
-enum class Side { lower, upper, among };
-inline constexpr Side all_sides[] = {Side::lower, Side::upper, Side::among};
-Side side_of(const Part& part, const Neighbour& neighbour);
-
 /// Where elements lie in an executor's memory, in the order of a message.
 struct HaloLayout {
   struct Piece {
@@ -48,5 +42,27 @@ struct PartSetup {
   bool is_overlapped = false;  ///< compute what needs no halo first, and what neighbours wait for as early as possible
   int depth(int stages) const { return is_every_stage ? 1 : stages; }
 };
+
+/// One step of a part in the order that hides messages best: the rows that the upper neighbours wait for are a pass of
+/// their own and come first (if it is split), those that the lower ones wait for come first in the other pass.
+/// @param run_upper  computes the upper pass  @param run_lower  computes the lower pass; calls its argument when the
+/// lower edge is done
+template <class RunUpper, class RunLower>
+void overlapped_step(Halo& halo, int copy, int next_copy, bool is_last, bool is_split, RunUpper&& run_upper,
+                     RunLower&& run_lower) {
+  const auto send = [&](Side side) {
+    if (!is_last) halo.send(side, next_copy);
+  };
+  halo.receive(Side::among, copy);
+  halo.receive(Side::upper, copy);
+  if (is_split) {
+    run_upper();
+    send(Side::upper);
+  }
+  halo.receive(Side::lower, copy);
+  run_lower([&] { send(Side::lower); });
+  if (!is_split) send(Side::upper);
+  send(Side::among);
+}
 
 } // namespace dss

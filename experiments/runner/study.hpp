@@ -13,19 +13,29 @@ struct Cell {
   std::string scene;
   std::vector<Override> set;
   std::string variant;
-  int threads = 1;
+  int threads = 1; ///< of each rank
+  int ranks = 1;
+  std::string decomposition = "strips", halo = "auto"; ///< as asked for; without meaning on 1 rank
   std::string model, precision, integrator;
   long steps = 0;
   long full_steps = 0;  ///< of the study; `steps` is less where the variant is too slow for them
   bool is_twin = false; ///< the second of an A/A pair
   std::string skipped;  ///< why it cannot run here, or empty
+  /// Of a weak scaling: overrides of its cell on 1 rank, "n=100"; else empty.
+  std::string weak_base_set;
 
   /// "n=100"
   std::string set_text() const;
-  /// Unique in a study: "plate_paper n=100 avx512 t2 spatial f64 rk4 500 steps (A/A)"
+  /// Unique in a study: "plate_paper n=100 avx512 t2 spatial f64 rk4 500 steps (A/A)", on ranks "... avx512 r4 strips
+  /// deep t1 ..."
   std::string key() const;
-  /// Cells with equal physics and steps, whose states are comparable: the key without variant, threads and twin.
+  /// Cells with equal physics and steps, whose states are comparable: the key without what computes them (variant,
+  /// threads, ranks and what belongs to them) and twin.
   std::string problem_key() const;
+  /// For people: "avx512, 2 threads", "avx512, 2 ranks x 1 thread, halo deep"
+  std::string label() const;
+  /// More workers than cores: shown, but no measure of speed.
+  bool is_oversubscribed(int cores) const { return ranks * threads > cores; }
 };
 
 /// How much is measured: seconds, minutes or the paper's size.
@@ -51,7 +61,7 @@ struct PaperRow {
 
 struct Study {
   std::string name, title, path;
-  std::vector<std::string> bases; ///< variants that speed-ups refer to, on one thread
+  std::vector<std::string> bases; ///< variants that speed-ups refer to, on one rank and thread
   std::vector<Cell> cells;
   Scale scale;
   std::string paper_source;

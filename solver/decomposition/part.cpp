@@ -2,6 +2,8 @@
 #include "solver/decomposition/zones.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace dss {
 namespace {
@@ -124,6 +126,34 @@ Part make_part(const Problem& problem, const Decomposition& decomposition, int i
   return part;
 }
 
+/// What a part computes, row by row.
+static void measure_rows(const Lattice& lattice, const Zones& zones, PartSize& size) {
+  struct RowCells {
+    std::size_t layer = 0, own = 0, all = 0;
+    bool has_halo = false;
+  };
+  std::map<int, RowCells> rows;
+  for (std::size_t layer = 0; layer <= zones.layers.size(); ++layer)
+    for (const Segment& segment : (layer == 0 ? zones.own : zones.layers[layer - 1]).segments()) {
+      RowCells& row = rows.try_emplace(segment.row, RowCells{layer}).first->second;
+      const auto cells = std::size_t(segment.x_end - segment.x_begin); // of these sets all are present
+      row.all += cells;
+      if (layer == 0) row.own += cells;
+      row.has_halo |= layer > 0;
+    }
+  size.row_elements.assign(zones.layers.size() + 1, 0);
+  for (const auto& [r, row] : rows) {
+    size.row_elements[row.layer] += row.all;
+    const Row& place = lattice.rows[std::size_t(r)];
+    const bool reads_halo = std::ranges::any_of(
+        std::array{r, place.lower_y, place.upper_y, place.lower_z, place.upper_z}, [&](int beside) {
+          const auto found = rows.find(beside);
+          return found != rows.end() && found->second.has_halo;
+        });
+    if (!reads_halo) size.inner_elements += row.own;
+  }
+}
+
 PartSize part_size(const Problem& problem, const Decomposition& decomposition, int index, int depth) {
   const Zones zones = find_zones(CellGrid(problem), decomposition, index, depth);
   PartSize size;
@@ -134,8 +164,16 @@ PartSize part_size(const Problem& problem, const Decomposition& decomposition, i
     last_row = segment.row;
   }
   for (const CellSet& layer : zones.layers) size.layer_elements.push_back(layer.cell_count());
-  for (const Zones::Face& face : zones.faces)
-    size.faces.push_back({face.part, face.send.cell_count(), face.receive.cell_count()});
+  const int first = zones.own.segments().front().row;
+  for (const Zones::Face& face : zones.faces) {
+    const auto& received = face.receive.segments();
+    const Side side = received.empty()                ? Side::among
+                      : received.back().row < first   ? Side::lower
+                      : received.front().row > last_row ? Side::upper
+                                                      : Side::among;
+    size.faces.push_back({face.part, side, face.send.cell_count(), face.receive.cell_count()});
+  }
+  measure_rows(problem.lattice, zones, size);
   return size;
 }
 

@@ -32,13 +32,23 @@ struct Part {
   std::vector<Neighbour> neighbours; ///< ascending by part
 };
 
+/// Where a neighbour's elements lie among the rows of a part: all before its own rows, all behind them, or among them.
+/// An executor may start on one side while messages from the other are under way.
+enum class Side { lower, upper, among };
+inline constexpr Side all_sides[] = {Side::lower, Side::upper, Side::among};
+Side side_of(const Part& part, const Neighbour& neighbour);
+
 /// Sizes alone, without the sub-problem: for reports and for simulated clusters, whose parts are not computed.
 struct PartSize {
   std::size_t own_elements = 0;
   int own_rows = 0;                        ///< rows with an own element
   std::vector<std::size_t> layer_elements; ///< elements of halo layer 1, 2, ... depth
+  /// Elements, own and halo, of the rows whose least layer is 0, 1, ... depth. Rows are computed whole.
+  std::vector<std::size_t> row_elements;
+  std::size_t inner_elements = 0; ///< of own rows that read no halo
   struct Face {
     int part = 0;
+    Side side = Side::among;
     std::size_t send = 0, receive = 0; ///< elements
     bool operator==(const Face&) const = default;
   };

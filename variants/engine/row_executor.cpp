@@ -349,25 +349,14 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
 
 template <class T>
 void RowExecutor<T>::step_overlapped(const double* signals, int parity, bool is_last) {
-  Halo& halo = part_->halo;
-  const auto send = [&](Side side) {
-    if (!is_last) halo.send(side, parity ^ 1);
-  };
-  const bool is_split = steps_.size() == 2;
-  WavefrontStep<T>& lower = steps_.front();
-  // The lower neighbours wait for the first rows, which are done early in the pass.
+  WavefrontStep<T>&lower = steps_.front(), &upper = steps_.back();
   const int edge = std::min(packed_.own_begin + setup_.method.stages * packed_.reach, packed_.own_end) - 1;
-  lower.watch(edge, [&] { send(Side::lower); });
-  halo.receive(Side::among, parity);
-  halo.receive(Side::upper, parity);
-  if (is_split) {
-    steps_.back()(signals, 1, parity);
-    send(Side::upper);
-  }
-  halo.receive(Side::lower, parity);
-  lower(signals, 1, parity);
-  if (!is_split) send(Side::upper);
-  send(Side::among);
+  overlapped_step(
+      part_->halo, parity, parity ^ 1, is_last, steps_.size() == 2, [&] { upper(signals, 1, parity); },
+      [&](auto&& edge_is_done) {
+        lower.watch(edge, edge_is_done);
+        lower(signals, 1, parity);
+      });
 }
 
 template <class T>

@@ -35,8 +35,9 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   if (executor_->halo_copies() == 0 && world_.ranks() > 1)
     throw InputError(
         fmt::format("variant mpi:{}: {} does not compute parts; give one that does", plugin.name, plugin.name));
-  exchange_->attach(executor_->halo_copies(), [this](std::span<const std::size_t> elements, int copy) {
-    return executor_->halo_layout(elements, copy);
+  exchange_->attach(executor_->halo_copies(), [this](const Face& face, Way way, int copy) {
+    const Neighbour& neighbour = part_.neighbours[face.number];
+    return executor_->halo_layout(way == Way::out ? neighbour.send : neighbour.receive, copy);
   });
   info_.ranks = world_.ranks();
   info_.decomposition = found.decomposition.method;

@@ -9,7 +9,7 @@ namespace dss {
 std::vector<Face> faces_of(const Part& part) {
   std::vector<Face> faces;
   for (const Neighbour& neighbour : part.neighbours)
-    faces.push_back({neighbour.part, side_of(part, neighbour), neighbour.send, neighbour.receive});
+    faces.push_back({neighbour.part, side_of(part, neighbour), faces.size()});
   return faces;
 }
 

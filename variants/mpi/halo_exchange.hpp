@@ -7,7 +7,6 @@
 #include <functional>
 #include <memory>
 #include <mpi.h>
-#include <span>
 #include <vector>
 
 namespace dss {
@@ -16,14 +15,15 @@ namespace dss {
 struct Face {
   int rank = 0;
   Side side = Side::among;
-  std::vector<std::size_t> send, receive; ///< elements, as in Neighbour
+  std::size_t number = 0; ///< among the part's neighbours
 };
+enum class Way { out, in };
 std::vector<Face> faces_of(const Part& part);
 
 class HaloExchange : public Halo {
 public:
-  /// Where elements lie in a copy: Executor::halo_layout, or a stand-in for it.
-  using LayoutOf = std::function<HaloLayout(std::span<const std::size_t> elements, int copy)>;
+  /// Where what a face sends or receives lies in a copy: Executor::halo_layout, or a stand-in for it.
+  using LayoutOf = std::function<HaloLayout(const Face& face, Way way, int copy)>;
   /// Makes everything ready that needs to know the memory. Collective.
   virtual void attach(int copies, const LayoutOf& layout_of) = 0;
   const Traffic& traffic() const { return traffic_; }

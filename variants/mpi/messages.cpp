@@ -9,7 +9,6 @@ namespace {
 /// A message that is sent or received again and again, by one request.
 class PersistentMessage {
 public:
-  enum class Way { out, in };
   PersistentMessage(Way way, HaloLayout layout, int rank, MPI_Comm comm) : layout_(std::move(layout)) {
     is_direct_ = layout_.is_stable && layout_.pieces.size() == 1;
     if (!is_direct_) buffer_.resize(layout_.size);
@@ -51,12 +50,11 @@ public:
   MessageExchange(std::vector<Face> faces, MPI_Comm comm) : HaloExchange(std::move(faces)), comm_(comm) {}
 
   void attach(int copies, const LayoutOf& layout_of) override {
-    using Way = PersistentMessage::Way;
     for (const Face& face : faces_) {
       messages_.emplace_back();
       for (int copy = 0; copy < copies; ++copy) {
-        messages_.back().out.emplace_back(Way::out, layout_of(face.send, copy), face.rank, comm_);
-        messages_.back().in.emplace_back(Way::in, layout_of(face.receive, copy), face.rank, comm_);
+        messages_.back().out.emplace_back(Way::out, layout_of(face, Way::out, copy), face.rank, comm_);
+        messages_.back().in.emplace_back(Way::in, layout_of(face, Way::in, copy), face.rank, comm_);
       }
     }
   }

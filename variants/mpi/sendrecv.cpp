@@ -77,8 +77,8 @@ public:
     for (const Face& face : faces_) {
       types_.emplace_back();
       for (int copy = 0; copy < copies; ++copy) {
-        const HaloLayout out = layout_of(face.send, copy);
-        types_.back().push_back({PiecesType(out), PiecesType(layout_of(face.receive, copy)), out.size});
+        const HaloLayout out = layout_of(face, Way::out, copy);
+        types_.back().push_back({PiecesType(out), PiecesType(layout_of(face, Way::in, copy)), out.size});
       }
     }
   }

@@ -41,8 +41,8 @@ public:
     for (const Face& face : faces_) {
       channels_.emplace_back();
       for (int copy = 0; copy < copies; ++copy) {
-        channels_.back().out.push_back(layout_of(face.send, copy));
-        channels_.back().in.push_back(layout_of(face.receive, copy));
+        channels_.back().out.push_back(layout_of(face, Way::out, copy));
+        channels_.back().in.push_back(layout_of(face, Way::in, copy));
       }
       starts.push_back(bytes);
       bytes += 2 * slot_size(channels_.back().out.front().size);

@@ -3,49 +3,22 @@
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
-#include "solver/numerics/signal_rows.hpp"
 #include "variants/halo_cost.hpp"
 #include "variants/mpi/network.hpp"
+#include "variants/trial.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <limits>
 
 namespace dss {
 namespace {
 
-constexpr double trial_s = 5e-3; ///< of each of a few timings
-constexpr int trials = 4;
 constexpr double resolution = 1.1; ///< ranks whose measured speeds differ by less count as equal
 
-/// Trials run on zeros: what is in the halo costs the same.
-class NoHalo final : public Halo {
-public:
-  void send(Side, int) override {}
-  void receive(Side, int) override {}
-};
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-/// Seconds that this rank computes in a step of its part; the least of a few timings.
 double measure_step_s(const Setup& setup, const Plugin& plugin, const Part& part, const HaloStrategy& strategy,
                       const Fault& fault) {
-  NoHalo halo;
-  const PartSetup part_setup{part, halo, strategy.is_every_stage, strategy.is_overlapped};
-  Setup own{part.problem, setup.method, setup.model, setup.precision, setup.dt, setup.threads, &part_setup};
-  const auto executor = plugin.create(own);
-  const auto run_s = [&](long steps) {
-    const std::vector<double> signals = signal_rows(part.problem, setup.method, setup.dt, 0, steps);
-    const double start = now_s();
-    executor->advance(steps, signals);
-    return now_s() - start;
-  };
-  long steps = 1;
-  while (run_s(steps) < trial_s && steps < 1 << 16) steps *= 2;
-  double least = std::numeric_limits<double>::infinity();
-  for (int n = 0; n < trials; ++n) least = std::min(least, run_s(steps) / double(steps));
-  return least * fault.slowdown();
+  return measure_step_s(setup, plugin, part, strategy) * fault.slowdown();
 }
 
 int halo_depth(const HaloStrategy& strategy, const Method& method) {

@@ -1,4 +1,4 @@
-#include "variants/halo.hpp"
+#include "solver/decomposition/part.hpp"
 
 #include <algorithm>
 

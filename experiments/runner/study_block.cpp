@@ -1,0 +1,262 @@
+#include "experiments/runner/study_block.hpp"
+#include "experiments/runner/job.hpp"
+#include "solver/decomposition/decomposition.hpp"
+#include "solver/model/model.hpp"
+#include "solver/nearest_name.hpp"
+#include "solver/numerics/method.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <optional>
+#include <set>
+
+namespace dss {
+namespace {
+
+std::string override_text(const JsonPlace& place) {
+  const nlohmann::json& value = place.value();
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return value.dump();
+  place.fail(fmt::format("{} is neither a number nor a text", value.dump()));
+}
+
+/// Numbers of threads or ranks, ascending.
+std::vector<int> counts(const JsonPlace& place, int cores, const char* what) {
+  std::vector<int> numbers;
+  for (const JsonPlace& item : place.items()) {
+    if (item.value() == "cores")
+      numbers.push_back(cores);
+    else if (item.value() == "1..cores") {
+      for (int number = 1; number <= cores; ++number) numbers.push_back(number);
+    } else if (item.value().is_number_integer()) {
+      numbers.push_back(int(item.count(1)));
+    } else {
+      item.fail(fmt::format("{} is neither a number of {} nor \"cores\" nor \"1..cores\"", item.value().dump(), what));
+    }
+  }
+  if (numbers.empty()) place.fail(fmt::format("is empty; give at least one number of {}", what));
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+/// Whether a variant has more than one thread; unknown (and so no) where it cannot be opened.
+bool is_threaded(const VariantStatus& status) { return status.is_usable() && load_variant(status.name).is_threaded; }
+
+/// The oracle's own loop knows nothing of parts; all others can compute one.
+bool can_distribute(const std::string& variant) { return variant != "reference"; }
+
+/// Problems that grow with the ranks: a parameter in proportion to ranks^(1 / power), so that elements, which go with
+/// its power, stay as many on each rank.
+struct WeakScaling {
+  std::string parameter;
+  long power = 1;
+};
+
+/// What a block of cells names, in every combination.
+struct Block {
+  Sets sets;
+  std::vector<std::string> variants, models, precisions, integrators, decompositions, halos;
+  std::vector<int> threads, ranks;
+  std::optional<WeakScaling> weak;
+};
+
+/// Names of a list, each checked. @param otherwise  where the block has no such key
+std::vector<std::string> known_names(const JsonPlace& block, const std::string& key, const char* otherwise,
+                                     const char* what, const std::vector<std::string>& known) {
+  if (!block.has(key)) return {otherwise};
+  const std::vector<std::string> names = block[key].texts();
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      block[key].fail(fmt::format("unknown {} \"{}\"; {}", what, name, nearest_name(name, known)));
+  return names;
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) names.emplace_back(method.name);
+  return names;
+}
+
+std::vector<std::string> halo_names() {
+  std::vector<std::string> names = {"auto"};
+  for (const HaloStrategy& strategy : halo_strategies()) names.emplace_back(strategy.name);
+  return names;
+}
+
+void read_ranks(const JsonPlace& place, int cores, Block& block) {
+  block.ranks = place.has("ranks") ? counts(place["ranks"], cores, "ranks") : std::vector<int>{1};
+  const auto methods_known = decomposition_methods();
+  block.decompositions =
+      known_names(place, "decompositions", "strips", "decomposition", {methods_known.begin(), methods_known.end()});
+  block.halos = known_names(place, "halos", "auto", "halo strategy", halo_names());
+  for (const std::string& variant : block.variants)
+    if (block.ranks.back() > 1 && !can_distribute(variant))
+      place["ranks"].fail(
+          fmt::format("variant \"{}\" cannot compute parts, and runs on 1 rank; give it a block of its own", variant));
+  if (!place.has("weak")) return;
+  const JsonPlace weak = place["weak"];
+  weak.require_keys({"parameter", "power"});
+  block.weak = {weak["parameter"].text(), weak["power"].count(1)};
+  if (block.ranks.front() != 1)
+    weak.fail("compares problems on several ranks with one on 1 rank; give \"ranks\" such as [1, 2, 4]");
+}
+
+Block read_block(const JsonPlace& place, const Sets& scale_sets, int cores) {
+  place.require_keys({"scene", "set", "variants", "threads", "ranks", "decompositions", "halos", "weak", "models",
+                      "precisions", "integrators"});
+  Block block;
+  for (const auto& own : place.has("set") ? combinations(place["set"]) : Sets(1))
+    for (const auto& of_scale : scale_sets) {
+      block.sets.push_back(own);
+      block.sets.back().insert(block.sets.back().end(), of_scale.begin(), of_scale.end());
+    }
+  block.variants = place["variants"].texts();
+  for (const std::string& name : block.variants) known_variant(name, place["variants"]);
+  block.threads = place.has("threads") ? counts(place["threads"], cores, "threads") : std::vector<int>{1};
+  block.models = known_names(place, "models", "spatial", "model", {"spatial", "planar"});
+  block.precisions = known_names(place, "precisions", "f64", "precision", {"f64", "f32"});
+  block.integrators = known_names(place, "integrators", "rk4", "integrator", method_names());
+  read_ranks(place, cores, block);
+  return block;
+}
+
+/// The overrides of a weak scaling on so many ranks.
+std::vector<Override> grown(std::vector<Override> set, const WeakScaling& weak, int ranks, const JsonPlace& place) {
+  const auto last = std::find_if(set.rbegin(), set.rend(), [&](const Override& o) { return o.key == weak.parameter; });
+  if (last == set.rend())
+    place["parameter"].fail(
+        fmt::format("neither the block's set nor the scale's has \"{}\", from which problems grow", weak.parameter));
+  char* end = nullptr;
+  const double value = std::strtod(last->value.c_str(), &end);
+  if (*end != '\0' || !(value >= 1) || value != std::floor(value))
+    place["parameter"].fail(fmt::format("{}={} is not a whole number that can grow", last->key, last->value));
+  last->value = fmt::format("{}", std::lround(value * std::pow(double(ranks), 1 / double(weak.power))));
+  return set;
+}
+
+/// Every cell with every value of one of its members.
+template <class Value>
+void multiply(std::vector<Cell>& cells, const std::vector<Value>& values, Value Cell::*member) {
+  std::vector<Cell> more;
+  for (const Cell& cell : cells)
+    for (const Value& value : values) {
+      more.push_back(cell);
+      more.back().*member = value;
+    }
+  cells = std::move(more);
+}
+
+std::vector<Cell> combined(const std::string& scene, const Block& block) {
+  std::vector<Cell> cells(1);
+  cells[0].scene = scene;
+  multiply(cells, block.sets, &Cell::set);
+  multiply(cells, block.models, &Cell::model);
+  multiply(cells, block.precisions, &Cell::precision);
+  multiply(cells, block.integrators, &Cell::integrator);
+  multiply(cells, block.variants, &Cell::variant);
+  multiply(cells, block.threads, &Cell::threads);
+  multiply(cells, block.ranks, &Cell::ranks);
+  multiply(cells, block.decompositions, &Cell::decomposition);
+  multiply(cells, block.halos, &Cell::halo);
+  std::erase_if(cells, [&](const Cell& cell) { // one process exchanges nothing
+    return cell.ranks == 1 && (cell.decomposition != block.decompositions[0] || cell.halo != block.halos[0]);
+  });
+  return cells;
+}
+
+/// Why a cell cannot run here, or empty.
+std::string why_skipped(const Cell& cell, const VariantStatus& status) {
+  if (!status.is_usable() || cell.ranks == 1) return status.unusable;
+  const std::string why = why_no_ranks();
+  return why.empty() ? why_no_decomposition(cell.decomposition) : why;
+}
+
+/// Steps of a cell of this set, before `steps_for`.
+long steps_of(const Scale& scale, const Cell& cell) {
+  const auto own = scale.steps_by_set.find(cell.set_text());
+  return own == scale.steps_by_set.end() ? scale.steps : own->second;
+}
+
+std::vector<Cell> cells_of(const JsonPlace& place, const Block& block, const Scale& scale) {
+  std::vector<Cell> cells = combined(place["scene"].text(), block);
+  std::erase_if(cells, [&](const Cell& cell) {
+    return cell.threads > 1 && !is_threaded(known_variant(cell.variant, place["variants"]));
+  });
+  for (Cell& cell : cells) {
+    if (block.weak) {
+      cell.weak_base_set = cell.set_text();
+      cell.set = grown(cell.set, *block.weak, cell.ranks, place["weak"]);
+    }
+    cell.skipped = why_skipped(cell, known_variant(cell.variant, place["variants"]));
+    cell.full_steps = steps_of(scale, cell);
+    const auto fewer = scale.steps_for.find(cell.variant);
+    cell.steps = fewer == scale.steps_for.end() ? cell.full_steps : std::min(fewer->second, cell.full_steps);
+  }
+  return cells;
+}
+
+/// Refuses what cannot be run at all: an unknown scene or override, a planar model of what leaves the plane.
+void require_loadable(const JsonPlace& place, const Block& block, const std::vector<Cell>& cells) {
+  std::set<std::string> loaded;
+  for (const Cell& cell : cells) {
+    if (!loaded.insert(cell.set_text()).second) continue;
+    try {
+      const Scene scene = load_scene(cell.scene, cell.set);
+      const bool is_planar = std::find(block.models.begin(), block.models.end(), "planar") != block.models.end();
+      if (const std::string why = why_not_planar(scene.problem); is_planar && !why.empty())
+        throw InputError(fmt::format("model \"planar\": {}", why));
+    } catch (const InputError& error) {
+      place.fail(error.what());
+    }
+  }
+}
+
+} // namespace
+
+Sets combinations(const JsonPlace& place) {
+  if (!place.value().is_object()) place.fail("is not an object of overrides, such as {\"n\": [50, 100]}");
+  Sets sets(1);
+  for (const auto& [key, value] : place.value().items()) {
+    Sets longer;
+    for (const auto& set : sets)
+      for (const JsonPlace& item : place[key].items()) {
+        longer.push_back(set);
+        longer.back().push_back({key, override_text(item)});
+      }
+    sets = std::move(longer);
+  }
+  return sets;
+}
+
+const VariantStatus& known_variant(const std::string& name, const JsonPlace& place) {
+  std::vector<std::string> names;
+  for (const VariantStatus& status : variants()) {
+    if (status.name == name) return status;
+    names.push_back(status.name);
+  }
+  place.fail(fmt::format("unknown variant \"{}\"; {}", name, nearest_name(name, names)));
+}
+
+void add_block(const JsonPlace& place, const Sets& scale_sets, int cores, Study& study) {
+  const Block block = read_block(place, scale_sets, cores);
+  const std::vector<Cell> cells = cells_of(place, block, study.scale);
+  require_loadable(place, block, cells);
+  std::set<std::string> keys;
+  for (const Cell& cell : cells) {
+    if (!keys.insert(cell.key()).second) place.fail(fmt::format("the same cell twice: {}", cell.key()));
+    const auto same = std::find_if(study.cells.begin(), study.cells.end(),
+                                   [&](const Cell& other) { return other.key() == cell.key(); });
+    if (same == study.cells.end())
+      study.cells.push_back(cell);
+    else if (same->weak_base_set.empty())
+      same->weak_base_set = cell.weak_base_set;
+    else if (!cell.weak_base_set.empty() && same->weak_base_set != cell.weak_base_set)
+      place["weak"].fail(
+          fmt::format("{} belongs to the weak scaling from {} already", cell.key(), same->weak_base_set));
+  }
+}
+
+} // namespace dss
