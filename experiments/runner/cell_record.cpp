@@ -18,10 +18,12 @@ Record identity(const RecordPlace& place) {
                 {"model", cell.model},
                 {"precision", cell.precision},
                 {"integrator", cell.integrator},
-                {"ranks", "1"},
                 {"time_utc", measurement_time()}};
   row["twin"] = cell.is_twin ? "true" : "false";
   row["threads"] = fmt::format("{}", cell.threads);
+  row["ranks"] = fmt::format("{}", cell.ranks);
+  row["decomposition"] = cell.ranks > 1 ? cell.decomposition : "";
+  row["halo"] = cell.ranks > 1 ? cell.halo : ""; // the strategy that ran is in halo_used
   row["cores"] = fmt::format("{}", place.cores);
   row["steps"] = fmt::format("{}", cell.steps);
   row["full_steps"] = fmt::format("{}", cell.full_steps);
@@ -31,6 +33,35 @@ Record identity(const RecordPlace& place) {
 }
 
 } // namespace
+
+std::vector<std::string> run_arguments(const Study& study, const Cell& cell, const std::string& oracle_file) {
+  const auto text = [](auto number) { return fmt::format("{}", number); };
+  std::vector<std::string> line = {"dssbench",
+                                   "run",
+                                   cell.scene,
+                                   "--variant",
+                                   cell.variant,
+                                   "--threads",
+                                   text(cell.threads),
+                                   "--model",
+                                   cell.model,
+                                   "--precision",
+                                   cell.precision,
+                                   "--integrator",
+                                   cell.integrator,
+                                   "--steps",
+                                   text(cell.steps),
+                                   "--warmup",
+                                   text(study.scale.warmup_steps),
+                                   "--check-state",
+                                   oracle_file,
+                                   "--json",
+                                   "-"};
+  if (cell.ranks > 1)
+    line.insert(line.end(), {"--ranks", text(cell.ranks), "--decomposition", cell.decomposition, "--halo", cell.halo});
+  for (const Override& item : cell.set) line.insert(line.end(), {"--set", item.key + "=" + item.value});
+  return line;
+}
 
 Record failure_record(const RecordPlace& place, const std::string& status, const std::string& reason) {
   Record row = identity(place);
@@ -51,6 +82,7 @@ Record result_record(const RecordPlace& place, const nlohmann::json& json, doubl
     else if (!value.is_null())
       row[column] = value.dump();
   }
+  row["halo_used"] = json.value("halo", "");
   row["contaminated"] = json.value("is_contaminated", false) ? "true" : "false";
   row["process_s"] = number_text(process_s);
   // JSON has no infinity: an error that is missing from a failed check is one

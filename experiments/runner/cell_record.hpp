@@ -1,10 +1,11 @@
 #pragma once
-/// Rows of the raw file.
+/// A cell as `dssbench run` takes it, and what that says as a row of the raw file.
 #include "experiments/runner/records.hpp"
 #include "experiments/runner/study.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace dss {
 
@@ -15,6 +16,9 @@ struct RecordPlace {
   long repetition = 0, attempt = 0;
   int cores = 1; ///< that this process may use
 };
+
+/// Command line of one repetition. @param oracle_file  expected state
+std::vector<std::string> run_arguments(const Study& study, const Cell& cell, const std::string& oracle_file);
 
 /// A row for a repetition without a time: skipped, failed, past its time limit.
 Record failure_record(const RecordPlace& place, const std::string& status, const std::string& reason);

@@ -17,6 +17,7 @@ void add_verify_command(CLI::App& app, Chosen& chosen);
 void add_experiment_command(CLI::App& app, Chosen& chosen);
 void add_stability_command(CLI::App& app, Chosen& chosen);
 void add_compare_command(CLI::App& app, Chosen& chosen);
+void add_simulate_command(CLI::App& app, Chosen& chosen);
 void add_decompose_command(CLI::App& app, Chosen& chosen);
 
 } // namespace dss

@@ -49,6 +49,7 @@ Comparison compared(const CellSample& before, const CellSample& after, double re
 /// Why the times of a sample count for nothing, or empty.
 std::string invalidity(const CellSample& sample) {
   if (sample.status() != "ok") return sample.status();
+  if (sample.is_oversubscribed()) return "oversubscribed";
   return sample.check() == "passed" ? std::string() : "check " + sample.check();
 }
 

@@ -20,8 +20,8 @@ struct Comparison {
 /// Resolution where no A/A pair was measured: a ratio nearer to 1 than this is no difference.
 constexpr double default_resolution = 0.02;
 
-/// Compares cell by cell. A cell that failed its check, has none, or whose status is not "ok" on either side gets no
-/// verdict. Samples of nine and more: Mann-Whitney's test (p < 0.05) and a ratio beyond the resolution;
+/// Compares cell by cell. A cell that failed its check, has none, whose status is not "ok", or that has more workers than
+/// cores on either side gets no verdict. Samples of nine and more: Mann-Whitney's test (p < 0.05) and a ratio beyond the resolution;
 /// six to eight: intervals that do not overlap and a ratio beyond the resolution; fewer: no verdict.
 std::vector<Comparison> compare_records(const std::vector<Record>& old_records, const std::vector<Record>& new_records,
                                         double resolution);

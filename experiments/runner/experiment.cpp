@@ -7,6 +7,7 @@
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/samples.hpp"
+#include "experiments/runner/scaling.hpp"
 #include "experiments/runner/statistics.hpp"
 #include "experiments/runner/tables.hpp"
 #include "solver/error.hpp"
@@ -33,6 +34,8 @@ struct CellState {
   double process_s = 0;   ///< of the last repetition
   long done = 0;          ///< repetitions recorded
   bool is_converged = false;
+  bool is_partner = false;        ///< other cells are compared with it: it goes on as long as any of them does
+  bool is_oversubscribed = false; ///< a time to be shown, of which no claim is made
 };
 
 class ExperimentRun {
@@ -40,7 +43,8 @@ public:
   ExperimentRun(const Study& study, const std::string& directory, bool resume, const std::string& program)
       : study_(study), paths_(experiment_paths(directory, study.name)), program_(program), resume_(resume),
         file_(paths_.raw, raw_columns(), resume), start_(std::chrono::steady_clock::now()), cores_(usable_cores()) {
-    for (const Cell& cell : study.cells) cells_.push_back({&cell, {}, false, 0, 0, false});
+    for (const Cell& cell : study.cells)
+      cells_.push_back({&cell, {}, false, 0, 0, false, is_partner(cell), cell.is_oversubscribed(cores_)});
     take_over(file_.present());
   }
 
@@ -109,21 +113,23 @@ private:
     return std::any_of(cells_.begin(), cells_.end(), [&](const CellState& state) { return is_wanted(state); });
   }
   bool is_wanted(const CellState& state) const {
-    return !state.is_broken && !state.is_converged && state.done < study_.scale.max_repetitions &&
-           state.cell->skipped.empty();
+    const long most = state.is_oversubscribed ? study_.scale.min_repetitions : study_.scale.max_repetitions;
+    return !state.is_broken && !state.is_converged && state.done < most && state.cell->skipped.empty();
   }
   /// Bases and twins go on while any cell does: speed-ups are ratios of pairs of the same round.
-  bool is_partner(const CellState& state) const {
-    const bool is_base = std::find(study_.bases.begin(), study_.bases.end(), state.cell->variant) != study_.bases.end();
-    return !state.is_broken && state.cell->skipped.empty() &&
-           ((is_base && state.cell->threads == 1) || state.cell->is_twin);
+  bool is_partner(const Cell& cell) const {
+    const bool is_base = std::find(study_.bases.begin(), study_.bases.end(), cell.variant) != study_.bases.end();
+    return cell.is_twin || (is_base && cell.threads == 1 && cell.ranks == 1) || is_scaling_base(study_, cell);
+  }
+  bool is_still_partner(const CellState& state) const {
+    return state.is_partner && !state.is_broken && !state.is_oversubscribed && state.cell->skipped.empty();
   }
 
   /// One repetition of every cell that wants one, in random order; false if the budget is spent.
   bool round(long repetition) {
     std::vector<CellState*> order;
     for (CellState& state : cells_)
-      if (state.done <= repetition && (is_wanted(state) || is_partner(state))) order.push_back(&state);
+      if (state.done <= repetition && (is_wanted(state) || is_still_partner(state))) order.push_back(&state);
     std::mt19937_64 generator(order_seed + std::uint64_t(repetition));
     for (std::size_t last = order.size(); last > 1; --last) std::swap(order[last - 1], order[generator() % last]);
     for (std::size_t place = 0; place < order.size(); ++place) {
@@ -150,7 +156,8 @@ private:
       const Record row = measured(state, repetition, attempt);
       record(state, row);
       const bool is_dirty = text_in(row, "contaminated") == "true" && text_in(row, "status") == "ok";
-      if (!is_dirty || retry_s_ + state.process_s > 0.25 * study_.scale.budget_s) return;
+      if (!is_dirty || state.is_oversubscribed) return; // workers that share cores wait by nature
+      if (retry_s_ + state.process_s > 0.25 * study_.scale.budget_s) return;
       if (attempt < study_.scale.retries) retry_s_ += state.process_s;
     }
   }
@@ -163,7 +170,7 @@ private:
     } catch (const std::exception& error) {
       return failure_record(place(cell, repetition, attempt), "failed", error.what());
     }
-    const ChildResult child = run_child(program_, arguments(cell, oracle_file), study_.scale.time_limit_s);
+    const ChildResult child = run_child(program_, run_arguments(study_, cell, oracle_file), study_.scale.time_limit_s);
     state.process_s = child.wall_s;
     const nlohmann::json json = nlohmann::json::parse(child.output, nullptr, false);
     if (json.is_object() && json.contains("context")) context_ = json["context"];
@@ -175,32 +182,6 @@ private:
     if (!json.is_object())
       return failure_record(place(cell, repetition, attempt), "failed", "its result is no JSON object");
     return result_record(place(cell, repetition, attempt), json, child.wall_s);
-  }
-
-  std::vector<std::string> arguments(const Cell& cell, const std::string& oracle_file) const {
-    std::vector<std::string> line = {"dssbench",
-                                     "run",
-                                     cell.scene,
-                                     "--variant",
-                                     cell.variant,
-                                     "--threads",
-                                     fmt::format("{}", cell.threads),
-                                     "--model",
-                                     cell.model,
-                                     "--precision",
-                                     cell.precision,
-                                     "--integrator",
-                                     cell.integrator,
-                                     "--steps",
-                                     fmt::format("{}", cell.steps),
-                                     "--warmup",
-                                     fmt::format("{}", study_.scale.warmup_steps),
-                                     "--check-state",
-                                     oracle_file,
-                                     "--json",
-                                     "-"};
-    for (const Override& item : cell.set) line.insert(line.end(), {"--set", item.key + "=" + item.value});
-    return line;
   }
 
   RecordPlace place(const Cell& cell, long repetition, long attempt) const {

@@ -21,6 +21,14 @@ const std::vector<std::string>& raw_columns() {
                                                    "threads",
                                                    "workers",
                                                    "ranks",
+                                                   "decomposition",
+                                                   "halo",
+                                                   "halo_used",
+                                                   "halo_reason",
+                                                   "imbalance",
+                                                   "messages_per_step",
+                                                   "bytes_per_step",
+                                                   "communication_share",
                                                    "cores",
                                                    "twin",
                                                    "elements",
@@ -76,6 +84,11 @@ std::string CellSample::status() const {
   for (const auto& [number, record] : repetitions)
     if (text_in(record, "status") != "ok") return text_in(record, "status");
   return text_in(last, "status");
+}
+
+bool CellSample::is_oversubscribed() const {
+  const double ranks = number_in(last, "ranks"); // none in records of others
+  return (std::isnan(ranks) ? 1 : ranks) * number_in(last, "threads") > number_in(last, "cores");
 }
 
 double CellSample::check_error() const {

@@ -32,6 +32,8 @@ struct CellSample {
   std::string check() const;
   /// "ok" if every repetition and the last record are, else the first other status.
   std::string status() const;
+  /// More workers than the machine had cores: its times are shown, and count for nothing.
+  bool is_oversubscribed() const;
   /// Largest error of any repetition, NaN without a check.
   double check_error() const;
 };

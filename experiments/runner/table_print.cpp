@@ -12,14 +12,17 @@ std::string shown(const Record& row, const std::string& column, const char* form
   return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), scale * value);
 }
 
+/// A median with its interval.
+std::string shown_interval(const Record& row, const std::string& column) {
+  if (text_in(row, column + "_low").empty()) return shown(row, column, "{:.2f}");
+  return fmt::format("{} [{}, {}]", shown(row, column, "{:.2f}"), shown(row, column + "_low", "{:.2f}"),
+                     shown(row, column + "_high", "{:.2f}"));
+}
+
 std::string shown_speedup(const Record& row, const std::string& base) {
   const std::string measured = "speedup_vs_" + base, scaled = "extrapolated_" + measured;
-  const std::string& column = text_in(row, measured).empty() ? scaled : measured;
-  if (text_in(row, column).empty()) return "";
-  const std::string mark = column == scaled ? "~" : "";
-  if (text_in(row, column + "_low").empty()) return mark + shown(row, column, "{:.2f}");
-  return fmt::format("{}{} [{}, {}]", mark, shown(row, column, "{:.2f}"), shown(row, column + "_low", "{:.2f}"),
-                     shown(row, column + "_high", "{:.2f}"));
+  if (!text_in(row, measured).empty()) return shown_interval(row, measured);
+  return text_in(row, scaled).empty() ? "" : fmt::format("~{}", shown_interval(row, scaled));
 }
 
 std::string shown_time(const Record& row) {
@@ -37,6 +40,27 @@ std::string shown_status(const Record& row) {
          (is_ok && number_in(row, "contaminated") > 0
               ? fmt::format(", {} of {} contaminated", text_in(row, "contaminated"), text_in(row, "repetitions"))
               : "");
+}
+
+/// What the cells on several ranks cost and gain; empty if there are none.
+std::string scaling_text(const Table& table) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Record& row : table.rows)
+    if (text_in(row, "source") == "measured" && number_in(row, "ranks") > 1)
+      rows.push_back({text_in(row, "label"), text_in(row, "set"), text_in(row, "halo_used"),
+                      shown_interval(row, "speedup_vs_1_rank"), shown(row, "parallel_efficiency", "{:.2f}"),
+                      shown(row, "karp_flatt", "{:.3f}"), shown_interval(row, "speedup_vs_threads"),
+                      shown_interval(row, "weak_efficiency"), shown(row, "communication_share", "{:.1f} %", 100),
+                      shown(row, "messages_per_step", "{:.4g}"), shown(row, "bytes_per_step", "{:.4g}", 1e-3),
+                      shown(row, "imbalance", "{:.3f}"), text_in(row, "status")});
+  if (rows.empty()) return "";
+  return fmt::format(
+      "\nOver ranks:\n{}"
+      "vs 1 rank, efficiency, Karp-Flatt: the same problem; vs threads: one process with as many threads "
+      "as all ranks; weak: the problem grows with the ranks.\n",
+      text_table({"cell", "set", "halo used", "vs 1 rank", "efficiency", "Karp-Flatt", "vs threads", "weak efficiency",
+                  "exchanges", "messages/step", "kB/step", "imbalance", "status"},
+                 rows));
 }
 
 } // namespace
@@ -66,6 +90,7 @@ std::string table_text(const Study& study, const Table& table) {
   text += "Medians with the half-width of their 95 % interval; speed-ups are medians of ratios of interleaved pairs "
           "[95 % interval]; ~ scaled from fewer steps.\n";
   if (!resolution.empty()) text += fmt::format("Resolution by the A/A pair: {}. No claim below it.\n", resolution);
+  text += scaling_text(table);
   if (!paper.empty())
     text += fmt::format("\nPublished ({}):\n{}", study.paper_source,
                         text_table({"configuration", "wall [s]", "speed-up"}, paper));

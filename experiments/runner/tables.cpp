@@ -1,10 +1,11 @@
 #include "experiments/runner/tables.hpp"
-#include "experiments/runner/samples.hpp"
-#include "experiments/runner/statistics.hpp"
+#include "experiments/runner/scaling.hpp"
+#include "experiments/runner/study_samples.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <set>
 
 namespace dss {
@@ -20,6 +21,11 @@ std::vector<std::string> table_columns(const Study& study) {
                                       "variant",
                                       "isa",
                                       "threads",
+                                      "ranks",
+                                      "decomposition",
+                                      "halo",
+                                      "halo_used",
+                                      "workers",
                                       "cores",
                                       "model",
                                       "precision",
@@ -42,73 +48,48 @@ std::vector<std::string> table_columns(const Study& study) {
     for (const char* form : {"speedup_vs_{}", "speedup_vs_{}_low", "speedup_vs_{}_high", "extrapolated_speedup_vs_{}",
                              "extrapolated_speedup_vs_{}_low", "extrapolated_speedup_vs_{}_high"})
       columns.push_back(fmt::format(fmt::runtime(form), base));
-  for (const char* column : {"resolution", "check", "check_error", "check_tolerance", "state_digest", "status",
-                             "reason", "paper_wall_s", "paper_speedup", "paper_source"})
+  columns.insert(columns.end(), scaling_columns().begin(), scaling_columns().end());
+  for (const char* column :
+       {"imbalance", "messages_per_step", "bytes_per_step", "communication_share", "resolution", "check", "check_error",
+        "check_tolerance", "state_digest", "status", "reason", "paper_wall_s", "paper_speedup", "paper_source"})
     columns.emplace_back(column);
   return columns;
-}
-
-/// Digests of problems on which cells that must agree to the last bit do not.
-class DigestCheck {
-public:
-  DigestCheck(const Study& study, const std::map<std::string, const CellSample*>& samples) {
-    std::map<std::string, std::set<std::string>> digests;
-    for (const Cell& cell : study.cells)
-      if (const auto sample = samples.find(cell.key()); sample != samples.end())
-        for (const auto& [number, record] : sample->second->repetitions)
-          digests[group(cell, record)].insert(text_in(record, "state_digest"));
-    for (const auto& [name, found] : digests)
-      if (found.size() > 1) unequal_.insert(name);
-  }
-  bool is_unequal(const Cell& cell, const CellSample& sample) const {
-    return !sample.is_empty() && unequal_.contains(group(cell, sample.repetitions.begin()->second));
-  }
-
-private:
-  /// All variants with FMA form one group of a problem; of the others each agrees with itself, over its threads too.
-  static std::string group(const Cell& cell, const Record& record) {
-    return cell.problem_key() + " " + (text_in(record, "has_fma") == "true" ? "FMA" : cell.variant);
-  }
-  std::set<std::string> unequal_;
-};
-
-std::string label_of(const Cell& cell) {
-  return fmt::format("{}, {} thread{}{}", cell.variant, cell.threads, cell.threads == 1 ? "" : "s",
-                     cell.is_twin ? " (A/A)" : "");
-}
-
-/// The base's cell for a cell: the same physics, on one thread, with as many steps as the base has.
-const Cell* base_of(const Study& study, const std::string& base, const Cell& cell) {
-  for (const Cell& other : study.cells)
-    if (other.variant == base && other.threads == 1 && !other.is_twin && other.scene == cell.scene &&
-        other.set_text() == cell.set_text() && other.model == cell.model && other.precision == cell.precision &&
-        other.integrator == cell.integrator)
-      return &other;
-  return nullptr;
-}
-
-void put_interval(Record& row, const std::string& column, const Estimate& estimate) {
-  row[column] = number_text(estimate.median);
-  if (!estimate.interval) return;
-  row[column + "_low"] = number_text(estimate.interval->low);
-  row[column + "_high"] = number_text(estimate.interval->high);
 }
 
 void put_identity(const Study& study, const Cell& cell, const CellSample& sample, Record& row) {
   row["experiment"] = study.name;
   row["scale"] = study.scale.name;
   row["source"] = "measured";
-  row["label"] = label_of(cell);
+  row["label"] = cell.label();
   row["scene"] = cell.scene;
   row["set"] = cell.set_text();
+  row["weak_base_set"] = cell.weak_base_set;
   row["variant"] = cell.variant;
   row["threads"] = fmt::format("{}", cell.threads);
+  row["ranks"] = fmt::format("{}", cell.ranks);
+  if (cell.ranks > 1) {
+    row["decomposition"] = cell.decomposition;
+    row["halo"] = cell.halo;
+  }
   row["model"] = cell.model;
   row["precision"] = cell.precision;
   row["integrator"] = cell.integrator;
   row["steps"] = fmt::format("{}", cell.steps);
-  for (const char* column : {"isa", "cores", "elements", "status", "reason", "check_tolerance", "state_digest"})
+  for (const char* column : {"isa", "workers", "cores", "elements", "status", "reason", "check_tolerance",
+                             "state_digest", "imbalance", "messages_per_step", "bytes_per_step"})
     row[column] = text_in(sample.last, column);
+}
+
+/// What differs from repetition to repetition of a cell on several ranks.
+void put_exchange(const CellSample& sample, Record& row) {
+  std::set<std::string> halos; // an automatic choice need not be the same each time
+  std::vector<double> shares;
+  for (const auto& [number, record] : sample.repetitions) {
+    halos.insert(text_in(record, "halo_used"));
+    if (const double share = number_in(record, "communication_share"); !std::isnan(share)) shares.push_back(share);
+  }
+  row["halo_used"] = fmt::format("{}", fmt::join(halos, " or "));
+  if (!shares.empty()) row["communication_share"] = number_text(median(shares));
 }
 
 void put_times(const Study& study, const Cell& cell, const CellSample& sample, Record& row) {
@@ -134,6 +115,47 @@ void put_times(const Study& study, const Cell& cell, const CellSample& sample, R
   row["check_error"] = number_text(sample.check_error());
 }
 
+void put_speedups(const Study& study, const StudySamples& samples, const Cell& cell, Record& row) {
+  for (const std::string& base : study.bases) {
+    const Cell* other = one_rank_cell(study, cell, base, 1, cell.set_text());
+    if (other == nullptr) continue;
+    const bool is_scaled = cell.steps != other->steps;
+    if (const auto speedup = samples.speedup(*other, cell))
+      put_interval(row, (is_scaled ? "extrapolated_speedup_vs_" : "speedup_vs_") + base, *speedup);
+  }
+}
+
+Record measured_row(const Study& study, const StudySamples& samples, const Cell& cell) {
+  const CellSample* sample = samples.of(cell);
+  Record row;
+  put_identity(study, cell, sample == nullptr ? CellSample{} : *sample, row);
+  if (sample == nullptr) {
+    row["status"] = "not measured";
+    return row;
+  }
+  if (sample->is_empty()) return row;
+  put_times(study, cell, *sample, row);
+  put_exchange(*sample, row);
+  if (samples.is_unequal(cell)) {
+    row["status"] = "wrong";
+    row["reason"] = "its bits are not those of the other variants with FMA, threads, ranks or repetitions";
+  }
+  if (row["status"] == "ok" && sample->is_oversubscribed()) row["status"] = "oversubscribed";
+  put_speedups(study, samples, cell, row);
+  put_scaling(study, samples, cell, row);
+  return row;
+}
+
+Record published_row(const Study& study, const PaperRow& paper) {
+  Record row = {{"experiment", study.name},
+                {"source", "paper"},
+                {"label", paper.label},
+                {"paper_wall_s", number_text(paper.wall_s)},
+                {"paper_source", study.paper_source}};
+  if (paper.speedup > 0) row["paper_speedup"] = number_text(paper.speedup);
+  return row;
+}
+
 } // namespace
 
 std::optional<double> resolution_of(const std::vector<Record>& records) {
@@ -155,58 +177,15 @@ std::optional<double> resolution_of(const std::vector<Record>& records) {
 }
 
 Table derive_table(const Study& study, const std::vector<Record>& records) {
-  std::vector<Record> own; // a resumed file may hold other scales of the study
-  for (const Record& record : records)
-    if (text_in(record, "scale") == study.scale.name) own.push_back(record);
-  const std::vector<CellSample> samples = samples_of(own);
-  std::map<std::string, const CellSample*> by_key;
-  for (const CellSample& sample : samples) by_key[sample.key] = &sample;
-  const DigestCheck digests(study, by_key);
+  const std::vector<Record> own = records_of_scale(study, records);
+  const StudySamples samples(study, own);
   const std::optional<double> resolution = resolution_of(own);
-  const auto sample_of = [&](const Cell& cell) {
-    const auto found = by_key.find(cell.key());
-    return found == by_key.end() ? nullptr : found->second;
-  };
-  const auto may_compare = [&](const Cell& cell, const CellSample* sample) {
-    return sample != nullptr && !sample->is_empty() && sample->check() == "passed" &&
-           text_in(sample->last, "status") == "ok" && !digests.is_unequal(cell, *sample) &&
-           number_in(sample->last, "threads") <= number_in(sample->last, "cores");
-  };
   Table table{table_columns(study), {}};
   for (const Cell& cell : study.cells) {
-    const CellSample* sample = sample_of(cell);
-    Record row;
-    put_identity(study, cell, sample == nullptr ? CellSample{} : *sample, row);
-    if (sample == nullptr) row["status"] = "not measured";
-    if (sample != nullptr && !sample->is_empty()) {
-      put_times(study, cell, *sample, row);
-      if (digests.is_unequal(cell, *sample)) {
-        row["status"] = "wrong";
-        row["reason"] = "its bits are not those of the other variants with FMA, threads or repetitions";
-      }
-      if (row["status"] == "ok" && cell.threads > number_in(sample->last, "cores")) row["status"] = "oversubscribed";
-    }
-    for (const std::string& base : study.bases) {
-      const Cell* other = base_of(study, base, cell);
-      const CellSample* base_sample = other == nullptr ? nullptr : sample_of(*other);
-      if (other == nullptr || !may_compare(cell, sample) || !may_compare(*other, base_sample)) continue;
-      const std::vector<double> ratios = paired_ratios(*base_sample, *sample);
-      const bool is_scaled = cell.steps != other->steps;
-      if (!ratios.empty())
-        put_interval(row, (is_scaled ? "extrapolated_speedup_vs_" : "speedup_vs_") + base, estimate(ratios));
-    }
-    if (resolution) row["resolution"] = number_text(*resolution);
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(measured_row(study, samples, cell));
+    if (resolution) table.rows.back()["resolution"] = number_text(*resolution);
   }
-  for (const PaperRow& paper : study.paper) {
-    Record row = {{"experiment", study.name},
-                  {"source", "paper"},
-                  {"label", paper.label},
-                  {"paper_wall_s", number_text(paper.wall_s)},
-                  {"paper_source", study.paper_source}};
-    if (paper.speedup > 0) row["paper_speedup"] = number_text(paper.speedup);
-    table.rows.push_back(std::move(row));
-  }
+  for (const PaperRow& paper : study.paper) table.rows.push_back(published_row(study, paper));
   return table;
 }
 

@@ -11,7 +11,7 @@ namespace dss {
 
 /// Table of a study. Measured times are in measured_wall_s (median) with an interval; times scaled from fewer steps are
 /// in extrapolated_wall_s, published ones in paper_wall_s: no column mixes them. Speed-ups are medians of ratios of
-/// interleaved pairs; a cell that failed its check, or has more threads than cores, gets none.
+/// interleaved pairs; a cell that failed its check, or has more workers than cores, gets none.
 Table derive_table(const Study& study, const std::vector<Record>& records);
 
 /// Resolution of a set of records: how far the ratio of an A/A pair, or its interval's ends, is from 1; nothing without

@@ -1,0 +1,30 @@
+#pragma once
+/// How speed changes with the number of ranks: strong scaling (the same problem on more ranks) and weak scaling (a problem
+/// that grows with them).
+#include "experiments/runner/study_samples.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// The cell of a study on 1 rank that has this variant, number of threads and overrides, and else is as `like`; null if
+/// there is none.
+const Cell* one_rank_cell(const Study& study, const Cell& like, const std::string& variant, int threads,
+                          const std::string& set_text);
+
+/// Whether cells on several ranks are compared with this one.
+bool is_scaling_base(const Study& study, const Cell& cell);
+
+/// Karp and Flatt's serial fraction (1/S - 1/R) / (1 - 1/R), measured from a speed-up S on R > 1 ranks: what grows with R
+/// is overhead, what does not is serial. Negative for S > R.
+double karp_flatt(double speedup, int ranks);
+
+/// A median with its interval's ends in COLUMN_low and COLUMN_high, which are empty without an interval.
+void put_interval(Record& row, const std::string& column, const Estimate& estimate);
+
+const std::vector<std::string>& scaling_columns();
+/// Fills scaling_columns() of a cell on several ranks; empty for what is not comparable (see StudySamples::speedup).
+void put_scaling(const Study& study, const StudySamples& samples, const Cell& cell, Record& row);
+
+} // namespace dss

@@ -1,0 +1,212 @@
+#include "experiments/runner/simulation.hpp"
+
+#include "experiments/runner/child.hpp"
+#include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
+#include "variants/loader.hpp"
+#include "variants/trial.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <unistd.h>
+
+namespace dss {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t most_trial_elements = 1'000'000;
+constexpr double time_limit_s = 600;
+
+/// Settings with which a ping-pong takes just the latency and bandwidth that the platform states, computation takes what
+/// is injected, and a thousand ranks run in seconds. (Measured: SimGrid 3.32; its defaults are those of one old cluster.)
+constexpr const char* settings[] = {
+    "--log=root.thresh:critical",
+    "--cfg=network/model:SMPI",
+    "--cfg=surf/precision:1e-9",
+    "--cfg=smpi/privatization:no",
+    "--cfg=smpi/tmpdir:/tmp",
+    "--cfg=smpi/simulate-computation:no",
+    "--cfg=smpi/host-speed:1Gf",
+    "--cfg=smpi/cpu-threshold:0",
+    "--cfg=smpi/wtime:0",
+    "--cfg=smpi/async-small-thresh:65536", // small messages need no receiver to be on their way, as in Open MPI
+    "--cfg=smpi/send-is-detached-thresh:65536",
+    "--cfg=smpi/allreduce:rdb", // the default collectives take minutes at 1,024 ranks
+    "--cfg=smpi/barrier:mpich",
+    "--cfg=smpi/allgatherv:mpich_rdb",
+    "--cfg=smpi/reduce:binomial",
+    "--cfg=smpi/bcast:binomial_tree",
+    "--cfg=contexts/stack-size:1024"};
+
+std::string module_path() {
+  std::error_code error;
+  const fs::path installed =
+      fs::read_symlink(this_program, error).parent_path().parent_path() / "lib/dssbench/simulated_cluster.so";
+  return fs::exists(installed, error) ? installed.string() : DSS_SIMULATED_CLUSTER;
+}
+
+/// A file that is gone when this is.
+class TemporaryFile {
+public:
+  explicit TemporaryFile(const std::string& text) {
+    path_ = (fs::temp_directory_path() / fmt::format("dssbench-{}-{}.json", ::getpid(), ++count_)).string();
+    std::ofstream(path_) << text;
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code error;
+    fs::remove(path_, error);
+  }
+  const std::string& path() const { return path_; }
+
+private:
+  static inline int count_ = 0;
+  std::string path_;
+};
+
+/// Elements times stages that a part computes in a step: rows whole, each as often as a later stage needs it.
+double element_stages(const PartSize& size, const HaloStrategy& strategy, int stages) {
+  if (strategy.is_every_stage) return double(size.row_elements[0]) * stages;
+  double sum = 0;
+  for (std::size_t layer = 0; layer < size.row_elements.size(); ++layer)
+    sum += double(size.row_elements[layer]) * std::max(0, stages - int(layer));
+  return sum;
+}
+
+int halo_depth(const HaloStrategy& strategy, const Method& method) {
+  return strategy.is_every_stage ? 1 : method.stages;
+}
+
+/// The passes of an overlapped step, as RowExecutor::make_blocks cuts them.
+void plan_passes(const PartSize& size, int stages, int reach, double speed, PlannedPart& part) {
+  const auto has = [&](Side side) {
+    return std::ranges::any_of(size.faces, [&](const PartSize::Face& face) { return face.side == side; });
+  };
+  const double row_s = double(size.row_elements[0]) / size.own_rows / speed; // of one row and stage
+  const int halo = stages * reach;
+  const double again = reach * stages * (stages - 1) / 2.0; // rows times stages computed beside a cut
+  const bool is_split = has(Side::upper) && size.own_rows >= 3 * halo;
+  if (is_split) {
+    part.upper_s = row_s * (halo * stages + 2 * again);
+    part.compute_s += row_s * 2 * again;
+  }
+  const double lower_s = part.compute_s - part.upper_s;
+  const int lower_rows = size.own_rows - (is_split ? halo : 0);
+  const double done_at = double(halo + (stages - 1) * reach) / (lower_rows + (stages - 1) * reach);
+  part.edge_s = has(Side::lower) ? lower_s * std::min(1.0, done_at) : 0;
+}
+
+PlannedPart plan_part(const SimulatedProblem& what, const PartSize& size, const HaloStrategy& strategy, double speed) {
+  const int stages = what.method.stages;
+  const std::size_t element_bytes = field_count * (what.precision == Precision::f64 ? 8 : 4);
+  PlannedPart part;
+  part.compute_s = element_stages(size, strategy, stages) / speed;
+  part.inner_s = part.compute_s * double(size.inner_elements) / double(std::max<std::size_t>(1, size.row_elements[0]));
+  if (strategy.is_overlapped && !strategy.is_every_stage)
+    plan_passes(size, stages, what.problem.lattice.row_reach(), speed, part);
+  for (const PartSize::Face& face : size.faces)
+    part.faces.push_back({face.part, face.side, face.send * element_bytes, face.receive * element_bytes});
+  return part;
+}
+
+/// A decomposition whose parts are small enough to be tried: the one given, or as many strips as it takes.
+Decomposition trial_decomposition(const Problem& problem, const Decomposition& decomposition, std::size_t largest) {
+  if (largest <= most_trial_elements) return decomposition;
+  const std::size_t parts = problem.lattice.element_count / most_trial_elements + 1;
+  return decompose(problem, "strips", int(parts));
+}
+
+std::size_t largest_part(const Problem& problem, const Decomposition& decomposition, int& index) {
+  std::vector<std::size_t> elements(std::size_t(decomposition.parts), 0);
+  for (const Share& share : decomposition.shares) {
+    const Row& row = problem.lattice.rows[std::size_t(share.segment.row)];
+    for (int x = share.segment.x_begin; x < share.segment.x_end; ++x)
+      elements[std::size_t(share.part)] += problem.lattice.is_present(row, x);
+  }
+  const auto most = std::ranges::max_element(elements);
+  index = int(most - elements.begin());
+  return *most;
+}
+
+} // namespace
+
+std::string why_no_simulation() {
+  if (std::string_view(DSS_SMPIMAIN).empty()) return "built without SimGrid (libsimgrid-dev)";
+  return ::access(DSS_SMPIMAIN, X_OK) == 0 ? "" : fmt::format("{} is not there", DSS_SMPIMAIN);
+}
+
+NodeSpeed given_speed(const std::string& name, double element_steps_per_s, const Method& method) {
+  return {name, element_steps_per_s * method.stages, element_steps_per_s * method.stages};
+}
+
+NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposition) {
+  int index = 0;
+  const std::size_t largest = largest_part(what.problem, decomposition, index);
+  const Decomposition tried = trial_decomposition(what.problem, decomposition, largest);
+  largest_part(what.problem, tried, index);
+  const Plugin& plugin = load_variant("auto");
+  const auto speed = [&](const HaloStrategy& strategy) {
+    const int depth = halo_depth(strategy, what.method);
+    const Part part = make_part(what.problem, tried, index, depth);
+    const double work = element_stages(part_size(what.problem, tried, index, depth), strategy, what.method.stages);
+    const Setup setup{part.problem, what.method, what.model, what.precision, what.problem.dt};
+    return work / measure_step_s(setup, plugin, part, strategy);
+  };
+  return {"ours", speed(*find_halo_strategy("deep")), speed(*find_halo_strategy("sendrecv"))};
+}
+
+SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition, const NodeSpeed& speed,
+                         const std::string& halo, int steps) {
+  SimulationPlan plan{steps, halo, {}};
+  for (const bool is_every_stage : {true, false}) {
+    std::vector<PartSize> sizes;
+    for (int p = 0; p < decomposition.parts; ++p)
+      sizes.push_back(part_size(what.problem, decomposition, p, is_every_stage ? 1 : what.method.stages));
+    for (const HaloStrategy& strategy : halo_strategies()) {
+      if (strategy.is_every_stage != is_every_stage || strategy.transport == HaloStrategy::Transport::shared) continue;
+      PlannedStrategy planned{std::string(strategy.name), is_every_stage ? what.method.stages : 1, {}};
+      for (const PartSize& size : sizes)
+        planned.parts.push_back(
+            plan_part(what, size, strategy, is_every_stage ? speed.stage_by_stage : speed.at_once));
+      plan.strategies.push_back(std::move(planned));
+    }
+  }
+  return plan;
+}
+
+std::string platform_path(const std::string& name_or_path) {
+  if (name_or_path.ends_with(".xml") && fs::exists(name_or_path)) return name_or_path;
+  const fs::path folder = fs::path(DSS_SOURCE_DIR) / "experiments/platforms";
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    names.push_back(entry.path().stem().string());
+    if (names.back() == name_or_path) return entry.path().string();
+  }
+  std::ranges::sort(names);
+  throw InputError(fmt::format("--platform {}: no such platform; {}", name_or_path, nearest_name(name_or_path, names)));
+}
+
+SimulatedRun simulate(const SimulationPlan& plan, const std::string& platform) {
+  if (const std::string why = why_no_simulation(); !why.empty()) throw InputError(fmt::format("simulate: {}", why));
+  const std::size_t ranks = plan.strategies.front().parts.size();
+  const TemporaryFile file(nlohmann::json(plan).dump());
+  std::vector<std::string> line = {"smpimain", module_path()};
+  line.insert(line.end(), std::begin(settings), std::end(settings));
+  line.insert(line.end(), {fmt::format("--cfg=smpi/np:{}", ranks), platform, file.path()});
+  const ChildResult child = run_child(DSS_SMPIMAIN, line, time_limit_s);
+  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(child.output, nullptr, false);
+  if (!json.is_object()) { // SimGrid ends with exit code 0 even after a deadlock: only the result counts
+    const std::string failure = child.failure(time_limit_s);
+    throw InputError(fmt::format("simulate: {} ranks on {}: {}", ranks, platform,
+                                 failure.empty() ? "no result: " + child.error.substr(0, child.error.find('\n')) : failure));
+  }
+  return {json["halo"],          json["step_s"],         json["communication_s_per_step"], json["messages_per_step"],
+          json["bytes_per_step"], json["latency_s"], json["seconds_a_byte"],           json["predicted_step_s"]};
+}
+
+} // namespace dss

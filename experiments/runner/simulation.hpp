@@ -1,0 +1,57 @@
+#pragma once
+/// Jobs on clusters that we do not have: SimGrid runs the exchange code of variants/mpi, computation is injected.
+#include "solver/decomposition/part.hpp"
+#include "solver/model/model.hpp"
+#include "solver/numerics/method.hpp"
+#include "variants/mpi/simulated/plan.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace dss {
+
+/// How fast a simulated node computes, in elements and stages a second, halo elements included.
+struct NodeSpeed {
+  std::string name;          ///< "paper" or "ours"
+  double at_once = 0;        ///< all stages in one pass
+  double stage_by_stage = 0; ///< with an exchange after each
+};
+
+/// What is simulated.
+struct SimulatedProblem {
+  const Problem& problem;
+  const Method& method;
+  Model model = Model::spatial;
+  Precision precision = Precision::f64;
+};
+
+/// The network and what became of a step on it.
+struct SimulatedRun {
+  std::string halo; ///< that ran
+  double step_s = 0, communication_s_per_step = 0;
+  double messages_per_step = 0, bytes_per_step = 0;
+  double latency_s = 0, seconds_a_byte = 0;  ///< by ping-pong in the simulation
+  nlohmann::ordered_json predicted_step_s;   ///< by strategy
+};
+
+/// Empty, or why nothing can be simulated here: "built without SimGrid".
+std::string why_no_simulation();
+
+/// Speed of one core of this machine on parts of this decomposition: the largest part is computed, or one as large as a
+/// trial may be.
+NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposition);
+/// Speed of a node that takes so many seconds for a step of so many elements, whatever the schedule.
+NodeSpeed given_speed(const std::string& name, double element_steps_per_s, const Method& method);
+
+/// What each strategy (but those through shared memory: every rank is a node) computes and exchanges.
+/// @param halo  strategy to run, or "auto"
+SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition, const NodeSpeed& speed,
+                         const std::string& halo, int steps);
+
+/// Path of a platform by its name in experiments/platforms, or a path. @throws InputError naming the nearest
+std::string platform_path(const std::string& name_or_path);
+
+/// Runs a plan on a platform. @throws InputError with what SimGrid said if it fails
+SimulatedRun simulate(const SimulationPlan& plan, const std::string& platform);
+
+} // namespace dss
