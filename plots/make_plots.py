@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""All figures of a directory of results: a bar chart for each table, a picture for each .vtu in fields/.
+"""All figures of a directory of results: a bar chart for each table, lines over ranks where it has them, a picture for each .vtu in fields/.
 
 Reads DIR/tables/*.csv and DIR/fields/*.vtu, writes DIR/figures/. No solver runs.
 Example: plots/make_plots.py --results results
@@ -9,6 +9,7 @@ import pathlib
 import sys
 
 import plate_picture
+import scaling_lines
 import speedup_bars
 
 
@@ -23,6 +24,9 @@ def main():
     for table in tables:
         output = results / "figures" / f"{table.stem}.png"
         print(speedup_bars.draw(table, None, output) or output)
+        output = results / "figures" / f"{table.stem}_scaling.png"
+        if scaling_lines.draw(table, output) is None:  # most tables have no ranks
+            print(output)
     for field in fields:
         output = results / "figures" / f"{field.stem}.png"
         plate_picture.draw(field, output, None)

@@ -28,6 +28,8 @@ OTHER_COLOUR = "#CC79A7"
 def rows_with_speedup(table, base):
     """Measured rows that have a speed-up against `base`; a scaled one (from fewer steps) is marked by `is_scaled`."""
     rows = table[table["source"] == "measured"].copy()
+    if "ranks" not in rows.columns:  # a table from before there were ranks
+        rows["ranks"] = 1
     scaled = rows[f"speedup_vs_{base}"].isna()
     for end in ("", "_low", "_high"):
         exact, scaled_column = f"speedup_vs_{base}{end}", f"extrapolated_speedup_vs_{base}{end}"
@@ -38,7 +40,7 @@ def rows_with_speedup(table, base):
 
 def base_time(rows, base):
     """The absolute time of the base, in words."""
-    own = rows[(rows["variant"] == base) & (rows["threads"] == 1) & ~rows["label"].str.contains("A/A")]
+    own = rows[(rows["variant"] == base) & (rows["threads"] == 1) & (rows["ranks"] == 1) & ~rows["label"].str.contains("A/A")]
     if own.empty:
         return f"base {base}"
     row = own.iloc[0]
@@ -75,10 +77,11 @@ def draw(path, base, output):
     """Writes the chart; returns a line that says why there is none, or None."""
     table = pandas.read_csv(path)
     if base is None:
-        found = [c for c in table.columns if c.startswith("speedup_vs_") and not c.endswith(("_low", "_high"))]
+        # Those against a variant have columns of scaled ones beside them; those against 1 rank have not.
+        found = [c for c in table.columns if c.startswith("extrapolated_speedup_vs_") and not c.endswith(("_low", "_high"))]
         if not found:
             return f"{path}: has no speed-ups; give a table of results/tables"
-        base = found[-1].removeprefix("speedup_vs_")
+        base = found[-1].removeprefix("extrapolated_speedup_vs_")
     if f"speedup_vs_{base}" not in table.columns:
         return f"{path}: has no column speedup_vs_{base}; give --base another variant"
     rows = rows_with_speedup(table, base)

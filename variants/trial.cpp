@@ -25,8 +25,8 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 double measure_step_s(const Setup& setup, const Plugin& plugin, const Part& part, const HaloStrategy& strategy) {
   NoHalo halo;
   const PartSetup part_setup{part, halo, strategy.is_every_stage, strategy.is_overlapped};
-  const auto executor = plugin.create(
-      {part.problem, setup.method, setup.model, setup.precision, setup.dt, setup.threads, &part_setup});
+  const auto executor =
+      plugin.create({part.problem, setup.method, setup.model, setup.precision, setup.dt, setup.threads, &part_setup});
   const auto run_s = [&](long steps) {
     const std::vector<double> signals = signal_rows(part.problem, setup.method, setup.dt, 0, steps);
     const double start = now_s();

@@ -3,8 +3,13 @@
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/progress.hpp"
+#include "experiments/runner/simulation_study.hpp"
 #include "experiments/runner/text_table.hpp"
 
+#include "solver/io/atomic_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -32,13 +37,38 @@ void print_plan(const Study& study, const std::string& out) {
              paths.raw);
 }
 
+/// Simulates what the study says, beside what it has measured.
+int simulate(const std::string& name, const std::vector<SimulationBlock>& blocks, const std::string& out) {
+  const ExperimentPaths paths = experiment_paths(out, name);
+  const std::string path = experiment_paths(out, name + "_simulated").table;
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+  require_writable(path);
+  const Table measured = std::filesystem::exists(paths.table) ? read_csv(paths.table) : Table{};
+  const Table table = simulate_study(name, blocks, measured);
+  write_csv(path, table);
+  fmt::print("\n{}\nTable: {}\n", simulation_text(table), path);
+  const bool has_failed =
+      std::ranges::any_of(table.rows, [](const Record& row) { return text_in(row, "status") == "failed"; });
+  return has_failed ? exit_check_failed : exit_success;
+}
+
 int experiment(const ExperimentArguments& arguments) {
+  const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
+  const std::string simulated_only = name_if_simulated_only(arguments.file);
+  if (!simulated_only.empty() && arguments.is_dry) {
+    fmt::print("{}: {} blocks to simulate\n", simulated_only, blocks.size());
+    return exit_success;
+  }
+  if (!simulated_only.empty()) return simulate(simulated_only, blocks, arguments.out);
   const Study study = load_study(arguments.file, arguments.scale, usable_cores());
   if (arguments.is_dry) {
     print_plan(study, arguments.out);
     return exit_success;
   }
-  return run_experiment(study, arguments.out, arguments.resumes, this_program) ? exit_success : exit_check_failed;
+  const bool is_fine = run_experiment(study, arguments.out, arguments.resumes, this_program);
+  const int simulated = blocks.empty() ? exit_success : simulate(study.name, blocks, arguments.out);
+  return is_fine ? simulated : exit_check_failed;
 }
 
 } // namespace

@@ -24,8 +24,7 @@ int simulate_scene(const SimulateArguments& arguments) {
   const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
   const auto precision = find_precision(arguments.precision);
   if (!precision) throw InputError(fmt::format("--precision {}: give f64 or f32", arguments.precision));
-  const Method& method =
-      require_method(arguments.integrator.empty() ? scene.problem.integrator : arguments.integrator);
+  const Method& method = require_method(arguments.integrator.empty() ? scene.problem.integrator : arguments.integrator);
   if (arguments.halo != "auto" && find_halo_strategy(arguments.halo) == nullptr)
     throw InputError(fmt::format("--halo {}: give auto, sendrecv, overlap, deep or deep-overlap", arguments.halo));
   if (arguments.halo == "shared")
@@ -33,10 +32,9 @@ int simulate_scene(const SimulateArguments& arguments) {
   const std::string platform = platform_path(arguments.platform);
   const SimulatedProblem what{scene.problem, method, find_model(scene.model).value(), *precision};
   const Decomposition decomposition = decompose(scene.problem, arguments.decomposition, arguments.ranks);
-  const NodeSpeed speed = arguments.node_speed > 0 ? given_speed("given", arguments.node_speed, method)
-                                                   : own_speed(what, decomposition);
-  const SimulatedRun run =
-      simulate(make_plan(what, decomposition, speed, arguments.halo, arguments.steps), platform);
+  const NodeSpeed speed =
+      arguments.node_speed > 0 ? given_speed("given", arguments.node_speed, method) : own_speed(what, decomposition);
+  const SimulatedRun run = simulate(make_plan(what, decomposition, speed, arguments.halo, arguments.steps), platform);
   const double elements = double(scene.problem.lattice.element_count);
   if (!arguments.json.empty())
     write_json(arguments.json, {{"context", measurement_context()},
@@ -85,12 +83,15 @@ void add_simulate_command(CLI::App& app, Chosen& chosen) {
       ->check(CLI::PositiveNumber);
   command->add_option("--precision", arguments->precision, "f64 or f32")->capture_default_str();
   command->add_option("--integrator", arguments->integrator, "rk4 or velocity_verlet (default: the scene's)");
-  command->add_option("--steps", arguments->steps, "Steps to simulate")->capture_default_str()->check(CLI::Range(1, 10000));
+  command->add_option("--steps", arguments->steps, "Steps to simulate")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000));
   command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--json", arguments->json, "File for the result, or - for standard output");
-  command->footer("Example: dssbench simulate plate_paper --set n=300 --ranks 6 --platform ten_gigabit --node-speed 1.211e6\n"
-                  "(the paper's node: 90,000 elements, 10,000 steps in 743.14 s)");
+  command->footer(
+      "Example: dssbench simulate plate_paper --set n=300 --ranks 6 --platform ten_gigabit --node-speed 1.211e6\n"
+      "(the paper's node: 90,000 elements, 10,000 steps in 743.14 s)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return simulate_scene(*arguments); }; });
 }
 

@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_trial_elements = 1'000'000;
 constexpr double time_limit_s = 600;
+constexpr int speed_rounds = 5; ///< the best counts: a shared machine is never too fast
 
 /// Settings with which a ping-pong takes just the latency and bandwidth that the platform states, computation takes what
 /// is injected, and a thousand ranks run in seconds. (Measured: SimGrid 3.32; its defaults are those of one old cluster.)
@@ -149,14 +150,19 @@ NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposi
   const Decomposition tried = trial_decomposition(what.problem, decomposition, largest);
   largest_part(what.problem, tried, index);
   const Plugin& plugin = load_variant("auto");
-  const auto speed = [&](const HaloStrategy& strategy) {
+  const auto once = [&](const HaloStrategy& strategy) {
     const int depth = halo_depth(strategy, what.method);
     const Part part = make_part(what.problem, tried, index, depth);
     const double work = element_stages(part_size(what.problem, tried, index, depth), strategy, what.method.stages);
     const Setup setup{part.problem, what.method, what.model, what.precision, what.problem.dt};
     return work / measure_step_s(setup, plugin, part, strategy);
   };
-  return {"ours", speed(*find_halo_strategy("deep")), speed(*find_halo_strategy("sendrecv"))};
+  NodeSpeed best{"ours", 0, 0};
+  for (int n = 0; n < speed_rounds; ++n) {
+    best.at_once = std::max(best.at_once, once(*find_halo_strategy("deep")));
+    best.stage_by_stage = std::max(best.stage_by_stage, once(*find_halo_strategy("sendrecv")));
+  }
+  return best;
 }
 
 SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition, const NodeSpeed& speed,
@@ -170,8 +176,7 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
       if (strategy.is_every_stage != is_every_stage || strategy.transport == HaloStrategy::Transport::shared) continue;
       PlannedStrategy planned{std::string(strategy.name), is_every_stage ? what.method.stages : 1, {}};
       for (const PartSize& size : sizes)
-        planned.parts.push_back(
-            plan_part(what, size, strategy, is_every_stage ? speed.stage_by_stage : speed.at_once));
+        planned.parts.push_back(plan_part(what, size, strategy, is_every_stage ? speed.stage_by_stage : speed.at_once));
       plan.strategies.push_back(std::move(planned));
     }
   }
@@ -202,10 +207,11 @@ SimulatedRun simulate(const SimulationPlan& plan, const std::string& platform) {
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(child.output, nullptr, false);
   if (!json.is_object()) { // SimGrid ends with exit code 0 even after a deadlock: only the result counts
     const std::string failure = child.failure(time_limit_s);
-    throw InputError(fmt::format("simulate: {} ranks on {}: {}", ranks, platform,
-                                 failure.empty() ? "no result: " + child.error.substr(0, child.error.find('\n')) : failure));
+    throw InputError(
+        fmt::format("simulate: {} ranks on {}: {}", ranks, platform,
+                    failure.empty() ? "no result: " + child.error.substr(0, child.error.find('\n')) : failure));
   }
-  return {json["halo"],          json["step_s"],         json["communication_s_per_step"], json["messages_per_step"],
+  return {json["halo"],           json["step_s"],    json["communication_s_per_step"], json["messages_per_step"],
           json["bytes_per_step"], json["latency_s"], json["seconds_a_byte"],           json["predicted_step_s"]};
 }
 

@@ -30,8 +30,8 @@ struct SimulatedRun {
   std::string halo; ///< that ran
   double step_s = 0, communication_s_per_step = 0;
   double messages_per_step = 0, bytes_per_step = 0;
-  double latency_s = 0, seconds_a_byte = 0;  ///< by ping-pong in the simulation
-  nlohmann::ordered_json predicted_step_s;   ///< by strategy
+  double latency_s = 0, seconds_a_byte = 0; ///< by ping-pong in the simulation
+  nlohmann::ordered_json predicted_step_s;  ///< by strategy
 };
 
 /// Empty, or why nothing can be simulated here: "built without SimGrid".

@@ -91,17 +91,6 @@ fs::path study_directory() {
   return fs::path(DSS_SOURCE_DIR) / "experiments";
 }
 
-std::string study_path(const std::string& name_or_path) {
-  if (name_or_path.ends_with(".json") || name_or_path.find('/') != std::string::npos) {
-    if (fs::exists(name_or_path)) return name_or_path;
-  }
-  std::vector<std::string> names;
-  for (const StudyListing& listing : list_studies()) {
-    if (listing.name == name_or_path || listing.name + ".json" == name_or_path) return listing.path;
-    names.push_back(listing.name);
-  }
-  throw InputError(fmt::format("{}: no such experiment; {}", name_or_path, nearest_name(name_or_path, names)));
-}
 
 } // namespace
 
@@ -140,6 +129,18 @@ std::vector<StudyListing> list_studies() {
   }
   std::sort(listings.begin(), listings.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return listings;
+}
+
+std::string study_path(const std::string& name_or_path) {
+  if (name_or_path.ends_with(".json") || name_or_path.find('/') != std::string::npos) {
+    if (fs::exists(name_or_path)) return name_or_path;
+  }
+  std::vector<std::string> names;
+  for (const StudyListing& listing : list_studies()) {
+    if (listing.name == name_or_path || listing.name + ".json" == name_or_path) return listing.path;
+    names.push_back(listing.name);
+  }
+  throw InputError(fmt::format("{}: no such experiment; {}", name_or_path, nearest_name(name_or_path, names)));
 }
 
 Study load_study(const std::string& name_or_path, const std::string& scale, int cores) {

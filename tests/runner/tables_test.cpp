@@ -1,45 +1,13 @@
 #include "experiments/runner/compare.hpp"
 #include "experiments/runner/samples.hpp"
 #include "experiments/runner/tables.hpp"
+#include "tests/runner/measured_cells.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace dss {
 namespace {
-
-Cell cell(const std::string& variant, int threads, long steps = 100, bool is_twin = false) {
-  Cell result;
-  result.scene = "plate_paper";
-  result.set = {{"n", "10"}};
-  result.variant = variant;
-  result.threads = threads;
-  result.model = "spatial";
-  result.precision = "f64";
-  result.integrator = "rk4";
-  result.steps = steps;
-  result.full_steps = 100;
-  result.is_twin = is_twin;
-  return result;
-}
-
-Record row(const Cell& of, long repetition, double wall_s) {
-  return {{"cell", of.key()},
-          {"scale", "host"},
-          {"repetition", fmt::format("{}", repetition)},
-          {"wall_s", number_text(wall_s)},
-          {"steps", fmt::format("{}", of.steps)},
-          {"elements", "100"},
-          {"threads", fmt::format("{}", of.threads)},
-          {"cores", "2"},
-          {"twin", of.is_twin ? "true" : "false"},
-          {"has_fma", of.variant.starts_with("avx") ? "true" : "false"},
-          {"check", "passed"},
-          {"check_error", "1e-15"},
-          {"status", "ok"},
-          {"state_digest", "00ff"},
-          {"contaminated", "false"}};
-}
 
 /// Two variants and a twin, six repetitions: the base takes 10 s and drifts, the other a quarter of the base's time in
 /// each repetition.

@@ -1,0 +1,225 @@
+#include "experiments/runner/simulation_study.hpp"
+
+#include "experiments/runner/progress.hpp"
+#include "experiments/runner/run_plan.hpp"
+#include "experiments/runner/simulation.hpp"
+#include "experiments/runner/text_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+constexpr int simulated_steps = 20;
+
+const std::vector<std::string>& columns() {
+  static const std::vector<std::string> names = {"experiment",
+                                                 "label",
+                                                 "scene",
+                                                 "set",
+                                                 "elements",
+                                                 "steps",
+                                                 "ranks",
+                                                 "network",
+                                                 "latency_us",
+                                                 "bandwidth_mb_per_s",
+                                                 "decomposition",
+                                                 "halo",
+                                                 "paper_wall_s",
+                                                 "paper_efficiency",
+                                                 "measured_wall_s",
+                                                 "simulated_paper_node_halo_used",
+                                                 "simulated_paper_node_wall_s",
+                                                 "simulated_paper_node_efficiency",
+                                                 "simulated_paper_node_communication_s",
+                                                 "simulated_paper_node_over_best",
+                                                 "simulated_own_node_halo_used",
+                                                 "simulated_own_node_wall_s",
+                                                 "simulated_own_node_efficiency",
+                                                 "simulated_own_node_communication_s",
+                                                 "simulated_own_node_over_best",
+                                                 "own_node_element_steps_per_s",
+                                                 "messages_per_step",
+                                                 "bytes_per_step",
+                                                 "status",
+                                                 "reason"};
+  return names;
+}
+
+std::string set_text(const std::vector<Override>& set) {
+  std::string text;
+  for (const Override& item : set) text += fmt::format("{}{}={}", text.empty() ? "" : " ", item.key, item.value);
+  return text;
+}
+
+/// One problem on one number of ranks and one decomposition: what all networks and strategies share.
+class SimulatedCase {
+public:
+  SimulatedCase(const SimulationBlock& block, const std::vector<Override>& set, int ranks,
+                const std::string& decomposition, NodeSpeed base)
+      : block_(block), set_(set), scene_(load_scene(block.scene, set)), ranks_(ranks),
+        decomposition_(decompose(scene_.problem, decomposition, ranks)), base_(std::move(base)),
+        own_(ranks == 1 ? base_ : own_speed(what(), decomposition_)) {}
+
+  static NodeSpeed speed_of_one(const SimulationBlock& block, const std::vector<Override>& set) {
+    const Scene scene = load_scene(block.scene, set);
+    return own_speed(what(scene), decompose(scene.problem, "strips", 1));
+  }
+
+  /// Rows of all strategies on a network.
+  std::vector<Record> rows(const std::string& study, const std::string& network) const {
+    std::vector<Record> rows;
+    for (const std::string& halo : block_.halos) rows.push_back(row(study, network, halo));
+    for (const char* node : {"paper", "own"}) put_over_best(rows, fmt::format("simulated_{}_node_", node));
+    return rows;
+  }
+
+private:
+  static SimulatedProblem what(const Scene& scene) {
+    return {scene.problem, require_method(scene.problem.integrator), find_model(scene.model).value(), Precision::f64};
+  }
+  SimulatedProblem what() const { return what(scene_); }
+  double elements() const { return double(scene_.problem.lattice.element_count); }
+
+  Record row(const std::string& study, const std::string& network, const std::string& halo) const {
+    Record row = {{"experiment", study},
+                  {"label", block_.label},
+                  {"scene", scene_.name},
+                  {"set", set_text(set_)},
+                  {"elements", fmt::format("{}", scene_.problem.lattice.element_count)},
+                  {"steps", fmt::format("{}", block_.steps)},
+                  {"ranks", fmt::format("{}", ranks_)},
+                  {"network", network},
+                  {"decomposition", decomposition_.method},
+                  {"halo", halo},
+                  {"own_node_element_steps_per_s", number_text(own_.at_once / what().method.stages)},
+                  {"status", "ok"}};
+    if (const auto paper = block_.paper_wall_s.find(ranks_); paper != block_.paper_wall_s.end()) {
+      row["paper_wall_s"] = number_text(paper->second);
+      row["paper_efficiency"] = number_text(block_.paper_wall_s.at(1) / paper->second / ranks_);
+    }
+    if (block_.published) {
+      const PublishedNode& node = *block_.published;
+      const NodeSpeed speed = given_speed("paper", node.elements * node.steps / node.wall_s, what().method);
+      put_run(speed, speed, network, halo, "simulated_paper_node_", row);
+    }
+    put_run(own_, base_, network, halo, "simulated_own_node_", row);
+    return row;
+  }
+
+  /// @param base  speed of one rank with the whole problem (weak scaling: with one rank's share)
+  void put_run(const NodeSpeed& speed, const NodeSpeed& base, const std::string& network, const std::string& halo,
+               const std::string& column, Record& row) const {
+    const double alone_s = elements() * what().method.stages / base.at_once;
+    try {
+      const SimulatedRun run =
+          simulate(make_plan(what(), decomposition_, speed, halo, simulated_steps), platform_path(network));
+      row[column + "halo_used"] = run.halo;
+      row[column + "wall_s"] = number_text(run.step_s * double(block_.steps));
+      row[column + "communication_s"] = number_text(run.communication_s_per_step * double(block_.steps));
+      row[column + "efficiency"] = number_text(alone_s / run.step_s / ranks_);
+      row["messages_per_step"] = number_text(run.messages_per_step);
+      row["bytes_per_step"] = number_text(run.bytes_per_step);
+      row["latency_us"] = number_text(1e6 * run.latency_s);
+      if (run.seconds_a_byte > 0) row["bandwidth_mb_per_s"] = number_text(1e-6 / run.seconds_a_byte);
+    } catch (const InputError& error) {
+      row["status"] = "failed";
+      row["reason"] = error.what();
+    }
+  }
+
+  /// How much slower each strategy is than the best of the rows: what the model's choice is judged by.
+  static void put_over_best(std::vector<Record>& rows, const std::string& column) {
+    double best = INFINITY;
+    for (const Record& row : rows)
+      if (const double wall_s = number_in(row, column + "wall_s"); wall_s < best) best = wall_s;
+    for (Record& row : rows)
+      if (const double wall_s = number_in(row, column + "wall_s"); !std::isnan(wall_s))
+        row[column + "over_best"] = number_text(wall_s / best - 1);
+  }
+
+  const SimulationBlock& block_;
+  const std::vector<Override>& set_;
+  Scene scene_;
+  int ranks_;
+  Decomposition decomposition_;
+  NodeSpeed base_, own_;
+};
+
+/// Measured time of the same problem on as many ranks with the same strategy, for as many steps.
+void put_measured(const Table& measured, Record& row) {
+  for (const Record& other : measured.rows)
+    if (text_in(other, "scene") == text_in(row, "scene") && text_in(other, "set") == text_in(row, "set") &&
+        text_in(other, "ranks") == text_in(row, "ranks") && text_in(other, "halo") == text_in(row, "halo") &&
+        text_in(other, "variant") == "avx512" && text_in(other, "threads") == "1" && text_in(other, "status") == "ok")
+      row["measured_wall_s"] =
+          number_text(number_in(other, "measured_wall_s") * number_in(row, "steps") / number_in(other, "steps"));
+}
+
+} // namespace
+
+Table simulate_study(const std::string& study, const std::vector<SimulationBlock>& blocks, const Table& measured) {
+  Table table{columns(), {}};
+  if (const std::string why = why_no_simulation(); !why.empty()) {
+    table.rows.push_back({{"experiment", study}, {"status", "skipped"}, {"reason", why}});
+    return table;
+  }
+  Progress progress;
+  for (const SimulationBlock& block : blocks) {
+    const bool is_weak = !block.set_of_ranks.empty();
+    const std::vector<std::vector<Override>> no_sets(1);
+    for (const auto& own_set : is_weak ? no_sets : block.sets) {
+      const NodeSpeed base =
+          SimulatedCase::speed_of_one(block, is_weak ? block.set_of_ranks.at(block.ranks.front()) : own_set);
+      for (const int ranks : block.ranks) {
+        const auto& set = is_weak ? block.set_of_ranks.at(ranks) : own_set;
+        for (const std::string& decomposition :
+             ranks == 1 ? std::vector<std::string>{"strips"} : block.decompositions) {
+          progress.note(
+              fmt::format("simulation: {} {}, {} ranks, {}", block.scene, set_text(set), ranks, decomposition));
+          const SimulatedCase one(block, set, ranks, decomposition, base);
+          for (const std::string& network : block.platforms)
+            for (Record& row : one.rows(study, network)) {
+              put_measured(measured, row);
+              table.rows.push_back(std::move(row));
+            }
+        }
+      }
+    }
+  }
+  return table;
+}
+
+std::string simulation_text(const Table& table) {
+  const auto shown = [](const Record& row, const std::string& column, const char* form) {
+    const double value = number_in(row, column);
+    return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), value);
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (const Record& row : table.rows) {
+    const auto node = [&](const std::string& name) {
+      const std::string column = fmt::format("simulated_{}_node_", name);
+      return std::vector<std::string>{shown(row, column + "wall_s", "{:.4g}"),
+                                      shown(row, column + "efficiency", "{:.3f}")};
+    };
+    std::vector<std::string> cells = {text_in(row, "set"),
+                                      text_in(row, "ranks"),
+                                      text_in(row, "network"),
+                                      text_in(row, "decomposition"),
+                                      text_in(row, "halo"),
+                                      shown(row, "paper_wall_s", "{:.4g}"),
+                                      shown(row, "paper_efficiency", "{:.3f}"),
+                                      shown(row, "measured_wall_s", "{:.4g}")};
+    for (const char* name : {"paper", "own"})
+      for (std::string& cell : node(name)) cells.push_back(std::move(cell));
+    cells.push_back(text_in(row, "status") == "ok" ? "" : text_in(row, "status") + ": " + text_in(row, "reason"));
+    rows.push_back(std::move(cells));
+  }
+  return text_table({"set", "ranks", "network", "parts", "halo", "paper [s]", "eff.", "measured [s]",
+                     "paper's node [s]", "eff.", "our node [s]", "eff.", "note"},
+                    rows);
+}
+
+} // namespace dss

@@ -1,0 +1,149 @@
+#include "experiments/runner/cell_record.hpp"
+#include "experiments/runner/study.hpp"
+#include "solver/error.hpp"
+#include "variants/loader.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace dss {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// Studies in a directory of their own, of a variant that can compute parts.
+class StudyOfRanks : public ::testing::Test {
+protected:
+  StudyOfRanks() {
+    std::string pattern = (fs::temp_directory_path() / "dssbench-study-XXXXXX").string();
+    directory = ::mkdtemp(pattern.data());
+    for (const VariantStatus& status : variants())
+      if (status.name != "reference" && !status.is_distributed) variant = status.name;
+    block = {{"scene", "plate_paper"}, {"variants", {variant}}};
+    study = {{"experiment", "ranks"},
+             {"title", "Ranks"},
+             {"base", {variant}},
+             {"scales", {{"smoke", {{"set", {{"n", 10}}}, {"steps", 10}}}}}};
+  }
+  ~StudyOfRanks() override { fs::remove_all(directory); }
+
+  Study load(const std::vector<json>& blocks, int cores = 2) {
+    study["cells"] = blocks;
+    std::ofstream(directory / "ranks.json") << study;
+    return load_study((directory / "ranks.json").string(), "smoke", cores);
+  }
+  json with(const json& changes) const {
+    json changed = block;
+    changed.update(changes);
+    return changed;
+  }
+  void expect_refused(const json& changes, const std::vector<std::string>& words) {
+    try {
+      load({with(changes)});
+      FAIL() << "accepted: " << changes;
+    } catch (const InputError& error) {
+      for (const std::string& word : words)
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  }
+  fs::path directory;
+  std::string variant;
+  json block, study;
+};
+
+bool contains(const std::vector<std::string>& line, const std::string& word) {
+  return std::find(line.begin(), line.end(), word) != line.end();
+}
+
+TEST_F(StudyOfRanks, WithoutTheKeysEveryCellIsOneProcess) {
+  const Study loaded = load({block});
+  ASSERT_EQ(loaded.cells.size(), 1u);
+  EXPECT_EQ(loaded.cells[0].ranks, 1);
+  EXPECT_EQ(loaded.cells[0].key(), "plate_paper n=10 " + variant + " t1 spatial f64 rk4 10 steps");
+  EXPECT_EQ(loaded.cells[0].label(), variant + ", 1 thread");
+  EXPECT_FALSE(contains(run_arguments(loaded, loaded.cells[0], "o.state"), "--ranks"));
+}
+
+TEST_F(StudyOfRanks, HalosAndDecompositionsMultiplyCellsOnSeveralRanksAlone) {
+  const Study loaded = load(
+      {with({{"ranks", {1, 2, "cores", 4}}, {"halos", {"deep", "auto"}}, {"decompositions", {"strips", "blocks"}}})});
+  ASSERT_EQ(loaded.cells.size(), 1u + 2 * 2 * 2);
+  const Cell& last = loaded.cells.back();
+  EXPECT_EQ(last.key(), "plate_paper n=10 " + variant + " r4 blocks auto t1 spatial f64 rk4 10 steps");
+  EXPECT_EQ(last.label(), variant + ", 4 ranks x 1 thread, halo auto, blocks");
+  EXPECT_EQ(last.problem_key(), loaded.cells[0].problem_key());
+  EXPECT_TRUE(last.is_oversubscribed(2));
+  EXPECT_FALSE(loaded.cells[1].is_oversubscribed(2));
+  const std::vector<std::string> line = run_arguments(loaded, last, "o.state");
+  for (const char* word : {"--ranks", "4", "--halo", "auto", "--decomposition", "blocks"})
+    EXPECT_TRUE(contains(line, word)) << word;
+}
+
+TEST_F(StudyOfRanks, CoresAreThoseOfTheMachine) {
+  const Study loaded = load({with({{"ranks", "1..cores"}})}, 3);
+  ASSERT_EQ(loaded.cells.size(), 3u);
+  EXPECT_EQ(loaded.cells[2].ranks, 3);
+}
+
+TEST_F(StudyOfRanks, WrongKeysAreRefusedWithTheirPlace) {
+  expect_refused({{"ranks", {1, "two"}}}, {"ranks.json", "/cells/0/ranks/1", "number of ranks"});
+  expect_refused({{"ranks", {0}}}, {"/cells/0/ranks/0", "0"});
+  expect_refused({{"ranks", json::array()}}, {"/cells/0/ranks", "empty"});
+  expect_refused({{"halos", {"depe"}}}, {"/cells/0/halos", "\"deep\"", "shared"});
+  expect_refused({{"decompositions", {"strip"}}}, {"/cells/0/decompositions", "\"strips\""});
+  expect_refused({{"halo", "deep"}}, {"/cells/0", "\"halos\""});
+  expect_refused({{"ranks", {2}}, {"variants", {variant, "reference"}}}, {"/cells/0/ranks", "reference", "1 rank"});
+}
+
+TEST_F(StudyOfRanks, AWeakScalingGrowsItsProblemWithTheRanks) {
+  const json strong = with({{"ranks", {1, 2}}, {"halos", {"deep"}}});
+  const json weak = with({{"ranks", {1, 2, 4, 6}}, {"weak", {{"parameter", "n"}, {"power", 2}}}});
+  for (const auto& blocks : {std::vector{strong, weak}, std::vector{weak, strong}}) {
+    const Study loaded = load(blocks);
+    ASSERT_EQ(loaded.cells.size(), 5u); // the cell on 1 rank is one of both
+    std::vector<std::string> sets;
+    for (const Cell& cell : loaded.cells)
+      if (!cell.weak_base_set.empty()) {
+        EXPECT_EQ(cell.weak_base_set, "n=10");
+        sets.push_back(cell.set_text());
+      }
+    EXPECT_EQ(sets, (std::vector<std::string>{"n=10", "n=14", "n=20", "n=24"}));
+  }
+}
+
+TEST_F(StudyOfRanks, AWeakScalingThatCannotGrowIsRefused) {
+  const json weak = {{"parameter", "n"}, {"power", 2}};
+  expect_refused({{"ranks", {2, 4}}, {"weak", weak}}, {"/cells/0/weak", "1 rank"});
+  expect_refused({{"ranks", {1, 2}}, {"weak", {{"parameter", "m"}, {"power", 2}}}},
+                 {"/cells/0/weak/parameter", "\"m\""});
+  expect_refused({{"ranks", {1, 2}}, {"weak", {{"parameter", "n"}}}}, {"/cells/0/weak", "power"});
+  expect_refused({{"ranks", {1, 2}}, {"weak", {{"parameter", "n"}, {"power", 0}}}}, {"/cells/0/weak/power", "0"});
+  expect_refused({{"ranks", {1, 2}}, {"set", {{"run.dt", 1e-7}}}, {"weak", {{"parameter", "run.dt"}, {"power", 1}}}},
+                 {"/cells/0/weak/parameter", "run.dt=1e-07"});
+}
+
+TEST_F(StudyOfRanks, ATwinRunsOnOneRank) {
+  study["twin"] = variant;
+  const Study loaded =
+      load({with({{"ranks", {1, 2, 4}}, {"weak", {{"parameter", "n"}, {"power", 2}}}}), with({{"ranks", {2}}})});
+  EXPECT_EQ(std::count_if(loaded.cells.begin(), loaded.cells.end(), [](const Cell& cell) { return cell.is_twin; }), 1);
+  EXPECT_EQ(loaded.cells.back().ranks, 1);
+}
+
+TEST_F(StudyOfRanks, WhatTwoBlocksNameIsMeasuredOnceAndWhatOneNamesTwiceIsRefused) {
+  EXPECT_EQ(load({block, with({{"threads", {1, 2}}})}).cells.size(), 2u);
+  expect_refused({{"variants", {variant, variant}}}, {"/cells/0", "twice"});
+}
+
+TEST_F(StudyOfRanks, ASimulationIsPartOfAStudy) {
+  study["simulation"] = {{"platforms", {"x"}}};
+  EXPECT_EQ(load({block}).cells.size(), 1u);
+}
+
+} // namespace
+} // namespace dss
