@@ -14,7 +14,6 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
-from matplotlib.ticker import MaxNLocator  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision; markers differ too.
 STYLES = {
@@ -39,46 +38,64 @@ def with_points(rows, base, measured, scale):
     return rows[rows["point"].notna()].sort_values("ranks")
 
 
-def draw_lines(axes, rows, measured, first):
-    """A line a halo strategy from the point of 1 rank; filled points with intervals, hollow ones without."""
-    for (halo, decomposition), line in rows.groupby(["halo", "decomposition"], sort=False):
-        colour, marker = STYLES.get(halo, OTHER_STYLE)
+def lines_of(rows):
+    """(label, colour, marker, shift, points) of each halo strategy; points of several at one rank stand side by side."""
+    groups = list(rows.groupby(["halo", "decomposition"], sort=False))
+    for place, ((halo, decomposition), line) in enumerate(groups):
         label = halo if decomposition == "strips" else f"{halo}, {decomposition}"
-        start = [(1, first)] if first is not None else []
-        points = start + list(zip(line["ranks"], line["point"]))
-        axes.plot(*zip(*points), color=colour, linewidth=1, alpha=0.6)
-        for is_hollow, group in line.groupby("is_hollow"):
-            axes.plot(group["ranks"], group["point"], marker=marker, linestyle="none", color=colour, markersize=6,
-                      markerfacecolor="white" if is_hollow else colour, zorder=3)
+        yield label, *STYLES.get(halo, OTHER_STYLE), 0.07 * (place - (len(groups) - 1) / 2), line
+
+
+def draw_points(axes, line, heights, colour, marker, shift):
+    """Filled where they count, hollow where there are more workers than cores."""
+    for is_hollow, group in line.groupby("is_hollow"):
+        axes.plot(group["ranks"] + shift, heights[group.index], marker=marker, linestyle="none", color=colour, markersize=6,
+                  markerfacecolor="white" if is_hollow else colour, zorder=3)
+
+
+def draw_lines(axes, rows, measured):
+    """A line a halo strategy from the point of 1 rank, with the intervals of what is a speed-up or an efficiency."""
+    for label, colour, marker, shift, line in lines_of(rows):
+        axes.plot([1, *(line["ranks"] + shift)], [1, *line["point"]], color=colour, linewidth=1, alpha=0.6)
+        draw_points(axes, line, line["point"], colour, marker, shift)
         axes.plot([], [], color=colour, marker=marker, label=label)
         known = line[~line["is_hollow"] & line[f"{measured}_low"].notna()]
         if not known.empty:
             reach = [(known["point"] - known[f"{measured}_low"]).clip(lower=0), (known[f"{measured}_high"] - known["point"]).clip(lower=0)]
-            axes.errorbar(known["ranks"], known["point"], yerr=reach, fmt="none", ecolor=colour, capsize=3)
+            axes.errorbar(known["ranks"] + shift, known["point"], yerr=reach, fmt="none", ecolor=colour, capsize=3)
 
 
 def draw_shares(axes, rows):
     """Share of the wall time that ranks spend in exchanges."""
-    for (halo, _), line in rows.groupby(["halo", "decomposition"], sort=False):
-        colour, marker = STYLES.get(halo, OTHER_STYLE)
-        axes.plot(line["ranks"], 100 * line["communication_share"], color=colour, linewidth=1, alpha=0.6)
-        for is_hollow, group in line.groupby("is_hollow"):
-            axes.plot(group["ranks"], 100 * group["communication_share"], marker=marker, linestyle="none", color=colour,
-                      markerfacecolor="white" if is_hollow else colour)
-    axes.set_ylim(0, 100)
+    for _, colour, marker, shift, line in lines_of(rows):
+        axes.plot(line["ranks"] + shift, 100 * line["communication_share"], color=colour, linewidth=1, alpha=0.6)
+        draw_points(axes, line, 100 * line["communication_share"], colour, marker, shift)
+    axes.set_ylim(0, 105)
     axes.set_ylabel("in exchanges [%]")
-
-
-def finish(axes, rows):
-    """What all panels have in common; a label where cores end."""
-    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_xlabel("ranks")
-    axes.spines[["top", "right"]].set_visible(False)
+
+
+def draw_panel(above, below, title, rows, is_strong):
+    """One problem: lines above, shares of exchanges below."""
+    draw_lines(above, rows, "speedup_vs_1_rank" if is_strong else "weak_efficiency")
+    most = int(rows["ranks"].max())
+    above.plot([1, most], [1, most if is_strong else 1], color="black", linewidth=0.8, linestyle=":", label="ideal")
+    counted = rows[~rows["is_hollow"]]
+    ideal = 1 if counted.empty or not is_strong else counted["ranks"].max()
+    above.set_ylim(0, 1.15 * max(ideal, rows["point"].max(), rows["speedup_vs_1_rank_high" if is_strong else "weak_efficiency_high"].max()))
+    above.set_title(title, fontsize=9, loc="left")
+    above.set_ylabel("speed-up against 1 rank" if is_strong else "element-steps/s of a rank, against 1 rank")
+    draw_shares(below, rows)
+    for axes in (above, below):
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.set_xlim(0.7, most + 0.4)
+        axes.set_xticks([1, *sorted(rows["ranks"].astype(int).unique())])
     if rows["is_hollow"].any():
         border = (rows["cores"] / rows["threads"]).iloc[0] + 0.5
-        axes.axvspan(border, rows["ranks"].max() + 0.4, color="#000000", alpha=0.05, linewidth=0)
-        axes.annotate("oversubscribed: no speed-up", (border, 1), xycoords=("data", "axes fraction"), xytext=(3, -3),
-                      textcoords="offset points", fontsize=8, va="top")
+        for axes in (above, below):
+            axes.axvspan(border, most + 0.4, color="#000000", alpha=0.05, linewidth=0)
+        above.annotate("oversubscribed: no speed-up", (border, 1), xycoords=("data", "axes fraction"), xytext=(3, -3),
+                       textcoords="offset points", fontsize=8, va="top")
 
 
 def strong_panels(table):
@@ -89,7 +106,7 @@ def strong_panels(table):
             continue
         rows = with_points(group[group["ranks"] > 1], base.iloc[0], "speedup_vs_1_rank", lambda cells: 1)
         if not rows.empty:
-            yield f"{name[1]}, {name[0]} {name[-1]}, {name[2]} thread{'s' if name[2] > 1 else ''} a rank", rows
+            yield f"{name[1]}, {name[0]} {name[-1]}, {int(name[2])} thread{'s' if name[2] > 1 else ''} a rank", rows
 
 
 def weak_panels(table):
@@ -111,25 +128,17 @@ def draw(path, output):
     table = table[(table["source"] == "measured") & table["element_steps_per_s"].notna() & ~table["label"].str.contains("A/A", regex=False)]
     table = table[table["status"].isin(["ok", "oversubscribed"])]
     strong = list(strong_panels(table))
-    # A problem that only the weak scaling has on these ranks makes no line of its own.
     weak = list(weak_panels(table)) if table["weak_base_set"].notna().any() else []
     if not strong and not weak:
         return f"{path}: no cell on several ranks has its like on one"
     count = len(strong) + len(weak)
-    figure, panels = plt.subplots(2, count, figsize=(1 + 4 * count, 6), squeeze=False, height_ratios=[3, 1.3], layout="constrained")
+    figure, panels = plt.subplots(2, count, figsize=(2 + 4 * count, 6), squeeze=False, height_ratios=[3, 1.3], layout="constrained")
+    labels = {}
     for place, (title, rows) in enumerate(strong + weak):
-        axes, is_strong = panels[0, place], place < len(strong)
-        draw_lines(axes, rows, "speedup_vs_1_rank" if is_strong else "weak_efficiency", 1)
-        most = int(rows["ranks"].max())
-        axes.plot([1, most], [1, most if is_strong else 1], color="black", linewidth=0.8, linestyle=":", label="ideal")
-        axes.set_ylim(0, max(rows["point"].max() * 1.15, float(rows["ranks"][~rows["is_hollow"]].max()) + 0.5 if is_strong and not rows["is_hollow"].all() else 1.2))
-        axes.set_title(title, fontsize=9, loc="left")
-        axes.set_ylabel("speed-up against 1 rank" if is_strong else "element-steps/s a rank, against 1 rank")
-        axes.legend(fontsize=8, frameon=False, loc="lower left" if not is_strong else "upper left", bbox_to_anchor=(0, 0.94) if is_strong else None)
-        draw_shares(panels[1, place], rows)
-        for each in panels[:, place]:
-            finish(each, rows)
-    figure.suptitle("Medians of paired ratios with 95 % intervals; hollow: more workers than cores, ratio of median rates", fontsize=9, x=0.01, ha="left")
+        draw_panel(panels[0, place], panels[1, place], title, rows, place < len(strong))
+        labels.update({label: line for line, label in zip(*panels[0, place].get_legend_handles_labels())})
+    panels[0, -1].legend(labels.values(), labels.keys(), loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False, fontsize=9, title="halo")
+    figure.suptitle("Medians of paired ratios, 95 % intervals; hollow: more workers than cores, ratio of median rates", fontsize=9, x=0.01, ha="left")
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, dpi=150)
     plt.close(figure)
