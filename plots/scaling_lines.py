@@ -22,7 +22,7 @@ STYLES = {
     "deep": ("#0072B2", "o"),
     "deep-overlap": ("#56B4E9", "D"),
     "shared": ("#009E73", "v"),
-    "auto": ("#CC79A7", "*"),
+    "auto": ("#CC79A7", "P"),
 }
 OTHER_STYLE = ("#999999", "x")
 # Rows that differ in these are no points of one line.
@@ -125,7 +125,7 @@ def draw(path, output):
     table = pandas.read_csv(path)
     if "speedup_vs_1_rank" not in table.columns:
         return f"{path}: has no column speedup_vs_1_rank; measure it anew with `dssbench experiment`"
-    table = table[(table["source"] == "measured") & table["element_steps_per_s"].notna() & ~table["label"].str.contains("A/A", regex=False)]
+    table = table[(table["source"] == "measured") & table["element_steps_per_s"].notna() & ~table["label"].fillna("").str.contains("A/A", regex=False)]
     table = table[table["status"].isin(["ok", "oversubscribed"])]
     strong = list(strong_panels(table))
     weak = list(weak_panels(table)) if table["weak_base_set"].notna().any() else []

@@ -30,6 +30,14 @@ struct Distribution {
   bool is_measured = false;             ///< parts in proportion to each rank's measured speed; else equal
 };
 
+/// A message of b bytes takes latency_s + b seconds_a_byte; messages of one rank share its bandwidth. At each end the
+/// processor itself is busy with it for overhead_s + b overhead_s_a_byte, unless it is so large that the adapter fetches
+/// it.
+struct Network {
+  double latency_s = 0, seconds_a_byte = 0;
+  double overhead_s = 0, overhead_s_a_byte = 0;
+};
+
 /// What became of it.
 struct RankInfo {
   int ranks = 1;
@@ -37,6 +45,7 @@ struct RankInfo {
   bool has_fma = false;
   double imbalance = 1;    ///< own elements of the largest part over the mean
   std::string halo_reason; ///< of an automatic choice: the predicted times
+  Network network;         ///< as measured for an automatic choice, else zeros
 };
 
 /// What one rank has exchanged since its executor was made.

@@ -4,13 +4,6 @@
 
 namespace dss {
 
-/// A message of b bytes takes latency_s + b seconds_a_byte; messages of one rank share its bandwidth. At each end the
-/// processor itself is busy with it for overhead_s + b overhead_s_a_byte, unless it is so large that the adapter fetches
-/// it.
-struct Network {
-  double latency_s = 0, seconds_a_byte = 0;
-  double overhead_s = 0, overhead_s_a_byte = 0;
-};
 inline constexpr double eager_bytes = 65536; ///< largest message that the processor copies
 
 /// One rank's step under a strategy.

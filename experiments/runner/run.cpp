@@ -222,6 +222,11 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["decomposition"] = result.ranks.decomposition;
   json["halo"] = result.ranks.halo;
   json["halo_reason"] = result.ranks.halo_reason;
+  const Network& network = result.ranks.network;
+  json["network"] = {{"latency_s", network.latency_s},
+                     {"seconds_a_byte", network.seconds_a_byte},
+                     {"overhead_s", network.overhead_s},
+                     {"overhead_s_a_byte", network.overhead_s_a_byte}};
   json["imbalance"] = result.ranks.imbalance;
   json["messages_per_step"] = result.messages_per_step;
   json["bytes_per_step"] = result.bytes_per_step;

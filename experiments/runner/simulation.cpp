@@ -1,8 +1,8 @@
 #include "experiments/runner/simulation.hpp"
 
 #include "experiments/runner/child.hpp"
+#include "experiments/runner/temporary_file.hpp"
 #include "solver/error.hpp"
-#include "solver/nearest_name.hpp"
 #include "variants/loader.hpp"
 #include "variants/trial.hpp"
 
@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <unistd.h>
 
 namespace dss {
@@ -48,26 +47,6 @@ std::string module_path() {
       fs::read_symlink(this_program, error).parent_path().parent_path() / "lib/dssbench/simulated_cluster.so";
   return fs::exists(installed, error) ? installed.string() : DSS_SIMULATED_CLUSTER;
 }
-
-/// A file that is gone when this is.
-class TemporaryFile {
-public:
-  explicit TemporaryFile(const std::string& text) {
-    path_ = (fs::temp_directory_path() / fmt::format("dssbench-{}-{}.json", ::getpid(), ++count_)).string();
-    std::ofstream(path_) << text;
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code error;
-    fs::remove(path_, error);
-  }
-  const std::string& path() const { return path_; }
-
-private:
-  static inline int count_ = 0;
-  std::string path_;
-};
 
 /// Elements times stages that a part computes in a step: rows whole, each as often as a later stage needs it.
 double element_stages(const PartSize& size, const HaloStrategy& strategy, int stages) {
@@ -183,23 +162,10 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
   return plan;
 }
 
-std::string platform_path(const std::string& name_or_path) {
-  if (name_or_path.ends_with(".xml") && fs::exists(name_or_path)) return name_or_path;
-  const fs::path folder = fs::path(DSS_SOURCE_DIR) / "experiments/platforms";
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    names.push_back(entry.path().stem().string());
-    if (names.back() == name_or_path) return entry.path().string();
-  }
-  std::ranges::sort(names);
-  throw InputError(fmt::format("--platform {}: no such platform; {}", name_or_path, nearest_name(name_or_path, names)));
-}
-
 SimulatedRun simulate(const SimulationPlan& plan, const std::string& platform) {
   if (const std::string why = why_no_simulation(); !why.empty()) throw InputError(fmt::format("simulate: {}", why));
   const std::size_t ranks = plan.strategies.front().parts.size();
-  const TemporaryFile file(nlohmann::json(plan).dump());
+  const TemporaryFile file(nlohmann::json(plan).dump(), ".json");
   std::vector<std::string> line = {"smpimain", module_path()};
   line.insert(line.end(), std::begin(settings), std::end(settings));
   line.insert(line.end(), {fmt::format("--cfg=smpi/np:{}", ranks), platform, file.path()});

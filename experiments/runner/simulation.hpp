@@ -5,6 +5,7 @@
 #include "solver/numerics/method.hpp"
 #include "variants/mpi/simulated/plan.hpp"
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -48,8 +49,22 @@ NodeSpeed given_speed(const std::string& name, double element_steps_per_s, const
 SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition, const NodeSpeed& speed,
                          const std::string& halo, int steps);
 
-/// Path of a platform by its name in experiments/platforms, or a path. @throws InputError naming the nearest
-std::string platform_path(const std::string& name_or_path);
+/// Name of a platform made of what messages between two ranks cost on this machine, by ping-pong.
+inline constexpr const char* host_platform = "this_host";
+
+/// A platform file: by its name in experiments/platforms, by its path, or made for this host.
+class Platform {
+public:
+  /// @throws InputError naming the nearest; for this host, if ranks cannot run here
+  explicit Platform(const std::string& name_or_path);
+  /// Whether a name is known, without measuring anything. @throws InputError as above
+  static void require_known(const std::string& name_or_path);
+  const std::string& path() const { return path_; }
+
+private:
+  std::string path_;
+  std::shared_ptr<const void> temporary_; ///< removes a file that was made
+};
 
 /// Runs a plan on a platform. @throws InputError with what SimGrid said if it fails
 SimulatedRun simulate(const SimulationPlan& plan, const std::string& platform);

@@ -63,7 +63,7 @@ void read_choices(const JsonPlace& place, SimulationBlock& block) {
   block.decompositions =
       place.has("decompositions") ? place["decompositions"].texts() : std::vector<std::string>{"strips"};
   for (const std::string& name : block.platforms) try {
-      platform_path(name);
+      Platform::require_known(name);
     } catch (const InputError& error) {
       place["platforms"].fail(error.what());
     }

@@ -69,9 +69,9 @@ public:
   }
 
   /// Rows of all strategies on a network.
-  std::vector<Record> rows(const std::string& study, const std::string& network) const {
+  std::vector<Record> rows(const std::string& study, const std::string& network, const std::string& platform) const {
     std::vector<Record> rows;
-    for (const std::string& halo : block_.halos) rows.push_back(row(study, network, halo));
+    for (const std::string& halo : block_.halos) rows.push_back(row(study, network, platform, halo));
     for (const char* node : {"paper", "own"}) put_over_best(rows, fmt::format("simulated_{}_node_", node));
     return rows;
   }
@@ -83,7 +83,8 @@ private:
   SimulatedProblem what() const { return what(scene_); }
   double elements() const { return double(scene_.problem.lattice.element_count); }
 
-  Record row(const std::string& study, const std::string& network, const std::string& halo) const {
+  Record row(const std::string& study, const std::string& network, const std::string& platform,
+             const std::string& halo) const {
     Record row = {{"experiment", study},
                   {"label", block_.label},
                   {"scene", scene_.name},
@@ -103,19 +104,19 @@ private:
     if (block_.published) {
       const PublishedNode& node = *block_.published;
       const NodeSpeed speed = given_speed("paper", node.elements * node.steps / node.wall_s, what().method);
-      put_run(speed, speed, network, halo, "simulated_paper_node_", row);
+      put_run(speed, speed, platform, halo, "simulated_paper_node_", row);
     }
-    put_run(own_, base_, network, halo, "simulated_own_node_", row);
+    put_run(own_, base_, platform, halo, "simulated_own_node_", row);
     return row;
   }
 
   /// @param base  speed of one rank with the whole problem (weak scaling: with one rank's share)
-  void put_run(const NodeSpeed& speed, const NodeSpeed& base, const std::string& network, const std::string& halo,
+  void put_run(const NodeSpeed& speed, const NodeSpeed& base, const std::string& platform, const std::string& halo,
                const std::string& column, Record& row) const {
     const double alone_s = elements() * what().method.stages / base.at_once;
     try {
       const SimulatedRun run =
-          simulate(make_plan(what(), decomposition_, speed, halo, simulated_steps), platform_path(network));
+          simulate(make_plan(what(), decomposition_, speed, halo, simulated_steps), platform);
       row[column + "halo_used"] = run.halo;
       row[column + "wall_s"] = number_text(run.step_s * double(block_.steps));
       row[column + "communication_s"] = number_text(run.communication_s_per_step * double(block_.steps));
@@ -168,6 +169,8 @@ Table simulate_study(const std::string& study, const std::vector<SimulationBlock
   }
   Progress progress;
   for (const SimulationBlock& block : blocks) {
+    std::map<std::string, Platform> platforms;
+    for (const std::string& name : block.platforms) platforms.emplace(name, Platform(name));
     const bool is_weak = !block.set_of_ranks.empty();
     const std::vector<std::vector<Override>> no_sets(1);
     for (const auto& own_set : is_weak ? no_sets : block.sets) {
@@ -181,7 +184,7 @@ Table simulate_study(const std::string& study, const std::vector<SimulationBlock
               fmt::format("simulation: {} {}, {} ranks, {}", block.scene, set_text(set), ranks, decomposition));
           const SimulatedCase one(block, set, ranks, decomposition, base);
           for (const std::string& network : block.platforms)
-            for (Record& row : one.rows(study, network)) {
+            for (Record& row : one.rows(study, network, platforms.at(network).path())) {
               put_measured(measured, row);
               table.rows.push_back(std::move(row));
             }

@@ -65,14 +65,15 @@ def processes(word):
 @unittest.skipIf(WHY_NOT, WHY_NOT)
 class Bits(ProgramTest):
     def test_states_equal_those_of_one_process_with_each_strategy(self):
-        scenes = (("plate_paper", "n=12"), ("l_bracket", "n=16"))
+        scenes = (PLATE, ("run", "l_bracket", "--steps", "30"))
         for number, strategy in enumerate(STRATEGIES):
-            for place, (scene, size) in enumerate(scenes):
-                precision, ranks = ("f64", "f32")[number % 2], 2 + (number + place) % 2
-                run = ("run", scene, "--set", size, "--steps", "30", "--precision", precision)
-                several = record(*run, "--ranks", str(ranks), "--halo", strategy)
-                self.assertEqual((several["ranks"], several["halo"]), (ranks, strategy))
-                self.assertEqual(several["state_digest"], record(*run)["state_digest"], (scene, precision, ranks, strategy))
+            for place, scene in enumerate(scenes):
+                ranks, precision = 2 + (number + place) % 2, ("f64", "f32")[number // 2 % 2]
+                with self.subTest(scene=scene[1], precision=precision, ranks=ranks, halo=strategy):
+                    one = record(*scene, "--precision", precision)
+                    several = record(*scene, "--precision", precision, "--ranks", str(ranks), "--halo", strategy)
+                    self.assertEqual((several["ranks"], several["halo"]), (ranks, strategy))
+                    self.assertEqual(several["state_digest"], one["state_digest"])
 
     def test_verify_compares_every_decomposition_and_strategy(self):
         result = dssbench("verify", "two_bodies", "plate_paper", "--ranks", "2,3", "--quiet")
@@ -91,7 +92,8 @@ class Bits(ProgramTest):
         for ranks in ("1", "2"):
             folder = pathlib.Path(self.path(ranks))
             folder.mkdir()
-            record(*PLATE, "--ranks", ranks, "--state", str(folder / "s.csv"), "--output", str(folder / "p.vtu"), "--frames", "2")
+            result = dssbench(*PLATE, "--ranks", ranks, "--state", "s.csv", "--output", "p.vtu", "--frames", "2", cwd=folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
         names = ["p.pvd", "p_0000.vtu", "p_0001.vtu", "p_0002.vtu", "s.csv"]
         for ranks in ("1", "2"):
             self.assertEqual(sorted(os.listdir(self.path(ranks))), names)
@@ -172,8 +174,10 @@ class UnderMpirun(ProgramTest):
 
     def test_other_ranks_than_mpirun_started_are_refused(self):
         result = mpirun(2, *PLATE, "--ranks", "3")
-        self.assertEqual((result.returncode, result.stdout, len(own_lines(result))), (2, "", 1), result.stderr)
-        self.assertIn("mpirun has started 2 ranks; give --ranks 2", result.stderr)
+        self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
+        lines = set(own_lines(result))  # a second rank says the same if mpirun is slow to end it
+        self.assertEqual(len(lines), 1, result.stderr)
+        self.assertIn("mpirun has started 2 ranks; give --ranks 2", lines.pop())
 
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)

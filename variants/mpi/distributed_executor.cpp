@@ -43,6 +43,7 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   info_.decomposition = found.decomposition.method;
   info_.halo = found.halo->name;
   info_.halo_reason = found.halo_reason;
+  info_.network = found.network;
   info_.imbalance =
       world_.largest(double(part_.own_elements)) * world_.ranks() / double(setup.problem.lattice.element_count);
   for (const double workers : world_.gather(executor_->workers())) workers_ += int(workers);

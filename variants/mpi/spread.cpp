@@ -70,7 +70,7 @@ HaloCost cost_of(const Setup& setup, const Plugin& plugin, const Decomposition& 
 }
 
 void choose_strategy(const Setup& setup, const Plugin& plugin, World& world, const Fault& fault, Spread& spread) {
-  const Network network = measure_network(world.comm());
+  const Network& network = spread.network = measure_network(world.comm());
   double least = std::numeric_limits<double>::infinity();
   for (const HaloStrategy& strategy : halo_strategies()) {
     if (strategy.transport == HaloStrategy::Transport::shared && !world.is_one_node()) continue;

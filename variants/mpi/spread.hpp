@@ -13,6 +13,7 @@ struct Spread {
   Decomposition decomposition;
   const HaloStrategy* halo = nullptr;
   std::string halo_reason; ///< predicted times, if they were asked for
+  Network network;         ///< that they are predicted with
   double imbalance = 1;
 };
 
