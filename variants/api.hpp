@@ -63,6 +63,8 @@ public:
   }
   virtual RankInfo rank_info() const { return {}; }
   virtual Traffic traffic() const { return {}; }
+  /// This rank now works while others wait, perhaps for long, or no longer does. Not collective.
+  virtual void work_alone(bool is_alone) { (void)is_alone; }
   /// This value of every rank, in their order. Collective.
   virtual std::vector<double> gather(double value) { return {value}; }
 };

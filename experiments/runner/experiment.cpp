@@ -25,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr unsigned order_seed = 20220617;
+constexpr long oversubscribed_repetitions = 3; // a median to show; what makes no claim needs no interval
 
 /// A cell on its way: what of it is done, and whether more is wanted.
 struct CellState {
@@ -113,7 +114,8 @@ private:
     return std::any_of(cells_.begin(), cells_.end(), [&](const CellState& state) { return is_wanted(state); });
   }
   bool is_wanted(const CellState& state) const {
-    const long most = state.is_oversubscribed ? study_.scale.min_repetitions : study_.scale.max_repetitions;
+    const long most = state.is_oversubscribed ? std::min(oversubscribed_repetitions, study_.scale.max_repetitions)
+                                              : study_.scale.max_repetitions;
     return !state.is_broken && !state.is_converged && state.done < most && state.cell->skipped.empty();
   }
   /// Bases and twins go on while any cell does: speed-ups are ratios of pairs of the same round.

@@ -42,6 +42,8 @@ std::string failure_line(const ChildResult& job, int ranks) {
   std::istringstream lines(job.error);
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("dssbench: ")) return line;
+  if (job.error.find("not enough slots") != std::string::npos)
+    return fmt::format("dssbench: --ranks {}: mpirun has not so many slots here (inside another job, or an allocation)", ranks);
   std::smatch match;
   if (std::regex_search(job.error, match, std::regex("process rank (\\d+) .*exited on signal (\\d+) \\(([^)]*)\\)")))
     return fmt::format("dssbench: rank {} of {} was ended by signal {} ({})", match.str(1), ranks, match.str(2),
@@ -57,10 +59,18 @@ std::string failure_line(const ChildResult& job, int ranks) {
 JobRank job_rank() {
   for (const auto& [rank_name, size_name] : rank_names) {
     const char *rank = std::getenv(rank_name), *size = std::getenv(size_name);
-    if (rank != nullptr && size != nullptr) return {std::atoi(rank), std::max(1, std::atoi(size))};
+    if (rank != nullptr && size != nullptr) return {std::atoi(rank), std::max(1, std::atoi(size)), true};
   }
   return {};
 }
+
+void require_usable_job() {
+  const char* tasks = std::getenv("SLURM_STEP_NUM_TASKS");
+  if (tasks != nullptr && std::atoi(tasks) > 1 && !job_rank().is_started)
+    throw InputError(fmt::format("srun has started {} tasks that MPI knows nothing of; start them by srun --mpi=pmix", tasks));
+}
+
+int most_ranks_here() { return std::max(64, 16 * usable_cores()); }
 
 VariantName parse_variant(const std::string& text, int ranks) {
   if (text == "mpi") return {"mpi", "auto"};

@@ -10,9 +10,12 @@ namespace dss {
 /// This process among those that mpirun or srun started; one alone is rank 0 of 1.
 struct JobRank {
   int rank = 0, ranks = 1;
+  bool is_started = false; ///< by mpirun or srun, perhaps as the only one
   bool is_root() const { return rank == 0; }
 };
 JobRank job_rank();
+/// @throws InputError in a task that srun started without telling MPI: each would run by itself and write the same files
+void require_usable_job();
 
 /// "mpi" or "mpi:VARIANT" on the command line: parts are computed by VARIANT.
 struct VariantName {
@@ -31,6 +34,9 @@ struct JobResult {
   std::string output, error;
   std::string failure; ///< one line that says which rank failed and how, or empty
 };
+
+/// Largest number of ranks that this program starts itself; more are for mpirun with a list of hosts.
+int most_ranks_here();
 
 /// Runs this program with these arguments on `ranks` ranks of `threads` threads by mpirun.
 /// @throws InputError if mpirun is missing

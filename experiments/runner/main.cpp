@@ -50,6 +50,14 @@ std::string unknown_option(int argc, char** argv, const CLI::App& app) {
   return "";
 }
 
+/// All other commands would do the same on every rank, and write the same files.
+void require_alone(const std::string& command) {
+  require_usable_job();
+  if (job_rank().ranks > 1 && command != "run" && command != "verify")
+    throw InputError(fmt::format("{}: runs on one process and starts its own ranks where it needs them; run it without mpirun",
+                                 command));
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app("dssbench: dynamic stress-strain solvers, measured and checked.\n"
                "Exit codes: 0 success, 1 a check failed, 2 bad input, 3 a run is or would be unstable.");
@@ -77,6 +85,7 @@ int run_program(int argc, char** argv) {
     return fail(exit_bad_input,
                 fmt::format("{}; see dssbench {} --help", what, argc > 1 && argv[1][0] != '-' ? argv[1] : ""));
   }
+  for (const CLI::App* command : app.get_subcommands()) require_alone(command->get_name());
   const int exit_code = chosen();
   end_variants(exit_code, true);
   if (std::fflush(stdout) != 0) throw InputError("standard output: cannot write; is the disk full?");

@@ -19,7 +19,7 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
 }
 
 std::string FrameSeries::finish() const {
-  if (!is_series_) return output_;
+  if (!is_series_ || output_.empty()) return output_;
   const std::string index = std::filesystem::path(output_).replace_extension(".pvd").string();
   write_pvd(index, frames_);
   return fmt::format("{}, which lists {} files {} to {}", index, frames_.size(), frames_.front().file,

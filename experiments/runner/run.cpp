@@ -17,6 +17,23 @@ namespace {
 constexpr long batch_steps = 256;                  ///< signals are made for so many steps at once
 constexpr std::size_t energy_elements = 2'000'000; ///< a second copy of a larger state would count in the memory
 
+/// While one lives, this rank does what only one need do, and the others wait.
+class WorkAlone {
+public:
+  WorkAlone(Executor& executor, bool is_root) : executor_(executor), is_root_(is_root) {
+    if (is_root_) executor_.work_alone(true);
+  }
+  WorkAlone(const WorkAlone&) = delete;
+  WorkAlone& operator=(const WorkAlone&) = delete;
+  ~WorkAlone() {
+    if (is_root_) executor_.work_alone(false);
+  }
+
+private:
+  Executor& executor_;
+  bool is_root_;
+};
+
 /// Advances an executor by pieces between the steps at which somebody looks, and times nothing but advance().
 class TimedRun {
 public:
@@ -126,18 +143,23 @@ private:
       check.how = fmt::format("oracle after {} steps", step);
       check.tolerance = plan_.tolerance().run;
       const std::vector<double> state = whole_state(*executor_, count);
+      const WorkAlone alone(*executor_, is_root_);
       if (is_root_) check.error = state_error(problem_, plan_.expected->state, state);
     }
     if (has_tail() && step == tail_start()) tail_state_ = whole_state(*executor_, count);
     if (has_tail() && step == plan_.steps) check_tail();
-    if (std::binary_search(plan_.frame_steps.begin(), plan_.frame_steps.end(), step))
-      series_.add(problem_, whole_state(*executor_, count), double(step) * plan_.dt);
+    if (std::binary_search(plan_.frame_steps.begin(), plan_.frame_steps.end(), step)) {
+      const std::vector<double> state = whole_state(*executor_, count);
+      const WorkAlone alone(*executor_, is_root_);
+      series_.add(problem_, state, double(step) * plan_.dt);
+    }
   }
 
   void check_tail() {
     const long steps = plan_.steps - tail_start();
     const std::vector<double> state = whole_state(*executor_, problem_.lattice.element_count);
     if (!is_root_) return;
+    const WorkAlone alone(*executor_, true);
     const auto expected = continue_by_oracle(problem_, *plan_.method, plan_.dt, tail_start(), steps, tail_state_);
     result_.check.tail_error = state_error(problem_, expected, state);
     result_.check.how += fmt::format(", and over the last {}", steps);
@@ -197,6 +219,7 @@ RunResult run_scene(const RunRequest& request) {
   if (count <= energy_elements) result.energy_j = total_energy(problem, whole_state(timed.executor(), count));
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), count);
+    const WorkAlone alone(timed.executor(), request.is_root);
     if (request.is_root) write_state(request.state_csv, problem, state);
     result.files.push_back(request.state_csv);
   }

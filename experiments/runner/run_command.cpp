@@ -2,6 +2,8 @@
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/job.hpp"
 #include "experiments/runner/run.hpp"
+#include "experiments/runner/run_plan.hpp"
+#include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 
 #include <cstdio>
@@ -36,11 +38,23 @@ void print_summary(const RunResult& result) {
   for (const std::string& file : result.files) fmt::print("wrote {}\n", file);
 }
 
+/// All that can be found wrong without any rank is refused before one is started.
+void require_startable(const RunRequest& request) {
+  const RunPlan plan = plan_run(request);
+  if (request.ranks > most_ranks_here())
+    throw InputError(fmt::format("--ranks {}: more than {} are too many for this machine; start them by mpirun and your hosts",
+                                 request.ranks, most_ranks_here()));
+  decomposition_for(plan.scene.problem, request.decomposition, request.ranks);
+}
+
 int run(const RunArguments& arguments) {
   RunRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.set);
   if (job_rank().ranks > 1 && request.ranks == 1) request.ranks = job_rank().ranks; // started by mpirun itself
-  if (request.ranks > 1 && job_rank().ranks == 1) return run_on_ranks(request.ranks, request.threads);
+  if (request.ranks > 1 && !job_rank().is_started) {
+    require_startable(request);
+    return run_on_ranks(request.ranks, request.threads);
+  }
   request.is_root = job_rank().is_root();
   const RunResult result = run_scene(request);
   if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));

@@ -22,6 +22,12 @@ Precision chosen_precision(const std::string& name) {
   throw InputError(fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32"})));
 }
 
+std::vector<std::string> halo_names() {
+  std::vector<std::string> names{"auto"};
+  for (const HaloStrategy& strategy : halo_strategies()) names.emplace_back(strategy.name);
+  return names;
+}
+
 void require_sensible(const RunRequest& request, const RunPlan& plan) {
   const auto refuse = [](const std::string& what) { throw InputError(what); };
   if (request.threads < 1 || request.threads > 1024)
@@ -30,9 +36,13 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
     refuse(fmt::format("--threads {}: variant \"{}\" runs on one thread; give --threads 1", request.threads,
                        plan.plugin->name));
   if (request.ranks < 1 || request.ranks > 65536) refuse(fmt::format("--ranks {}: give 1 to 65536", request.ranks));
-  if (const int started = job_rank().ranks; started > 1 && request.ranks != started)
-    refuse(fmt::format("--ranks {}: mpirun has started {} ranks; give --ranks {}, or none", request.ranks, started,
-                       started));
+  if (const JobRank job = job_rank(); job.is_started && request.ranks != job.ranks)
+    refuse(fmt::format("--ranks {}: this job has {}; give --ranks {}, or none", request.ranks, job.ranks, job.ranks));
+  if (std::size_t(request.ranks) > plan.scene.problem.lattice.element_count)
+    refuse(fmt::format("--ranks {}: the scene has {} elements; give at most that", request.ranks,
+                       plan.scene.problem.lattice.element_count));
+  if (request.halo != "auto" && find_halo_strategy(request.halo) == nullptr)
+    refuse(fmt::format("--halo {}: unknown strategy; {}", request.halo, nearest_name(request.halo, halo_names())));
   if (request.shares != "equal" && request.shares != "measured")
     refuse(
         fmt::format("--shares {}: unknown; {}", request.shares, nearest_name(request.shares, {"equal", "measured"})));

@@ -149,8 +149,9 @@ private:
   NodeSpeed base_, own_;
 };
 
-/// Measured time of the same problem on as many ranks with the same strategy, for as many steps.
+/// Measured time of the same problem on as many ranks with the same strategy, for as many steps: on this host's network only.
 void put_measured(const Table& measured, Record& row) {
+  if (text_in(row, "network") != host_platform) return;
   for (const Record& other : measured.rows)
     if (text_in(other, "scene") == text_in(row, "scene") && text_in(other, "set") == text_in(row, "set") &&
         text_in(other, "ranks") == text_in(row, "ranks") && text_in(other, "halo") == text_in(row, "halo") &&

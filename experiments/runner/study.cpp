@@ -91,7 +91,6 @@ fs::path study_directory() {
   return fs::path(DSS_SOURCE_DIR) / "experiments";
 }
 
-
 } // namespace
 
 std::string Cell::set_text() const {

@@ -96,7 +96,7 @@ void each_case(const std::vector<std::string>& names, Visit&& visit) {
   flush_denormals();
   Progress progress;
   for (std::size_t place = 0; place < names.size(); ++place) {
-    progress.show(double(place), double(names.size()), names[place]);
+    if (job_rank().is_root()) progress.show(double(place), double(names.size()), names[place]);
     for (const VerifyCase& small : defaults[place].verify) {
       const std::vector<Override> overrides = verify_overrides(small);
       std::string set; // a scene may have several small versions
@@ -161,8 +161,11 @@ std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments, const 
   return rows;
 }
 
-int verify(const VerifyArguments& arguments) {
+int verify(VerifyArguments arguments) {
+  if (arguments.ranks.empty() && job_rank().is_started) arguments.ranks = {job_rank().ranks};
   if (!arguments.json.empty() && arguments.json != "-") require_writable(arguments.json);
+  if (job_rank().is_started && arguments.ranks != std::vector<int>{job_rank().ranks})
+    throw InputError(fmt::format("--ranks: this job has {}; give that, or none", job_rank().ranks));
   if (!arguments.ranks.empty() && arguments.variants.size() > 1)
     throw InputError("--ranks: give at most one --variant, which computes the parts");
   std::vector<std::string> names = arguments.scenes;

@@ -20,9 +20,9 @@ MPIRUN = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 def why_no_ranks():
     """Why there is nothing to test here, or an empty string."""
-    for variant in json.loads(dssbench("list", "variants", "--json").stdout):
-        if variant["variant"] == "mpi" and variant["status"] != "usable":
-            return variant["status"]
+    status = {row["variant"]: row["status"] for row in json.loads(dssbench("list", "variants", "--json").stdout)}
+    if status.get("mpi") != "usable":
+        return "variant mpi: " + status.get("mpi", "not built")
     return "" if shutil.which("mpirun") else "mpirun is not installed"
 
 
@@ -137,8 +137,9 @@ class Decompositions(ProgramTest):
         slow = {"env": {**os.environ, "DSSBENCH_FAULT": "slow:1:3"}}
         result = dssbench("run", "plate_paper", "--set", "n=60", "--steps", "20", "--ranks", "2", "--halo", "deep", "--shares", "measured", "--json", "-", **slow)
         self.assertEqual(result.returncode, 0, result.stderr)
-        # three quarters of the elements on rank 0; trials of a few milliseconds on busy cores may see it otherwise
-        self.assertAlmostEqual(json.loads(result.stdout)["imbalance"], 1.5, delta=0.3)
+        imbalance = json.loads(result.stdout)["imbalance"]  # 1.5 on idle cores: three quarters of the elements on rank 0
+        self.assertGreater(imbalance, 1.2)
+        self.assertLess(imbalance, 2)
 
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)
@@ -177,7 +178,7 @@ class UnderMpirun(ProgramTest):
         self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
         lines = set(own_lines(result))  # a second rank says the same if mpirun is slow to end it
         self.assertEqual(len(lines), 1, result.stderr)
-        self.assertIn("mpirun has started 2 ranks; give --ranks 2", lines.pop())
+        self.assertIn("this job has 2; give --ranks 2", lines.pop())
 
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)

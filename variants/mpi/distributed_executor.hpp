@@ -22,6 +22,7 @@ public:
   std::size_t bytes() const override { return bytes_; }
   RankInfo rank_info() const override { return info_; }
   Traffic traffic() const override;
+  void work_alone(bool is_alone) override { world_.work_alone(is_alone); }
   std::vector<double> gather(double value) override { return world_.gather(value); }
 
 private:

@@ -26,14 +26,7 @@ int halo_depth(const HaloStrategy& strategy, const Method& method) {
 }
 
 Decomposition decomposition_of(const Setup& setup, const Distribution& asked, const Weights& weights) {
-  const std::string& how = asked.decomposition;
-  if (how.find('/') == std::string::npos && !how.ends_with(".json"))
-    return decompose(setup.problem, how, asked.ranks, weights);
-  Decomposition read = read_decomposition(how, setup.problem);
-  if (read.parts != asked.ranks)
-    throw InputError(fmt::format("--decomposition {}: has {} parts for {} ranks; give --ranks {}", how, read.parts,
-                                 asked.ranks, read.parts));
-  return read;
+  return decomposition_for(setup.problem, asked.decomposition, asked.ranks, weights);
 }
 
 /// Every rank's speed in own elements a second, from an equal share.

@@ -1,28 +1,19 @@
 #include "variants/mpi/watch.hpp"
 
+#include "variants/mpi/start_guard.hpp"
 #include "variants/mpi/world.hpp"
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace dss {
 namespace {
 
-constexpr double default_patience_s = 7; ///< with what mpirun takes to end the others, a hung job lasts below 10 s
 constexpr double silence_s = 3;          ///< of a watch, which speaks five times a second
 constexpr double grace_s = 1.5;          ///< for those nearer to the culprit to speak first
-constexpr int exit_hung = 70;
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double patience_s() {
-  const char* text = std::getenv("DSSBENCH_PATIENCE_S");
-  const double asked = text == nullptr ? 0 : std::atof(text);
-  return asked > 0 ? asked : default_patience_s;
-}
 
 double waited_s = 0; ///< by this rank in exchanges
 
@@ -43,7 +34,7 @@ Watch::Watch(MPI_Comm comm, MPI_Comm node) : patience_s_(patience_s()), idle_sin
   int unit = 0;
   MPI_Win_shared_query(window_, 0, &size, &unit, &memory);
   posts_ = static_cast<Post*>(memory);
-  own_ = new (&posts_[node_rank]) Post{nobody, 0.0, 0, now_s()};
+  own_ = new (&posts_[node_rank]) Post{nobody, 0.0, 0, false, now_s()};
   MPI_Barrier(node);
   thread_ = std::thread([this] { look(); });
 }
@@ -75,9 +66,11 @@ Watch::Post* Watch::post_of(int rank) const {
   return found == node_ranks_.end() ? nullptr : &posts_[found - node_ranks_.begin()];
 }
 
+bool Watch::is_silent(const Post& post) { return now_s() - post.beat_s.load(std::memory_order_relaxed) > silence_s; }
+
 int Watch::culprit() const {
   for (const int rank : node_ranks_)
-    if (now_s() - post_of(rank)->beat_s.load(std::memory_order_relaxed) > silence_s) return rank;
+    if (is_silent(*post_of(rank))) return rank;
   int rank = rank_;
   for (int steps = 0; steps < ranks_; ++steps) {
     const Post* const post = post_of(rank);
@@ -121,10 +114,10 @@ void Watch::look() {
     const double over_s = now_s() - own_->since_s.load(std::memory_order_relaxed) - limit_s;
     if (over_s < 0) continue;
     const int found = culprit();
+    const Post* const post = found == nobody ? nullptr : post_of(found);
+    if (post != nullptr && post->is_alone.load(std::memory_order_relaxed) && !is_silent(*post)) continue;
     if (found == rank_ || (!is_speaker(found) && over_s < grace_s)) continue;
-    const std::string line = fmt::format("dssbench: {}; the job is ended\n", message(found));
-    const auto written = ::write(2, line.data(), line.size());
-    ::_exit(written < 0 ? exit_hung + 1 : exit_hung); // mpirun ends the others
+    end_job(message(found));
   }
 }
 

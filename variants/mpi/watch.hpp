@@ -23,6 +23,8 @@ public:
   /// From the rank's own thread, round each call that may block. Times are of the steady clock [s].
   void begin_waiting(int rank, double now_s);
   void end_waiting(double now_s);
+  /// This rank works while others wait for it: they are to have patience as long as its watch lives.
+  void work_alone(bool is_alone) { own_->is_alone.store(is_alone, std::memory_order_relaxed); }
 
 private:
   /// What a rank says of itself.
@@ -30,9 +32,11 @@ private:
     std::atomic<int> waits_for;
     std::atomic<double> since_s;
     std::atomic<long> calls;    ///< for all: ranks that have made fewer hold the others up
+    std::atomic<bool> is_alone; ///< works while others wait
     std::atomic<double> beat_s; ///< last sign of life of its watch: a stopped process gives none
   };
   void look();
+  static bool is_silent(const Post& post);
   /// The rank at the end of the chain of those who wait for one another, as far as this node knows.
   int culprit() const;
   Post* post_of(int rank) const;

@@ -1,10 +1,12 @@
 #include "variants/mpi/world.hpp"
 
 #include "solver/error.hpp"
+#include "variants/mpi/start_guard.hpp"
 #include "variants/mpi/watch.hpp"
 
 #include <csignal>
 #include <cstdlib>
+#include <optional>
 #include <sys/prctl.h>
 
 namespace dss {
@@ -31,6 +33,8 @@ World& World::instance() {
 World::World() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL); // mpirun gone, rank gone
   prepare_environment();
+  std::optional<StartGuard> guard;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr) guard.emplace();
   int provided = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
       provided < MPI_THREAD_FUNNELED)
@@ -67,6 +71,10 @@ double World::largest(double value) { return -least(-value); }
 void World::meet() {
   const Waiting waiting(Waiting::for_all);
   MPI_Barrier(comm_);
+}
+
+void World::work_alone(bool is_alone) {
+  if (watch_) watch_->work_alone(is_alone);
 }
 
 void World::end(int exit_code, bool is_in_order) {

@@ -34,6 +34,8 @@ public:
   double least(double value);
   double largest(double value);
   void meet();
+  /// See Executor::work_alone.
+  void work_alone(bool is_alone);
 
   /// See end_variants.
   void end(int exit_code, bool is_in_order);
