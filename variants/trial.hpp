@@ -1,10 +1,12 @@
 #pragma once
-/// How long a step of a part takes here, without any exchange.
+/// How fast this process computes a part, without any exchange.
 #include "variants/api.hpp"
+#include "variants/part_cost.hpp"
 
 namespace dss {
 
-/// Seconds that this process computes in a step of a part, the least of a few short timings. Halo elements stay zero.
-double measure_step_s(const Setup& setup, const Plugin& plugin, const Part& part, const HaloStrategy& strategy);
+/// Speed on one part of a decomposition, the best of some short timings of both schedules in turn: a shared machine is
+/// never too fast. `setup` is of the whole problem.
+NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part);
 
 } // namespace dss

@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_trial_elements = 1'000'000;
 constexpr double time_limit_s = 600;
-constexpr int speed_rounds = 5; ///< the best counts: a shared machine is never too fast
 
 /// Settings with which a ping-pong takes just the latency and bandwidth that the platform states, computation takes what
 /// is injected, and a thousand ranks run in seconds. (Measured: SimGrid 3.32; its defaults are those of one old cluster.)
@@ -48,46 +47,11 @@ std::string module_path() {
   return fs::exists(installed, error) ? installed.string() : DSS_SIMULATED_CLUSTER;
 }
 
-/// Elements times stages that a part computes in a step: rows whole, each as often as a later stage needs it.
-double element_stages(const PartSize& size, const HaloStrategy& strategy, int stages) {
-  if (strategy.is_every_stage) return double(size.row_elements[0]) * stages;
-  double sum = 0;
-  for (std::size_t layer = 0; layer < size.row_elements.size(); ++layer)
-    sum += double(size.row_elements[layer]) * std::max(0, stages - int(layer));
-  return sum;
-}
-
-int halo_depth(const HaloStrategy& strategy, const Method& method) {
-  return strategy.is_every_stage ? 1 : method.stages;
-}
-
-/// The passes of an overlapped step, as RowExecutor::make_blocks cuts them.
-void plan_passes(const PartSize& size, int stages, int reach, double speed, PlannedPart& part) {
-  const auto has = [&](Side side) {
-    return std::ranges::any_of(size.faces, [&](const PartSize::Face& face) { return face.side == side; });
-  };
-  const double row_s = double(size.row_elements[0]) / size.own_rows / speed; // of one row and stage
-  const int halo = stages * reach;
-  const double again = reach * stages * (stages - 1) / 2.0; // rows times stages computed beside a cut
-  const bool is_split = has(Side::upper) && size.own_rows >= 3 * halo;
-  if (is_split) {
-    part.upper_s = row_s * (halo * stages + 2 * again);
-    part.compute_s += row_s * 2 * again;
-  }
-  const double lower_s = part.compute_s - part.upper_s;
-  const int lower_rows = size.own_rows - (is_split ? halo : 0);
-  const double done_at = double(halo + (stages - 1) * reach) / (lower_rows + (stages - 1) * reach);
-  part.edge_s = has(Side::lower) ? lower_s * std::min(1.0, done_at) : 0;
-}
-
-PlannedPart plan_part(const SimulatedProblem& what, const PartSize& size, const HaloStrategy& strategy, double speed) {
-  const int stages = what.method.stages;
+PlannedPart plan_part(const SimulatedProblem& what, const PartSize& size, const HaloStrategy& strategy,
+                      const NodeSpeed& speed) {
   const std::size_t element_bytes = field_count * (what.precision == Precision::f64 ? 8 : 4);
   PlannedPart part;
-  part.compute_s = element_stages(size, strategy, stages) / speed;
-  part.inner_s = part.compute_s * double(size.inner_elements) / double(std::max<std::size_t>(1, size.row_elements[0]));
-  if (strategy.is_overlapped && !strategy.is_every_stage)
-    plan_passes(size, stages, what.problem.lattice.row_reach(), speed, part);
+  part.times = part_times(size, strategy, what.method.stages, what.problem.lattice.row_reach(), speed);
   for (const PartSize::Face& face : size.faces)
     part.faces.push_back({face.part, face.side, face.send * element_bytes, face.receive * element_bytes});
   return part;
@@ -128,20 +92,10 @@ NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposi
   const std::size_t largest = largest_part(what.problem, decomposition, index);
   const Decomposition tried = trial_decomposition(what.problem, decomposition, largest);
   largest_part(what.problem, tried, index);
-  const Plugin& plugin = load_variant("auto");
-  const auto once = [&](const HaloStrategy& strategy) {
-    const int depth = halo_depth(strategy, what.method);
-    const Part part = make_part(what.problem, tried, index, depth);
-    const double work = element_stages(part_size(what.problem, tried, index, depth), strategy, what.method.stages);
-    const Setup setup{part.problem, what.method, what.model, what.precision, what.problem.dt};
-    return work / measure_step_s(setup, plugin, part, strategy);
-  };
-  NodeSpeed best{"ours", 0, 0};
-  for (int n = 0; n < speed_rounds; ++n) {
-    best.at_once = std::max(best.at_once, once(*find_halo_strategy("deep")));
-    best.stage_by_stage = std::max(best.stage_by_stage, once(*find_halo_strategy("sendrecv")));
-  }
-  return best;
+  const Setup setup{what.problem, what.method, what.model, what.precision, what.problem.dt};
+  NodeSpeed speed = measure_speed(setup, load_variant("auto"), tried, index);
+  speed.name = "ours";
+  return speed;
 }
 
 SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition, const NodeSpeed& speed,
@@ -155,7 +109,7 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
       if (strategy.is_every_stage != is_every_stage || strategy.transport == HaloStrategy::Transport::shared) continue;
       PlannedStrategy planned{std::string(strategy.name), is_every_stage ? what.method.stages : 1, {}};
       for (const PartSize& size : sizes)
-        planned.parts.push_back(plan_part(what, size, strategy, is_every_stage ? speed.stage_by_stage : speed.at_once));
+        planned.parts.push_back(plan_part(what, size, strategy, speed));
       plan.strategies.push_back(std::move(planned));
     }
   }

@@ -11,13 +11,6 @@
 
 namespace dss {
 
-/// How fast a simulated node computes, in elements and stages a second, halo elements included.
-struct NodeSpeed {
-  std::string name;          ///< "paper" or "ours"
-  double at_once = 0;        ///< all stages in one pass
-  double stage_by_stage = 0; ///< with an exchange after each
-};
-
 /// What is simulated.
 struct SimulatedProblem {
   const Problem& problem;

@@ -16,58 +16,39 @@ namespace {
 
 constexpr double resolution = 1.1; ///< ranks whose measured speeds differ by less count as equal
 
-double measure_step_s(const Setup& setup, const Plugin& plugin, const Part& part, const HaloStrategy& strategy,
-                      const Fault& fault) {
-  return measure_step_s(setup, plugin, part, strategy) * fault.slowdown();
-}
-
-int halo_depth(const HaloStrategy& strategy, const Method& method) {
-  return strategy.is_every_stage ? 1 : method.stages;
+NodeSpeed own_speed(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, World& world,
+                    const Fault& fault) {
+  world.meet(); // ranks that share a memory compute together, as in the run
+  NodeSpeed speed = measure_speed(setup, plugin, decomposition, world.rank());
+  speed.at_once /= fault.slowdown();
+  speed.stage_by_stage /= fault.slowdown();
+  return speed;
 }
 
 Decomposition decomposition_of(const Setup& setup, const Distribution& asked, const Weights& weights) {
   return decomposition_for(setup.problem, asked.decomposition, asked.ranks, weights);
 }
 
-/// Every rank's speed in own elements a second, from an equal share.
+/// Every rank's speed on an equal share.
 Weights measured_weights(const Setup& setup, const Plugin& plugin, const Decomposition& equal, World& world,
                          const Fault& fault) {
-  const HaloStrategy& deep = *find_halo_strategy("deep");
-  const Part part = make_part(setup.problem, equal, world.rank(), halo_depth(deep, setup.method));
-  world.meet();
-  const double step_s = measure_step_s(setup, plugin, part, deep, fault);
-  const std::vector<double> speed = world.gather(double(part.own_elements) / step_s);
+  const std::vector<double> speed = world.gather(own_speed(setup, plugin, equal, world, fault).at_once);
   const auto [least, most] = std::minmax_element(speed.begin(), speed.end());
   return {*most > resolution * *least ? speed : std::vector<double>{}, {}};
 }
 
-/// Share of a part's rows that read no halo: what is computed while messages are under way.
-double inner_share(const Part& part) {
-  std::size_t outer = 0;
-  for (const Neighbour& neighbour : part.neighbours) outer += neighbour.send.size();
-  return 1 - std::min(1.0, double(outer) / double(part.own_elements));
-}
-
-HaloCost cost_of(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, World& world,
-                 const HaloStrategy& strategy, const Fault& fault) {
-  const Part part = make_part(setup.problem, decomposition, world.rank(), halo_depth(strategy, setup.method));
-  HaloCost cost;
-  world.meet(); // ranks that share a memory compute together, as in the run
-  cost.compute_s = measure_step_s(setup, plugin, part, strategy, fault);
-  cost.hiding_s = cost.compute_s * inner_share(part);
-  cost.exchanges = strategy.is_every_stage ? setup.method.stages : 1;
-  cost.faces = int(part.neighbours.size());
-  const std::size_t number = setup.precision == Precision::f64 ? 8 : 4;
-  for (const Neighbour& neighbour : part.neighbours) cost.bytes += double(neighbour.send.size() * field_count * number);
-  return cost;
-}
-
 void choose_strategy(const Setup& setup, const Plugin& plugin, World& world, const Fault& fault, Spread& spread) {
   const Network& network = spread.network = measure_network(world.comm());
+  const NodeSpeed speed = own_speed(setup, plugin, spread.decomposition, world, fault);
+  const int stages = setup.method.stages, reach = setup.problem.lattice.row_reach();
+  const double element_bytes = double(field_count) * (setup.precision == Precision::f64 ? 8.0 : 4.0);
   double least = std::numeric_limits<double>::infinity();
   for (const HaloStrategy& strategy : halo_strategies()) {
     if (strategy.transport == HaloStrategy::Transport::shared && !world.is_one_node()) continue;
-    const HaloCost cost = cost_of(setup, plugin, spread.decomposition, world, strategy, fault);
+    const PartSize size =
+        part_size(setup.problem, spread.decomposition, world.rank(), halo_depth(strategy, setup.method));
+    HaloCost cost = halo_cost(size, part_times(size, strategy, stages, reach, speed), strategy, stages, element_bytes);
+    if (world.is_one_node()) cost.hiding_s = 0; // the processors themselves copy the messages
     const double step_s = world.largest(predicted_step_s(strategy, cost, network));
     spread.halo_reason += fmt::format("{}{} {:.4g} us", spread.halo_reason.empty() ? "predicted step: " : ", ",
                                       strategy.name, 1e6 * step_s);

@@ -63,11 +63,11 @@ public:
         step_by_stages(is_last);
       else if (strategy_.is_overlapped)
         overlapped_step(
-            *exchange_, n % copies_, (n + 1) % copies_, is_last, part_.upper_s > 0, [&] { compute(part_.upper_s); },
+            *exchange_, n % copies_, (n + 1) % copies_, is_last, part_.times.upper_s > 0, [&] { compute(part_.times.upper_s); },
             [&](auto&& edge_is_done) {
-              compute(part_.edge_s);
+              compute(part_.times.edge_s);
               edge_is_done();
-              compute(part_.compute_s - part_.upper_s - part_.edge_s);
+              compute(part_.times.compute_s - part_.times.upper_s - part_.times.edge_s);
             });
       else
         step_at_once(n, is_last);
@@ -77,18 +77,18 @@ public:
 
 private:
   void step_by_stages(bool is_last) {
-    const double inner_s = strategy_.is_overlapped ? part_.inner_s / planned_.exchanges : 0;
+    const double inner_s = strategy_.is_overlapped ? part_.times.inner_s / planned_.exchanges : 0;
     for (int stage = 0; stage < planned_.exchanges; ++stage) {
       compute(inner_s);
       for (const Side side : all_sides) exchange_->receive(side, 0);
-      compute(part_.compute_s / planned_.exchanges - inner_s);
+      compute(part_.times.compute_s / planned_.exchanges - inner_s);
       if (is_last && stage + 1 == planned_.exchanges) return;
       for (const Side side : all_sides) exchange_->send(side, 0);
     }
   }
   void step_at_once(int n, bool is_last) {
     for (const Side side : all_sides) exchange_->receive(side, n % copies_);
-    compute(part_.compute_s);
+    compute(part_.times.compute_s);
     if (is_last) return;
     for (const Side side : all_sides) exchange_->send(side, (n + 1) % copies_);
   }
@@ -111,7 +111,7 @@ double sum(double value) {
 
 double predicted_s(const PlannedStrategy& planned, const HaloStrategy& strategy, int rank, const Network& network) {
   const PlannedPart& part = planned.parts[std::size_t(rank)];
-  HaloCost cost{part.compute_s, strategy.is_every_stage ? part.inner_s : part.compute_s - part.upper_s,
+  HaloCost cost{part.times.compute_s, strategy.is_every_stage ? part.times.inner_s : part.times.compute_s - part.times.upper_s,
                 planned.exchanges, int(part.faces.size()), 0};
   for (const PlannedPart::Face& face : part.faces) cost.bytes += double(face.send_bytes);
   return largest(predicted_step_s(strategy, cost, network));

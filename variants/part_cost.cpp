@@ -1,0 +1,62 @@
+#include "variants/part_cost.hpp"
+
+#include <algorithm>
+
+namespace dss {
+namespace {
+
+/// The passes of an overlapped step, as RowExecutor::make_blocks cuts them.
+void cut_passes(const PartSize& size, int stages, int reach, double speed, PartTimes& times) {
+  const auto has = [&](Side side) {
+    return std::ranges::any_of(size.faces, [&](const PartSize::Face& face) { return face.side == side; });
+  };
+  const double row_s = double(size.row_elements[0]) / size.own_rows / speed; // of one row and stage
+  const int halo = stages * reach;
+  const double again = reach * stages * (stages - 1) / 2.0; // rows times stages computed beside a cut
+  const bool is_split = has(Side::upper) && size.own_rows >= 3 * halo;
+  if (is_split) {
+    times.upper_s = row_s * (halo * stages + 2 * again);
+    times.compute_s += row_s * 2 * again;
+  }
+  const double lower_s = times.compute_s - times.upper_s;
+  const int lower_rows = size.own_rows - (is_split ? halo : 0);
+  const double done_at = double(halo + (stages - 1) * reach) / (lower_rows + (stages - 1) * reach);
+  times.edge_s = has(Side::lower) ? lower_s * std::min(1.0, done_at) : 0;
+}
+
+} // namespace
+
+int halo_depth(const HaloStrategy& strategy, const Method& method) {
+  return strategy.is_every_stage ? 1 : method.stages;
+}
+
+double element_stages(const PartSize& size, const HaloStrategy& strategy, int stages) {
+  if (strategy.is_every_stage) return double(size.row_elements[0]) * stages;
+  double sum = 0;
+  for (std::size_t layer = 0; layer < size.row_elements.size(); ++layer)
+    sum += double(size.row_elements[layer]) * std::max(0, stages - int(layer));
+  return sum;
+}
+
+PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, int stages, int reach,
+                     const NodeSpeed& speed) {
+  PartTimes times;
+  times.compute_s = element_stages(size, strategy, stages) / speed.of(strategy);
+  times.inner_s =
+      times.compute_s * double(size.inner_elements) / double(std::max<std::size_t>(1, size.row_elements[0]));
+  if (strategy.is_overlapped && !strategy.is_every_stage) cut_passes(size, stages, reach, speed.of(strategy), times);
+  return times;
+}
+
+HaloCost halo_cost(const PartSize& size, const PartTimes& times, const HaloStrategy& strategy, int stages,
+                   double element_bytes) {
+  HaloCost cost;
+  cost.compute_s = times.compute_s;
+  cost.hiding_s = strategy.is_every_stage ? times.inner_s : times.compute_s - times.upper_s;
+  cost.exchanges = strategy.is_every_stage ? stages : 1;
+  cost.faces = int(size.faces.size());
+  for (const PartSize::Face& face : size.faces) cost.bytes += double(face.send) * element_bytes;
+  return cost;
+}
+
+} // namespace dss
