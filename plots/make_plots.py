@@ -8,6 +8,7 @@ import argparse
 import pathlib
 import sys
 
+import cluster_lines
 import plate_picture
 import scaling_lines
 import speedup_bars
@@ -23,6 +24,9 @@ def main():
         sys.exit(f"{results}: no tables/*.csv and no fields/*.vtu; run `dssbench experiment` first")
     for table in tables:
         output = results / "figures" / f"{table.stem}.png"
+        if table.stem.endswith("_simulated"):
+            print(cluster_lines.draw(table, output) or output)
+            continue
         print(speedup_bars.draw(table, None, output) or output)
         output = results / "figures" / f"{table.stem}_scaling.png"
         if scaling_lines.draw(table, output) is None:  # most tables have no ranks
