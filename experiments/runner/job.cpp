@@ -43,7 +43,8 @@ std::string failure_line(const ChildResult& job, int ranks) {
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("dssbench: ")) return line;
   if (job.error.find("not enough slots") != std::string::npos)
-    return fmt::format("dssbench: --ranks {}: mpirun has not so many slots here (inside another job, or an allocation)", ranks);
+    return fmt::format("dssbench: --ranks {}: mpirun has not so many slots here (inside another job, or an allocation)",
+                       ranks);
   std::smatch match;
   if (std::regex_search(job.error, match, std::regex("process rank (\\d+) .*exited on signal (\\d+) \\(([^)]*)\\)")))
     return fmt::format("dssbench: rank {} of {} was ended by signal {} ({})", match.str(1), ranks, match.str(2),
@@ -67,7 +68,8 @@ JobRank job_rank() {
 void require_usable_job() {
   const char* tasks = std::getenv("SLURM_STEP_NUM_TASKS");
   if (tasks != nullptr && std::atoi(tasks) > 1 && !job_rank().is_started)
-    throw InputError(fmt::format("srun has started {} tasks that MPI knows nothing of; start them by srun --mpi=pmix", tasks));
+    throw InputError(
+        fmt::format("srun has started {} tasks that MPI knows nothing of; start them by srun --mpi=pmix", tasks));
 }
 
 int most_ranks_here() { return std::max(64, 16 * usable_cores()); }

@@ -54,8 +54,8 @@ std::string unknown_option(int argc, char** argv, const CLI::App& app) {
 void require_alone(const std::string& command) {
   require_usable_job();
   if (job_rank().ranks > 1 && command != "run" && command != "verify")
-    throw InputError(fmt::format("{}: runs on one process and starts its own ranks where it needs them; run it without mpirun",
-                                 command));
+    throw InputError(fmt::format(
+        "{}: runs on one process and starts its own ranks where it needs them; run it without mpirun", command));
 }
 
 int run_program(int argc, char** argv) {

@@ -15,7 +15,8 @@ fs::path platform_folder() { return fs::path(DSS_SOURCE_DIR) / "experiments/plat
 
 /// Two ranks of this machine as two nodes: the same settings as in experiments/platforms, figures by ping-pong.
 std::string describe_host() {
-  const JobResult job = run_job(2, 1, {"run", "plate_paper", "--set", "n=20", "--steps", "2", "--ranks", "2", "--json", "-"});
+  const JobResult job =
+      run_job(2, 1, {"run", "plate_paper", "--set", "n=20", "--steps", "2", "--ranks", "2", "--json", "-"});
   const auto json = nlohmann::json::parse(job.output, nullptr, false);
   if (!json.is_object()) throw InputError(fmt::format("--platform {}: {}", host_platform, job.failure));
   const auto& network = json["network"];
@@ -51,7 +52,8 @@ void Platform::require_known(const std::string& name_or_path) {
   if (fs::exists(platform_folder() / (name_or_path + ".xml"))) return;
   std::vector<std::string> names{host_platform};
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(platform_folder(), error)) names.push_back(entry.path().stem().string());
+  for (const auto& entry : fs::directory_iterator(platform_folder(), error))
+    names.push_back(entry.path().stem().string());
   std::ranges::sort(names);
   throw InputError(fmt::format("--platform {}: no such platform; {}", name_or_path, nearest_name(name_or_path, names)));
 }

@@ -42,8 +42,9 @@ void print_summary(const RunResult& result) {
 void require_startable(const RunRequest& request) {
   const RunPlan plan = plan_run(request);
   if (request.ranks > most_ranks_here())
-    throw InputError(fmt::format("--ranks {}: more than {} are too many for this machine; start them by mpirun and your hosts",
-                                 request.ranks, most_ranks_here()));
+    throw InputError(
+        fmt::format("--ranks {}: more than {} are too many for this machine; start them by mpirun and your hosts",
+                    request.ranks, most_ranks_here()));
   decomposition_for(plan.scene.problem, request.decomposition, request.ranks);
 }
 

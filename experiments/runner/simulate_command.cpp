@@ -34,7 +34,8 @@ int simulate_scene(const SimulateArguments& arguments) {
   const Decomposition decomposition = decompose(scene.problem, arguments.decomposition, arguments.ranks);
   const NodeSpeed speed =
       arguments.node_speed > 0 ? given_speed("given", arguments.node_speed, method) : own_speed(what, decomposition);
-  const SimulatedRun run = simulate(make_plan(what, decomposition, speed, arguments.halo, arguments.steps), platform.path());
+  const SimulatedRun run =
+      simulate(make_plan(what, decomposition, speed, arguments.halo, arguments.steps), platform.path());
   const double elements = double(scene.problem.lattice.element_count);
   if (!arguments.json.empty())
     write_json(arguments.json, {{"context", measurement_context()},
@@ -72,7 +73,9 @@ void add_simulate_command(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<SimulateArguments>();
   command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")->required();
   command->add_option("--ranks", arguments->ranks, "Nodes of one rank each")->required()->check(CLI::Range(1, 1024));
-  command->add_option("--platform", arguments->platform, "gigabit, ten_gigabit, fdr, a SimGrid platform file; this_host: two ranks here, by ping-pong")
+  command
+      ->add_option("--platform", arguments->platform,
+                   "gigabit, ten_gigabit, fdr, a SimGrid platform file; this_host: two ranks here, by ping-pong")
       ->capture_default_str();
   command->add_option("--halo", arguments->halo, "sendrecv, overlap, deep, deep-overlap; auto: as the model predicts")
       ->capture_default_str();

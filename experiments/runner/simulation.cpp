@@ -108,8 +108,7 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
     for (const HaloStrategy& strategy : halo_strategies()) {
       if (strategy.is_every_stage != is_every_stage || strategy.transport == HaloStrategy::Transport::shared) continue;
       PlannedStrategy planned{std::string(strategy.name), is_every_stage ? what.method.stages : 1, {}};
-      for (const PartSize& size : sizes)
-        planned.parts.push_back(plan_part(what, size, strategy, speed));
+      for (const PartSize& size : sizes) planned.parts.push_back(plan_part(what, size, strategy, speed));
       plan.strategies.push_back(std::move(planned));
     }
   }

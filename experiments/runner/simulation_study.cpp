@@ -115,8 +115,7 @@ private:
                const std::string& column, Record& row) const {
     const double alone_s = elements() * what().method.stages / base.at_once;
     try {
-      const SimulatedRun run =
-          simulate(make_plan(what(), decomposition_, speed, halo, simulated_steps), platform);
+      const SimulatedRun run = simulate(make_plan(what(), decomposition_, speed, halo, simulated_steps), platform);
       row[column + "halo_used"] = run.halo;
       row[column + "wall_s"] = number_text(run.step_s * double(block_.steps));
       row[column + "communication_s"] = number_text(run.communication_s_per_step * double(block_.steps));

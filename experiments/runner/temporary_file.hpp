@@ -12,7 +12,8 @@ namespace dss {
 class TemporaryFile {
 public:
   TemporaryFile(const std::string& text, const std::string& suffix) {
-    path_ = (std::filesystem::temp_directory_path() / fmt::format("dssbench-{}-{}{}", ::getpid(), ++count_, suffix)).string();
+    path_ = (std::filesystem::temp_directory_path() / fmt::format("dssbench-{}-{}{}", ::getpid(), ++count_, suffix))
+                .string();
     std::ofstream(path_) << text;
   }
   TemporaryFile(const TemporaryFile&) = delete;

@@ -145,8 +145,8 @@ static void measure_rows(const Lattice& lattice, const Zones& zones, PartSize& s
   for (const auto& [r, row] : rows) {
     size.row_elements[row.layer] += row.all;
     const Row& place = lattice.rows[std::size_t(r)];
-    const bool reads_halo = std::ranges::any_of(
-        std::array{r, place.lower_y, place.upper_y, place.lower_z, place.upper_z}, [&](int beside) {
+    const bool reads_halo =
+        std::ranges::any_of(std::array{r, place.lower_y, place.upper_y, place.lower_z, place.upper_z}, [&](int beside) {
           const auto found = rows.find(beside);
           return found != rows.end() && found->second.has_halo;
         });
@@ -167,10 +167,10 @@ PartSize part_size(const Problem& problem, const Decomposition& decomposition, i
   const int first = zones.own.segments().front().row;
   for (const Zones::Face& face : zones.faces) {
     const auto& received = face.receive.segments();
-    const Side side = received.empty()                ? Side::among
-                      : received.back().row < first   ? Side::lower
+    const Side side = received.empty()                  ? Side::among
+                      : received.back().row < first     ? Side::lower
                       : received.front().row > last_row ? Side::upper
-                                                      : Side::among;
+                                                        : Side::among;
     size.faces.push_back({face.part, side, face.send.cell_count(), face.receive.cell_count()});
   }
   measure_rows(problem.lattice, zones, size);

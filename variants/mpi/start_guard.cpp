@@ -32,8 +32,10 @@ std::string stopped_rank() {
     char state = 0;
     int parent = 0;
     const std::size_t name_end = text.rfind(')');
-    if (name_end == std::string::npos || std::sscanf(text.c_str() + name_end + 1, " %c %d", &state, &parent) != 2) continue;
-    if ((state == 'T' || state == 't') && parent == ::getppid()) return variable_of(entry.path(), "OMPI_COMM_WORLD_RANK");
+    if (name_end == std::string::npos || std::sscanf(text.c_str() + name_end + 1, " %c %d", &state, &parent) != 2)
+      continue;
+    if ((state == 'T' || state == 't') && parent == ::getppid())
+      return variable_of(entry.path(), "OMPI_COMM_WORLD_RANK");
   }
   return {};
 }

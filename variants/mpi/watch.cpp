@@ -10,8 +10,8 @@
 namespace dss {
 namespace {
 
-constexpr double silence_s = 3;          ///< of a watch, which speaks five times a second
-constexpr double grace_s = 1.5;          ///< for those nearer to the culprit to speak first
+constexpr double silence_s = 3; ///< of a watch, which speaks five times a second
+constexpr double grace_s = 1.5; ///< for those nearer to the culprit to speak first
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 

@@ -63,7 +63,8 @@ public:
         step_by_stages(is_last);
       else if (strategy_.is_overlapped)
         overlapped_step(
-            *exchange_, n % copies_, (n + 1) % copies_, is_last, part_.times.upper_s > 0, [&] { compute(part_.times.upper_s); },
+            *exchange_, n % copies_, (n + 1) % copies_, is_last, part_.times.upper_s > 0,
+            [&] { compute(part_.times.upper_s); },
             [&](auto&& edge_is_done) {
               compute(part_.times.edge_s);
               edge_is_done();
@@ -111,7 +112,8 @@ double sum(double value) {
 
 double predicted_s(const PlannedStrategy& planned, const HaloStrategy& strategy, int rank, const Network& network) {
   const PlannedPart& part = planned.parts[std::size_t(rank)];
-  HaloCost cost{part.times.compute_s, strategy.is_every_stage ? part.times.inner_s : part.times.compute_s - part.times.upper_s,
+  HaloCost cost{part.times.compute_s,
+                strategy.is_every_stage ? part.times.inner_s : part.times.compute_s - part.times.upper_s,
                 planned.exchanges, int(part.faces.size()), 0};
   for (const PlannedPart::Face& face : part.faces) cost.bytes += double(face.send_bytes);
   return largest(predicted_step_s(strategy, cost, network));
