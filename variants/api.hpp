@@ -81,7 +81,7 @@ struct Plugin {
   void (*end)(int exit_code, bool is_in_order); ///< null, or see end_variants
 };
 
-constexpr int plugin_abi = 2;
+constexpr int plugin_abi = 3;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

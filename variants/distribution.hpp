@@ -48,7 +48,7 @@ struct RankInfo {
   Network network;         ///< as measured for an automatic choice, else zeros
 };
 
-/// What one rank has exchanged since its executor was made.
+/// What one rank has exchanged in all calls of advance.
 struct Traffic {
   double messages = 0, bytes = 0; ///< sent
   double wait_s = 0;              ///< in exchanges [s]

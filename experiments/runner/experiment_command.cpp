@@ -24,13 +24,11 @@ struct ExperimentArguments {
 void print_plan(const Study& study, const std::string& out) {
   std::vector<std::vector<std::string>> rows;
   for (const Cell& cell : study.cells)
-    rows.push_back({cell.scene, cell.set_text(), cell.variant, fmt::format("{}", cell.threads), cell.model,
-                    cell.precision, cell.integrator, fmt::format("{}", cell.steps), cell.is_twin ? "A/A" : "",
-                    cell.skipped.empty() ? "" : "skipped: " + cell.skipped});
+    rows.push_back({cell.scene, cell.set_text(), cell.label(), cell.model, cell.precision, cell.integrator,
+                    fmt::format("{}", cell.steps), cell.skipped.empty() ? "" : "skipped: " + cell.skipped});
   fmt::print(
       "{} ({}, scale {})\n{}", study.title, study.name, study.scale.name,
-      text_table({"scene", "set", "variant", "threads", "model", "precision", "integrator", "steps", "pair", "note"},
-                 rows));
+      text_table({"scene", "set", "cell", "model", "precision", "integrator", "steps", "note"}, rows));
   const ExperimentPaths paths = experiment_paths(out, study.name);
   fmt::print("{} cells, {} to {} repetitions each, at most about {}.\nTable: {}\nRecords: {}\n", study.cells.size(),
              study.scale.min_repetitions, study.scale.max_repetitions, duration_text(study.scale.budget_s), paths.table,

@@ -6,6 +6,7 @@
 #include "solver/error.hpp"
 #include "variants/loader.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
@@ -82,8 +83,10 @@ VariantName parse_variant(const std::string& text, int ranks) {
 }
 
 std::string why_no_ranks() {
-  for (const VariantStatus& status : variants())
-    if (status.name == "mpi" && !status.is_usable()) return status.unusable;
+  const auto& all = variants();
+  const auto mpi = std::ranges::find(all, "mpi", &VariantStatus::name);
+  if (mpi == all.end()) return "built without the variant mpi";
+  if (!mpi->is_usable()) return mpi->unusable;
   return mpirun_path().empty() ? "mpirun is not installed (openmpi-bin)" : "";
 }
 

@@ -48,7 +48,6 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
       world_.largest(double(part_.own_elements)) * world_.ranks() / double(setup.problem.lattice.element_count);
   for (const double workers : world_.gather(executor_->workers())) workers_ += int(workers);
   for (const double bytes : world_.gather(double(executor_->bytes()))) bytes_ += std::size_t(bytes);
-  waited_before_s_ = Waiting::total_s();
 }
 
 template <class Visit>
@@ -93,7 +92,12 @@ void DistributedExecutor::derivative(std::span<const double> signals, std::span<
 
 Outcome DistributedExecutor::advance(long steps, std::span<const double> signals) {
   halo_->start();
+  const Traffic before = exchange_->traffic();
+  const double waited_before_s = Waiting::total_s();
   const Outcome own = executor_->advance(steps, signals);
+  traffic_.messages += exchange_->traffic().messages - before.messages;
+  traffic_.bytes += exchange_->traffic().bytes - before.bytes;
+  traffic_.wait_s += Waiting::total_s() - waited_before_s;
   constexpr double never = std::numeric_limits<double>::infinity();
   const double step = world_.least(own.is_finite ? never : double(own.step));
   if (step == never) return {true, steps, 0};
@@ -104,12 +108,6 @@ Outcome DistributedExecutor::advance(long steps, std::span<const double> signals
 std::string DistributedExecutor::schedule() const {
   return fmt::format("{} rank{}, {}, halo {}; {}", info_.ranks, info_.ranks == 1 ? "" : "s", info_.decomposition,
                      info_.halo, executor_->schedule());
-}
-
-Traffic DistributedExecutor::traffic() const {
-  Traffic traffic = exchange_->traffic();
-  traffic.wait_s = Waiting::total_s() - waited_before_s_;
-  return traffic;
 }
 
 } // namespace dss

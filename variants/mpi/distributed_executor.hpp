@@ -21,7 +21,7 @@ public:
   int workers() const override { return workers_; }
   std::size_t bytes() const override { return bytes_; }
   RankInfo rank_info() const override { return info_; }
-  Traffic traffic() const override;
+  Traffic traffic() const override { return traffic_; }
   void work_alone(bool is_alone) override { world_.work_alone(is_alone); }
   std::vector<double> gather(double value) override { return world_.gather(value); }
 
@@ -42,7 +42,7 @@ private:
   std::unique_ptr<Executor> executor_;
   int workers_ = 0;
   std::size_t bytes_ = 0;
-  double waited_before_s_ = 0;
+  Traffic traffic_; ///< of the calls of advance
 };
 
 } // namespace dss
