@@ -48,9 +48,14 @@ private:
 };
 
 constexpr Plugin wrong{
-    plugin_abi,  "wrong",
-    "x86-64-v3", true,
-    true,        [](const Setup& setup) -> std::unique_ptr<Executor> { return std::make_unique<WrongExecutor>(setup); },
+    plugin_abi,
+    "wrong",
+    "x86-64-v3",
+    true,
+    true,
+    false,
+    [](const Setup& setup) -> std::unique_ptr<Executor> { return std::make_unique<WrongExecutor>(setup); },
+    nullptr,
     nullptr};
 
 /// Names of the checks that failed in f64 of the spatial model; only the wrong variant may be blamed.
