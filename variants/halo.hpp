@@ -40,7 +40,6 @@ struct PartSetup {
   Halo& halo;
   bool is_every_stage = false; ///< exchange after every stage (one layer of halo); else once a step (a layer a stage)
   bool is_overlapped = false;  ///< compute what needs no halo first, and what neighbours wait for as early as possible
-  int depth(int stages) const { return is_every_stage ? 1 : stages; }
 };
 
 /// One step of a part in the order that hides messages best: the rows that the upper neighbours wait for are a pass of

@@ -5,7 +5,7 @@
 namespace dss {
 namespace {
 
-/// The passes of an overlapped step, as RowExecutor::make_blocks cuts them.
+/// The passes of an overlapped step, as RowExecutor::make_blocks cuts them; exact for strips of full rows, near for others.
 void cut_passes(const PartSize& size, int stages, int reach, double speed, PartTimes& times) {
   const auto has = [&](Side side) {
     return std::ranges::any_of(size.faces, [&](const PartSize::Face& face) { return face.side == side; });

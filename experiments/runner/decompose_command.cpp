@@ -20,7 +20,7 @@ constexpr std::size_t element_bytes = field_count * sizeof(double);
 struct DecomposeArguments {
   std::string scene, method = "strips", output, from, json;
   int parts = 0, depth = 1;
-  std::vector<double> speeds;
+  std::vector<double> speeds, costs;
   std::vector<std::string> set;
 };
 
@@ -124,9 +124,9 @@ int decompose_scene(const DecomposeArguments& arguments) {
   DecompositionReport report;
   report.scene = scene.name;
   report.depth = arguments.depth;
-  report.decomposition = arguments.from.empty()
-                             ? decompose(problem, arguments.method, arguments.parts, {arguments.speeds, {}})
-                             : read_decomposition(arguments.from, problem);
+  report.decomposition = arguments.from.empty() ? decompose(problem, arguments.method, arguments.parts,
+                                                            {arguments.speeds, arguments.costs})
+                                                : read_decomposition(arguments.from, problem);
   const int parts = report.decomposition.parts;
   report.speeds = arguments.speeds.empty() ? std::vector<double>(std::size_t(parts), 1) : arguments.speeds;
   if (report.speeds.size() != std::size_t(parts))
@@ -150,6 +150,11 @@ void add_decompose_command(CLI::App& app, Chosen& chosen) {
   CLI::Option* method = command->add_option("--method", arguments->method, "strips, blocks or metis (default: strips)");
   CLI::Option* from = command->add_option("--from", arguments->from, "Read the parts from a file instead");
   from->excludes(parts)->excludes(method);
+  command
+      ->add_option("--costs", arguments->costs,
+                   "Cost of an element of each body, relative: 1,1.4 (default: all the same)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--speeds", arguments->speeds, "Speed of each part, relative: 1,1,2 (default: all the same)")
       ->delimiter(',');
   command->add_option("--depth", arguments->depth, "Layers of halo (default: 1)");

@@ -26,9 +26,8 @@ void print_plan(const Study& study, const std::string& out) {
   for (const Cell& cell : study.cells)
     rows.push_back({cell.scene, cell.set_text(), cell.label(), cell.model, cell.precision, cell.integrator,
                     fmt::format("{}", cell.steps), cell.skipped.empty() ? "" : "skipped: " + cell.skipped});
-  fmt::print(
-      "{} ({}, scale {})\n{}", study.title, study.name, study.scale.name,
-      text_table({"scene", "set", "cell", "model", "precision", "integrator", "steps", "note"}, rows));
+  fmt::print("{} ({}, scale {})\n{}", study.title, study.name, study.scale.name,
+             text_table({"scene", "set", "cell", "model", "precision", "integrator", "steps", "note"}, rows));
   const ExperimentPaths paths = experiment_paths(out, study.name);
   fmt::print("{} cells, {} to {} repetitions each, at most about {}.\nTable: {}\nRecords: {}\n", study.cells.size(),
              study.scale.min_repetitions, study.scale.max_repetitions, duration_text(study.scale.budget_s), paths.table,

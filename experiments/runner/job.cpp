@@ -92,7 +92,7 @@ std::string why_no_ranks() {
 
 JobResult run_job(int ranks, int threads, const std::vector<std::string>& arguments) {
   if (const std::string why = why_no_ranks(); !why.empty()) throw InputError(fmt::format("--ranks {}: {}", ranks, why));
-  std::vector<std::string> line = {"mpirun", "-np", fmt::format("{}", ranks)};
+  std::vector<std::string> line = {"mpirun", "--use-hwthread-cpus", "-np", fmt::format("{}", ranks)};
   if (ranks * threads > usable_cores())
     line.insert(line.end(), {"--oversubscribe", "--bind-to", "none"});
   else

@@ -98,6 +98,8 @@ private:
     while (step < stop && is_finite) {
       const long count = std::min(batch_steps, stop - step);
       const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
+      if (plan_.plugin->is_distributed)
+        executor_->gather(0); // all ranks begin together: what rank 0 did alone is not timed
       const UsageMeter usage; // over the same region as the clock: CPU / wall is judged
       const auto start = std::chrono::steady_clock::now();
       const Outcome outcome = executor_->advance(count, signals);

@@ -1,5 +1,6 @@
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/job.hpp"
+#include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "solver/nearest_name.hpp"
@@ -38,6 +39,10 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (request.ranks < 1 || request.ranks > 65536) refuse(fmt::format("--ranks {}: give 1 to 65536", request.ranks));
   if (const JobRank job = job_rank(); job.is_started && request.ranks != job.ranks)
     refuse(fmt::format("--ranks {}: this job has {}; give --ranks {}, or none", request.ranks, job.ranks, job.ranks));
+  if (request.shares == "measured" && is_file(request.decomposition))
+    refuse("--shares measured: the parts are in the file of --decomposition; give a method, or --shares equal");
+  if (request.halo == "deep-overlap" && request.threads > 1)
+    refuse("--halo deep-overlap: needs --threads 1 on each rank; give --halo deep");
   if (std::size_t(request.ranks) > plan.scene.problem.lattice.element_count)
     refuse(fmt::format("--ranks {}: the scene has {} elements; give at most that", request.ranks,
                        plan.scene.problem.lattice.element_count));

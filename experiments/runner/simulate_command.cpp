@@ -34,6 +34,8 @@ int simulate_scene(const SimulateArguments& arguments) {
   const Decomposition decomposition = decompose(scene.problem, arguments.decomposition, arguments.ranks);
   const NodeSpeed speed =
       arguments.node_speed > 0 ? given_speed("given", arguments.node_speed, method) : own_speed(what, decomposition);
+  const NodeSpeed alone = // one node with the whole problem, which efficiencies refer to
+      arguments.node_speed > 0 || arguments.ranks == 1 ? speed : own_speed(what, decompose(scene.problem, "strips", 1));
   const SimulatedRun run =
       simulate(make_plan(what, decomposition, speed, arguments.halo, arguments.steps), platform.path());
   const double elements = double(scene.problem.lattice.element_count);
@@ -60,7 +62,7 @@ int simulate_scene(const SimulateArguments& arguments) {
              1e-6 * speed.at_once / method.stages, 1e-6 * speed.stage_by_stage / method.stages, speed.name);
   fmt::print("simulated: {:.6g} us a step, {:.4g} million element-steps/s, efficiency {:.3f}; {:.4g} us in exchanges\n",
              1e6 * run.step_s, 1e-6 * elements / run.step_s,
-             elements * method.stages / speed.at_once / run.step_s / arguments.ranks,
+             elements * method.stages / alone.at_once / run.step_s / arguments.ranks,
              1e6 * run.communication_s_per_step);
   fmt::print("{:.4g} messages and {:.4g} bytes a step\n", run.messages_per_step, run.bytes_per_step);
   return exit_success;

@@ -4,6 +4,7 @@
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/simulation.hpp"
 #include "experiments/runner/text_table.hpp"
+#include "variants/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -153,8 +154,12 @@ void put_measured(const Table& measured, Record& row) {
   if (text_in(row, "network") != host_platform) return;
   for (const Record& other : measured.rows)
     if (text_in(other, "scene") == text_in(row, "scene") && text_in(other, "set") == text_in(row, "set") &&
-        text_in(other, "ranks") == text_in(row, "ranks") && text_in(other, "halo") == text_in(row, "halo") &&
-        text_in(other, "variant") == "avx512" && text_in(other, "threads") == "1" && text_in(other, "status") == "ok")
+        text_in(other, "ranks") == text_in(row, "ranks") && text_in(other, "threads") == "1" &&
+        (text_in(row, "ranks") == "1" || (text_in(other, "halo") == text_in(row, "halo") &&
+                                          text_in(other, "decomposition") == text_in(row, "decomposition"))) &&
+        text_in(other, "variant") == load_variant("auto").name && text_in(other, "model") == "spatial" &&
+        text_in(other, "precision") == "f64" && text_in(other, "integrator") == "rk4" &&
+        text_in(other, "status") == "ok")
       row["measured_wall_s"] =
           number_text(number_in(other, "measured_wall_s") * number_in(row, "steps") / number_in(other, "steps"));
 }

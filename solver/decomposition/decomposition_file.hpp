@@ -15,6 +15,9 @@ void write_decomposition(const std::string& path, const Problem& problem, const 
 /// with other elements, or does not pass require_fit
 Decomposition read_decomposition(const std::string& path, const Problem& problem);
 
+/// Whether a text names a file: it has a slash or the ending .json.
+bool is_file(const std::string& method_or_file);
+
 /// By a method's name, or from a file (a name with a slash or the ending .json), for so many ranks.
 /// @throws InputError as decompose and read_decomposition; also if the file has other than so many parts
 Decomposition decomposition_for(const Problem& problem, const std::string& method_or_file, int ranks,

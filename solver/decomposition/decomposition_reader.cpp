@@ -135,10 +135,13 @@ Decomposition read_decomposition(const std::string& path, const Problem& problem
   return decomposition;
 }
 
+bool is_file(const std::string& method_or_file) {
+  return method_or_file.find('/') != std::string::npos || method_or_file.ends_with(".json");
+}
+
 Decomposition decomposition_for(const Problem& problem, const std::string& method_or_file, int ranks,
                                 const Weights& weights) {
-  if (method_or_file.find('/') == std::string::npos && !method_or_file.ends_with(".json"))
-    return decompose(problem, method_or_file, ranks, weights);
+  if (!is_file(method_or_file)) return decompose(problem, method_or_file, ranks, weights);
   Decomposition read = read_decomposition(method_or_file, problem);
   if (read.parts != ranks)
     throw InputError(fmt::format("--decomposition {}: has {} parts for {} ranks; give --ranks {}", method_or_file,

@@ -1,5 +1,5 @@
 /// Parts with halos, exchanged within this process, against the whole: equal to the last bit, whatever the
-/// decomposition, the schedule of exchanges and the threads. What messages do on top is tested by tests/mpi.
+/// decomposition, the schedule of exchanges and the threads. What messages do on top: dssbench verify --ranks, tests/cli/ranks_test.py.
 #include "solver/decomposition/decomposition.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/equivalence/local_halo.hpp"

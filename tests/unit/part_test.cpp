@@ -219,7 +219,8 @@ TEST(part, sizes_are_those_of_the_part) {
           EXPECT_EQ(size.layer_elements[std::size_t(k) - 1],
                     std::size_t(std::count(part.layer.begin(), part.layer.end(), k)));
         std::vector<PartSize::Face> faces;
-        for (const Neighbour& n : part.neighbours) faces.push_back({n.part, n.send.size(), n.receive.size()});
+        for (const Neighbour& n : part.neighbours)
+          faces.push_back({n.part, side_of(part, n), n.send.size(), n.receive.size()});
         EXPECT_EQ(size.faces, faces);
         std::set<int> rows;
         part.problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Stage by stage: the fallback for scenes whose extra links break the order of rows. Every stage keeps all rows;
-/// threads meet twice a stage.
+/// Stage by stage: for scenes whose extra links break the order of rows, and for parts whose halo is exchanged after
+/// every stage. Every stage keeps all rows; threads meet twice a stage.
 #include "variants/engine/wavefront.hpp"
 #include "variants/halo.hpp"
 

@@ -164,6 +164,7 @@ void WavefrontStep<T>::operator()(const double* signals, int steps, int parity) 
   const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
   int count = steps * stages_; // sweeps that run; after a failure only those of earlier steps, which may fail as well
   signals_.set(signals, count);
+  bool is_watched = watched_row_ >= 0;
   const int lag = packed_.reach, end = sweeps[std::size_t(count - 1)].end + (count - 1) * lag;
   for (int t = sweeps[0].begin; t < end; ++t)
     for (int n = 0; n < count; ++n) {
@@ -181,8 +182,9 @@ void WavefrontStep<T>::operator()(const double* signals, int steps, int parity) 
         block_.failed_row = r, block_.failed_step = n / stages_, count = n;
       }
       if (is_last && block_.is_published(r)) block_.publish(r, parity ^ 1);
-      if (is_last && r == watched_row_) watched_row_done_();
+      if (is_last && r == watched_row_) is_watched = false, watched_row_done_();
     }
+  if (is_watched) watched_row_done_(); // a failure ended the pass before; others wait for the row all the same
 }
 
 #define DSS_INSTANTIATE(T)                                                                                             \

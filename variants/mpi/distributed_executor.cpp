@@ -2,6 +2,7 @@
 
 #include "solver/error.hpp"
 #include "variants/loader.hpp"
+#include "variants/part_cost.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,11 +26,12 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   if (setup.distribution == nullptr) setup.distribution = &alone;
   const Plugin& plugin = find_plugin(setup.distribution->variant);
   const Spread found = spread(setup, plugin, world_, fault_);
-  part_ = make_part(setup.problem, found.decomposition, world_.rank(),
-                    found.halo->is_every_stage ? 1 : setup.method.stages);
+  part_ = make_part(setup.problem, found.decomposition, world_.rank(), halo_depth(*found.halo, setup.method));
   exchange_ = make_exchange(found.halo->transport, faces_of(part_), world_.comm());
-  halo_.emplace(*exchange_, fault_);
-  part_setup_.emplace(PartSetup{part_, *halo_, found.halo->is_every_stage, found.halo->is_overlapped});
+  halo_.emplace(*exchange_);
+  if (fault_.kind != Fault::Kind::none) faulty_halo_.emplace(*halo_, fault_);
+  Halo& halo = faulty_halo_ ? static_cast<Halo&>(*faulty_halo_) : *halo_;
+  part_setup_.emplace(PartSetup{part_, halo, found.halo->is_every_stage, found.halo->is_overlapped});
   executor_ = plugin.create(
       {part_.problem, setup.method, setup.model, setup.precision, setup.dt, setup.threads, &*part_setup_});
   if (executor_->halo_copies() == 0 && world_.ranks() > 1)
@@ -91,13 +93,13 @@ void DistributedExecutor::derivative(std::span<const double> signals, std::span<
 }
 
 Outcome DistributedExecutor::advance(long steps, std::span<const double> signals) {
-  halo_->start();
+  if (faulty_halo_) faulty_halo_->start();
   const Traffic before = exchange_->traffic();
-  const double waited_before_s = Waiting::total_s();
+  const double before_s = halo_->total_s();
   const Outcome own = executor_->advance(steps, signals);
   traffic_.messages += exchange_->traffic().messages - before.messages;
   traffic_.bytes += exchange_->traffic().bytes - before.bytes;
-  traffic_.wait_s += Waiting::total_s() - waited_before_s;
+  traffic_.wait_s += halo_->total_s() - before_s;
   constexpr double never = std::numeric_limits<double>::infinity();
   const double step = world_.least(own.is_finite ? never : double(own.step));
   if (step == never) return {true, steps, 0};

@@ -37,7 +37,8 @@ private:
   Part part_;
   RankInfo info_;
   std::unique_ptr<HaloExchange> exchange_;
-  std::optional<FaultyHalo> halo_;
+  std::optional<TimedHalo> halo_;
+  std::optional<FaultyHalo> faulty_halo_; ///< before it, for faults on purpose
   std::optional<PartSetup> part_setup_;
   std::unique_ptr<Executor> executor_;
   int workers_ = 0;

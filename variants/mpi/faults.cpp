@@ -27,14 +27,15 @@ Fault Fault::of_rank(int rank) {
   double number = 0;
   const bool is_read = std::sscanf(text, "%7[a-z]:%d:%lf", kind, &faulty, &number) == 3;
   if (!is_read || !kinds.contains(kind))
-    throw InputError(fmt::format("DSSBENCH_FAULT={}: give die:RANK:STEP, hang:RANK:STEP or slow:RANK:FACTOR", text));
+    throw InputError(
+        fmt::format("DSSBENCH_FAULT={}: give die:RANK:EXCHANGE, hang:RANK:EXCHANGE or slow:RANK:FACTOR", text));
   return faulty == rank ? Fault{kinds.at(kind), number} : Fault{};
 }
 
 void FaultyHalo::send(Side side, int copy) {
   if (side == all_sides[0]) ++exchanges_;
-  if (fault_.kind == Fault::Kind::die && double(exchanges_) > fault_.number) std::raise(SIGKILL);
-  while (fault_.kind == Fault::Kind::hang && double(exchanges_) > fault_.number)
+  if (fault_.kind == Fault::Kind::die && double(exchanges_) >= fault_.number) std::raise(SIGKILL);
+  while (fault_.kind == Fault::Kind::hang && double(exchanges_) >= fault_.number)
     std::this_thread::sleep_for(std::chrono::seconds(1));
   compute_slowly();
   halo_.send(side, copy);

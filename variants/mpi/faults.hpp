@@ -1,5 +1,5 @@
 #pragma once
-/// Faults on purpose, so that what follows from them can be tested: DSSBENCH_FAULT=die:RANK:STEP, hang:RANK:STEP or
+/// Faults on purpose, so that what follows from them can be tested: DSSBENCH_FAULT=die:RANK:EXCHANGE, hang:RANK:EXCHANGE or
 /// slow:RANK:FACTOR.
 #include "variants/halo.hpp"
 
@@ -8,7 +8,7 @@ namespace dss {
 struct Fault {
   enum class Kind { none, die, hang, slow };
   Kind kind = Kind::none;
-  double number = 0; ///< step, or factor
+  double number = 0; ///< of the exchange, from 1; or factor
   /// The one asked for on this rank. @throws InputError for one that is none of these
   static Fault of_rank(int rank);
   double slowdown() const { return kind == Kind::slow ? number : 1; }

@@ -21,6 +21,25 @@ void scatter(const HaloLayout& layout, const std::byte* message) {
   for (const auto& piece : layout.pieces) std::memcpy(piece.at, message + piece.offset, piece.count);
 }
 
+TimedHalo::TimedHalo(HaloExchange& exchange) : exchange_(exchange) {
+  for (const Face& face : exchange.faces()) has_side_[int(face.side)] = true;
+  if (!exchange.faces().empty()) has_side_[int(all_sides[0])] = true; // sendrecv serves all sides on this call
+}
+
+void TimedHalo::send(Side side, int copy) {
+  if (!has_side_[int(side)]) return;
+  const double start_s = MPI_Wtime();
+  exchange_.send(side, copy);
+  total_s_ += MPI_Wtime() - start_s;
+}
+
+void TimedHalo::receive(Side side, int copy) {
+  if (!has_side_[int(side)]) return;
+  const double start_s = MPI_Wtime();
+  exchange_.receive(side, copy);
+  total_s_ += MPI_Wtime() - start_s;
+}
+
 std::unique_ptr<HaloExchange> make_exchange(HaloStrategy::Transport transport, std::vector<Face> faces, MPI_Comm comm) {
   switch (transport) {
   case HaloStrategy::Transport::sendrecv:

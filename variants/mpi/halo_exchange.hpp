@@ -27,6 +27,7 @@ public:
   /// Makes everything ready that needs to know the memory. Collective.
   virtual void attach(int copies, const LayoutOf& layout_of) = 0;
   const Traffic& traffic() const { return traffic_; }
+  const std::vector<Face>& faces() const { return faces_; }
 
 protected:
   explicit HaloExchange(std::vector<Face> faces) : faces_(std::move(faces)) {}
@@ -36,6 +37,20 @@ protected:
   }
   const std::vector<Face> faces_;
   Traffic traffic_;
+};
+
+/// Times what an exchange takes of its rank's time, copies included.
+class TimedHalo final : public Halo {
+public:
+  explicit TimedHalo(HaloExchange& exchange);
+  void send(Side side, int copy) override;
+  void receive(Side side, int copy) override;
+  double total_s() const { return total_s_; }
+
+private:
+  HaloExchange& exchange_;
+  bool has_side_[std::size(all_sides)] = {}; ///< sides without neighbours are not worth a look at the clock
+  double total_s_ = 0;
 };
 
 /// The exchange of a transport between the ranks of `comm`. Collective.

@@ -1,6 +1,8 @@
+#include "solver/error.hpp"
 #include "variants/mpi/transports.hpp"
 #include "variants/mpi/waiting.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace dss {
@@ -10,6 +12,8 @@ namespace {
 class PersistentMessage {
 public:
   PersistentMessage(Way way, HaloLayout layout, int rank, MPI_Comm comm) : layout_(std::move(layout)) {
+    if (layout_.size > std::size_t(std::numeric_limits<int>::max()))
+      throw InputError("a message between two parts exceeds 2 GiB; take more ranks, or --decomposition blocks");
     is_direct_ = layout_.is_stable && layout_.pieces.size() == 1;
     if (!is_direct_) buffer_.resize(layout_.size);
     std::byte* const memory = is_direct_ ? layout_.pieces.front().at : buffer_.data();

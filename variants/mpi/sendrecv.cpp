@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace dss {
@@ -14,7 +15,10 @@ public:
   explicit PiecesType(const HaloLayout& layout) : start_(layout.pieces.front().at) {
     std::vector<int> lengths;
     std::vector<MPI_Aint> places;
+    std::size_t bytes = 0;
     for (const auto& piece : layout.pieces) {
+      if (piece.offset != bytes) throw std::logic_error("a datatype cannot write a number to two places");
+      bytes += piece.count;
       lengths.push_back(int(piece.count));
       places.push_back(MPI_Aint(piece.at - start_));
     }
@@ -36,6 +40,7 @@ private:
 };
 
 std::vector<std::pair<int, int>> edges_of_all(const std::vector<Face>& faces, MPI_Comm comm) {
+  const Waiting waiting(Waiting::for_all);
   int rank = 0, ranks = 1, count = 0;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);

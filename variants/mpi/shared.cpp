@@ -3,6 +3,7 @@
 #include "variants/mpi/waiting.hpp"
 
 #include <atomic>
+#include <exception>
 #include <sched.h>
 #include <thread>
 
@@ -21,6 +22,7 @@ std::size_t slot_size(std::size_t bytes) { return sizeof(Slot) + (bytes + line -
 class SharedExchange final : public HaloExchange {
 public:
   SharedExchange(std::vector<Face> faces, MPI_Comm comm) : HaloExchange(std::move(faces)), comm_(comm) {
+    const Waiting waiting(Waiting::for_all);
     int ranks = 1, node_ranks = 1;
     MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node_);
     MPI_Comm_size(comm, &ranks);
@@ -30,7 +32,10 @@ public:
   }
   SharedExchange(const SharedExchange&) = delete;
   SharedExchange& operator=(const SharedExchange&) = delete;
+  /// Collective, unless an error of this rank alone ends it: the others may never come here then.
   ~SharedExchange() override {
+    if (std::uncaught_exceptions() > 0) return;
+    const Waiting waiting(Waiting::for_all);
     if (window_ != MPI_WIN_NULL) MPI_Win_free(&window_);
     MPI_Comm_free(&node_);
   }
@@ -47,6 +52,7 @@ public:
       starts.push_back(bytes);
       bytes += 2 * slot_size(channels_.back().out.front().size);
     }
+    const Waiting waiting(Waiting::for_all);
     void* memory = nullptr;
     MPI_Win_allocate_shared(MPI_Aint(bytes), 1, MPI_INFO_NULL, node_, &memory, &window_);
     auto* const own = static_cast<std::byte*>(memory);

@@ -37,6 +37,11 @@ Weights measured_weights(const Setup& setup, const Plugin& plugin, const Decompo
   return {*most > resolution * *least ? speed : std::vector<double>{}, {}};
 }
 
+/// A team of threads computes all rows at once: there are no edges that could be done before the rest.
+bool is_possible(const HaloStrategy& strategy, int threads) {
+  return threads == 1 || strategy.is_every_stage || !strategy.is_overlapped;
+}
+
 void choose_strategy(const Setup& setup, const Plugin& plugin, World& world, const Fault& fault, Spread& spread) {
   const Network& network = spread.network = measure_network(world.comm());
   const NodeSpeed speed = own_speed(setup, plugin, spread.decomposition, world, fault);
@@ -45,6 +50,7 @@ void choose_strategy(const Setup& setup, const Plugin& plugin, World& world, con
   double least = std::numeric_limits<double>::infinity();
   for (const HaloStrategy& strategy : halo_strategies()) {
     if (strategy.transport == HaloStrategy::Transport::shared && !world.is_one_node()) continue;
+    if (!is_possible(strategy, setup.threads)) continue;
     const PartSize size =
         part_size(setup.problem, spread.decomposition, world.rank(), halo_depth(strategy, setup.method));
     HaloCost cost = halo_cost(size, part_times(size, strategy, stages, reach, speed), strategy, stages, element_bytes);
@@ -76,6 +82,8 @@ Spread spread(const Setup& setup, const Plugin& plugin, World& world, const Faul
     for (const HaloStrategy& strategy : halo_strategies()) known.emplace_back(strategy.name);
     if (result.halo == nullptr)
       throw InputError(fmt::format("--halo {}: unknown strategy; {}", asked.halo, nearest_name(asked.halo, known)));
+    if (!is_possible(*result.halo, setup.threads))
+      throw InputError(fmt::format("--halo {}: needs --threads 1; give deep", asked.halo));
   } else if (world.ranks() == 1) {
     result.halo = find_halo_strategy("deep");
   } else {

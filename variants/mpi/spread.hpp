@@ -14,7 +14,6 @@ struct Spread {
   const HaloStrategy* halo = nullptr;
   std::string halo_reason; ///< predicted times, if they were asked for
   Network network;         ///< that they are predicted with
-  double imbalance = 1;
 };
 
 /// Decides decomposition and strategy for a setup with a distribution. Collective.

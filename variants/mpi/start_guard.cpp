@@ -67,7 +67,8 @@ StartGuard::~StartGuard() {
 
 void StartGuard::look() {
   std::unique_lock lock(mutex_);
-  const auto limit = std::chrono::duration<double>(patience_s());
+  const char* ranks = std::getenv("OMPI_COMM_WORLD_SIZE"); // many processes need longer to start
+  const auto limit = std::chrono::duration<double>(patience_s() + 0.2 * (ranks == nullptr ? 0 : std::atoi(ranks)));
   if (started_.wait_for(lock, limit, [&] { return is_started_; })) return;
   const std::string rank = stopped_rank();
   end_job(rank.empty() ? fmt::format("MPI has not started in {:g} s: a rank is missing or hangs", patience_s())

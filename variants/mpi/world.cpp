@@ -4,6 +4,7 @@
 #include "variants/mpi/start_guard.hpp"
 #include "variants/mpi/watch.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <optional>
@@ -14,11 +15,14 @@ namespace {
 
 World* world = nullptr;
 
+bool is_started_by_mpirun() {
+  return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr;
+}
+
 /// Without mpirun a process is a job of its own, which needs no daemon.
 void prepare_environment() {
   ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0); // fails in containers without ptrace
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && std::getenv("PMIX_RANK") == nullptr)
-    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  if (!is_started_by_mpirun()) ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
 }
 
 } // namespace
@@ -31,10 +35,12 @@ World& World::instance() {
 }
 
 World::World() {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL); // mpirun gone, rank gone
   prepare_environment();
   std::optional<StartGuard> guard;
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr) guard.emplace();
+  if (is_started_by_mpirun()) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL); // mpirun gone, rank gone
+    guard.emplace();
+  }
   int provided = 0;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||
       provided < MPI_THREAD_FUNNELED)
@@ -56,8 +62,12 @@ std::vector<double> World::gather(double value) {
 
 void World::join(std::span<double> values) {
   if (ranks_ == 1) return;
-  const Waiting waiting(Waiting::for_all);
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_UINT64_T, MPI_BOR, comm_);
+  constexpr std::size_t most = std::size_t(1) << 24; // MPI counts in int
+  for (std::size_t first = 0; first < values.size(); first += most) {
+    const Waiting waiting(Waiting::for_all);
+    MPI_Allreduce(MPI_IN_PLACE, &values[first], int(std::min(most, values.size() - first)), MPI_UINT64_T, MPI_BOR,
+                  comm_);
+  }
 }
 
 double World::least(double value) {
@@ -78,6 +88,8 @@ void World::work_alone(bool is_alone) {
 }
 
 void World::end(int exit_code, bool is_in_order) {
+  if (is_ended_) return;
+  is_ended_ = true;
   if (!is_in_order && ranks_ > 1) MPI_Abort(comm_, exit_code);
   if (ranks_ > 1) meet(); // under the watch; MPI_Finalize is not
   watch_.reset();

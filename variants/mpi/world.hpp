@@ -21,12 +21,10 @@ public:
   static bool is_started();
 
   MPI_Comm comm() const { return comm_; }
-  MPI_Comm node() const { return node_; }
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
   /// Whether all ranks share one node's memory.
   bool is_one_node() const { return node_ranks_ == ranks_; }
-  int node_ranks() const { return node_ranks_; }
 
   std::vector<double> gather(double value);
   /// Bitwise or over all ranks, for all: joins what each rank filled in where the others left zeros.
@@ -45,6 +43,7 @@ private:
   World();
   MPI_Comm comm_ = MPI_COMM_NULL, node_ = MPI_COMM_NULL;
   int rank_ = 0, ranks_ = 1, node_ranks_ = 1;
+  bool is_ended_ = false;
   std::shared_ptr<Watch> watch_;
 };
 
