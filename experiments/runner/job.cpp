@@ -92,11 +92,11 @@ std::string why_no_ranks() {
 
 JobResult run_job(int ranks, int threads, const std::vector<std::string>& arguments) {
   if (const std::string why = why_no_ranks(); !why.empty()) throw InputError(fmt::format("--ranks {}: {}", ranks, why));
-  std::vector<std::string> line = {"mpirun", "--use-hwthread-cpus", "-np", fmt::format("{}", ranks)};
+  std::vector<std::string> line = {"mpirun", "--oversubscribe", "-np", fmt::format("{}", ranks)};
   if (ranks * threads > usable_cores())
-    line.insert(line.end(), {"--oversubscribe", "--bind-to", "none"});
+    line.insert(line.end(), {"--bind-to", "none"});
   else
-    line.insert(line.end(), {"--map-by", fmt::format("slot:PE={}", threads), "--bind-to", "core"});
+    line.insert(line.end(), {"--map-by", fmt::format("slot:PE={}", threads), "--bind-to", "core:overload-allowed"});
   line.push_back(std::filesystem::read_symlink(this_program).string());
   line.insert(line.end(), arguments.begin(), arguments.end());
   ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0); // containers have no other user

@@ -41,7 +41,7 @@ class Errors(ProgramTest):
         self.assert_refused(2, ["rk5", "rk4"], *SMALL, "--integrator", "rk5")
 
     def test_numbers_out_of_range_are_refused(self):
-        for option, value in (("--threads", "0"), ("--threads", "-1"), ("--steps", "0"), ("--dt", "0"), ("--dt", "nan"), ("--ranks", "2")):
+        for option, value in (("--threads", "0"), ("--threads", "-1"), ("--steps", "0"), ("--dt", "0"), ("--dt", "nan"), ("--ranks", "0")):
             self.assert_refused(2, [option], "run", "plate_paper", "--set", "n=10", f"{option}={value}")
 
     def test_threads_on_a_variant_of_one_thread_are_refused(self):
