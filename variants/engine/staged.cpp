@@ -54,10 +54,11 @@ template <class T>
 void StagedRows<T>::compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows) {
   const bool is_leapfrog = method_.family == Method::Family::leapfrog, is_last = stage + 1 == method_.stages;
   CarryRings<T>& carry = carry_[std::size_t(thread)];
-  for (const auto [r, is_whole] : rows) {
+  for (const RowAction& action : rows) {
+    const int r = action.row;
     RowTask<T> task;
     set_row(task, packed_, r, fields_, carry, [&](int row) { return stage_row(stage, row); });
-    if (!is_whole) {
+    if (!action.is_whole) {
       prime_upper(packed_, r, task, fields_);
       continue;
     }
