@@ -56,10 +56,11 @@ void require_cell_of(const std::string& variant, const Study& study, const JsonP
 
 /// Steps for overrides that no cell has would be a mistake without consequences.
 void require_sets(const JsonPlace& steps_by_set, const Study& study) {
-  for (const auto& [set, steps] : study.scale.steps_by_set)
-    if (std::none_of(study.cells.begin(), study.cells.end(), [&](const Cell& cell) { return cell.set_text() == set; }))
-      steps_by_set.fail(
-          fmt::format("no cell has the overrides \"{}\"; the first cell has \"{}\"", set, study.cells[0].set_text()));
+  for (const auto& own : study.scale.steps_by_set)
+    if (std::none_of(study.cells.begin(), study.cells.end(),
+                     [&](const Cell& cell) { return cell.set_text() == own.first; }))
+      steps_by_set.fail(fmt::format("no cell has the overrides \"{}\"; the first cell has \"{}\"", own.first,
+                                    study.cells[0].set_text()));
 }
 
 void read_paper(const JsonPlace& place, Study& study) {
