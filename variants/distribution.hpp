@@ -26,7 +26,7 @@ struct Distribution {
   int ranks = 1;
   std::string variant = "auto";         ///< that computes each part
   std::string decomposition = "strips"; ///< a method, or the path of a decomposition file
-  std::string halo = "auto";            ///< a strategy; auto: the fastest by the model of halo_cost.hpp
+  std::string halo = "auto";            ///< a strategy; auto: the fastest of a trial
   bool is_measured = false;             ///< parts in proportion to each rank's measured speed; else equal
 };
 

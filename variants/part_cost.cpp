@@ -48,15 +48,12 @@ PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, int sta
   return times;
 }
 
-HaloCost halo_cost(const PartSize& size, const PartTimes& times, const HaloStrategy& strategy, int stages,
-                   double element_bytes) {
-  HaloCost cost;
-  cost.compute_s = times.compute_s;
-  cost.hiding_s = strategy.is_every_stage ? times.inner_s : times.compute_s - times.upper_s;
-  cost.exchanges = strategy.is_every_stage ? stages : 1;
-  cost.faces = int(size.faces.size());
-  for (const PartSize::Face& face : size.faces) cost.bytes += double(face.send) * element_bytes;
-  return cost;
+PlannedPart plan_part(const PartSize& size, const PartTimes& times, Precision precision) {
+  const std::size_t element_bytes = field_count * (precision == Precision::f64 ? 8 : 4);
+  PlannedPart part{times, {}};
+  for (const PartSize::Face& face : size.faces)
+    part.faces.push_back({face.part, face.side, face.send * element_bytes, face.receive * element_bytes});
+  return part;
 }
 
 } // namespace dss

@@ -1,11 +1,13 @@
 #pragma once
-/// What a part's steps cost under each strategy, from its sizes and a node's speed: the compute side of halo_cost.hpp, for ranks and for
+/// What a part computes and exchanges in a step of each strategy, from its sizes and a node's speed: for the choice of a strategy and for
 /// simulated nodes alike.
 #include "solver/decomposition/part.hpp"
+#include "solver/model/model.hpp"
 #include "solver/numerics/method.hpp"
-#include "variants/halo_cost.hpp"
+#include "variants/distribution.hpp"
 
 #include <string>
+#include <vector>
 
 namespace dss {
 
@@ -34,8 +36,23 @@ double element_stages(const PartSize& size, const HaloStrategy& strategy, int st
 /// @param size  of the part with halo_depth layers  @param reach  largest distance in rows of two linked elements
 PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, int stages, int reach, const NodeSpeed& speed);
 
-/// For the model. @param element_bytes  of a message, for an element
-HaloCost halo_cost(const PartSize& size, const PartTimes& times, const HaloStrategy& strategy, int stages,
-                   double element_bytes);
+/// What a part computes and exchanges in a step of one strategy.
+struct PlannedPart {
+  PartTimes times;
+  struct Face {
+    int part = 0;
+    Side side = Side::among;
+    std::size_t send_bytes = 0, receive_bytes = 0; ///< in one exchange
+  };
+  std::vector<Face> faces; ///< ascending by part
+};
+PlannedPart plan_part(const PartSize& size, const PartTimes& times, Precision precision);
+
+/// A step of all parts.
+struct PlannedStrategy {
+  std::string name;  ///< of a HaloStrategy
+  int exchanges = 1; ///< a step: the stages, or one
+  std::vector<PlannedPart> parts;
+};
 
 } // namespace dss

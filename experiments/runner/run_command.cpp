@@ -89,7 +89,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       ->add_option(
           "--halo", request.halo,
           "How ranks exchange what they share: sendrecv, overlap, deep, deep-overlap, shared; auto: what a model "
-          "predicts to be fastest")
+          "finds fastest")
       ->capture_default_str()
       ->group("Ranks");
   command

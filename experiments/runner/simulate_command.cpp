@@ -54,7 +54,8 @@ int simulate_scene(const SimulateArguments& arguments) {
                                 {"bytes_per_step", run.bytes_per_step},
                                 {"latency_s", run.latency_s},
                                 {"seconds_a_byte", run.seconds_a_byte},
-                                {"predicted_step_s", run.predicted_step_s}});
+                                {"predicted_step_s", run.predicted_step_s},
+                                {"tried_step_s", run.tried_step_s}});
   if (arguments.json == "-") return exit_success;
   fmt::print("{} on {} simulated nodes of {} ({:.3g} us, {:.4g} MB/s), {}, halo {}\n", scene.name, arguments.ranks,
              arguments.platform, 1e6 * run.latency_s, 1e-6 / run.seconds_a_byte, decomposition.method, run.halo);

@@ -33,6 +33,7 @@ constexpr const char* settings[] = {
     "--cfg=smpi/wtime:0",
     "--cfg=smpi/async-small-thresh:65536", // small messages need no receiver to be on their way, as in Open MPI
     "--cfg=smpi/send-is-detached-thresh:65536",
+    "--cfg=smpi/allgather:rdb",
     "--cfg=smpi/allreduce:rdb", // the default collectives take minutes at 1,024 ranks
     "--cfg=smpi/barrier:mpich",
     "--cfg=smpi/allgatherv:mpich_rdb",
@@ -45,16 +46,6 @@ std::string module_path() {
   const fs::path installed =
       fs::read_symlink(this_program, error).parent_path().parent_path() / "lib/dssbench/simulated_cluster.so";
   return fs::exists(installed, error) ? installed.string() : DSS_SIMULATED_CLUSTER;
-}
-
-PlannedPart plan_part(const SimulatedProblem& what, const PartSize& size, const HaloStrategy& strategy,
-                      const NodeSpeed& speed) {
-  const std::size_t element_bytes = field_count * (what.precision == Precision::f64 ? 8 : 4);
-  PlannedPart part;
-  part.times = part_times(size, strategy, what.method.stages, what.problem.lattice.row_reach(), speed);
-  for (const PartSize::Face& face : size.faces)
-    part.faces.push_back({face.part, face.side, face.send * element_bytes, face.receive * element_bytes});
-  return part;
 }
 
 /// A decomposition whose parts are small enough to be tried: the one given, or as many strips as it takes.
@@ -108,7 +99,10 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
     for (const HaloStrategy& strategy : halo_strategies()) {
       if (strategy.is_every_stage != is_every_stage || strategy.transport == HaloStrategy::Transport::shared) continue;
       PlannedStrategy planned{std::string(strategy.name), is_every_stage ? what.method.stages : 1, {}};
-      for (const PartSize& size : sizes) planned.parts.push_back(plan_part(what, size, strategy, speed));
+      for (const PartSize& size : sizes)
+        planned.parts.push_back(
+            plan_part(size, part_times(size, strategy, what.method.stages, what.problem.lattice.row_reach(), speed),
+                      what.precision));
       plan.strategies.push_back(std::move(planned));
     }
   }
@@ -131,7 +125,8 @@ SimulatedRun simulate(const SimulationPlan& plan, const std::string& platform) {
                     failure.empty() ? "no result: " + child.error.substr(0, child.error.find('\n')) : failure));
   }
   return {json["halo"],           json["step_s"],    json["communication_s_per_step"], json["messages_per_step"],
-          json["bytes_per_step"], json["latency_s"], json["seconds_a_byte"],           json["predicted_step_s"]};
+          json["bytes_per_step"], json["latency_s"], json["seconds_a_byte"],           json["predicted_step_s"],
+          json["tried_step_s"]};
 }
 
 } // namespace dss

@@ -26,6 +26,7 @@ struct SimulatedRun {
   double messages_per_step = 0, bytes_per_step = 0;
   double latency_s = 0, seconds_a_byte = 0; ///< by ping-pong in the simulation
   nlohmann::ordered_json predicted_step_s;  ///< by strategy
+  nlohmann::ordered_json tried_step_s;      ///< of what was run: auto tries those that might be the fastest
 };
 
 /// Empty, or why nothing can be simulated here: "built without SimGrid".

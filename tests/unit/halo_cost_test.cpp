@@ -1,52 +1,82 @@
-/// The latency-bandwidth model by which a halo strategy is chosen.
+/// The latency-bandwidth model by which halo strategies are judged before a run.
 #include "variants/halo_cost.hpp"
+#include "variants/rounds.hpp"
 
 #include <gtest/gtest.h>
 
 namespace dss::test {
 namespace {
 
-constexpr Network slow{1e-3, 1e-8, 0, 0}, busy{1e-6, 1e-10, 5e-6, 1e-9};
+constexpr Network slow{1e-3, 1e-8, 0, 0}, busy{2e-5, 1e-10, 5e-6, 1e-9};
+constexpr double compute_s = 1.0;
 
-const HaloStrategy& strategy(std::string_view name) { return *find_halo_strategy(name); }
+/// A chain of equal parts, each of which sends `bytes` to both neighbours in each exchange.
+PlannedStrategy chain(std::string name, int parts, const PartTimes& times, std::size_t bytes) {
+  PlannedStrategy planned{std::move(name), 1, {}};
+  if (find_halo_strategy(planned.name)->is_every_stage) planned.exchanges = 4;
+  for (int p = 0; p < parts; ++p) {
+    PlannedPart part{times, {}};
+    if (p > 0) part.faces.push_back({p - 1, Side::lower, bytes, bytes});
+    if (p + 1 < parts) part.faces.push_back({p + 1, Side::upper, bytes, bytes});
+    planned.parts.push_back(part);
+  }
+  return planned;
+}
 
 TEST(HaloCost, of_a_part_without_neighbours_is_its_computation) {
   for (const HaloStrategy& one : halo_strategies())
-    EXPECT_EQ(predicted_step_s(one, {2.0, 1.0, 4, 0, 0}, slow), 2.0) << one.name;
+    EXPECT_NEAR(predicted_step_s(chain(std::string(one.name), 1, {compute_s, 0.5, 0, 0}, 0), slow), compute_s, 1e-12)
+        << one.name;
 }
 
-TEST(HaloCost, of_sendrecv_pays_a_latency_for_each_neighbour_and_stage) {
-  const HaloCost cost{1.0, 0, 4, 2, 1000}; // 4 stages, 2 neighbours, 1000 bytes to both
-  EXPECT_DOUBLE_EQ(predicted_step_s(strategy("sendrecv"), cost, slow), 1.0 + 4 * (2 * 1e-3 + 1000 * 1e-8));
+TEST(HaloCost, of_sendrecv_pays_a_message_for_each_round_and_stage) {
+  const double message_s = 1e-3 + 500 * 1e-8;
+  EXPECT_NEAR(predicted_step_s(chain("sendrecv", 2, {compute_s, 0, 0, 0}, 500), slow), compute_s + 4 * message_s, 1e-9);
+  EXPECT_NEAR(predicted_step_s(chain("sendrecv", 9, {compute_s, 0, 0, 0}, 500), slow), compute_s + 8 * message_s, 1e-9);
 }
 
-TEST(HaloCost, of_deep_pays_one_latency_a_step) {
-  EXPECT_DOUBLE_EQ(predicted_step_s(strategy("deep"), {1.0, 0, 1, 2, 4000}, slow), 1.0 + 1e-3 + 4000 * 1e-8);
+TEST(HaloCost, of_deep_pays_one_latency_a_step_and_the_bytes_of_both_neighbours) {
+  EXPECT_NEAR(predicted_step_s(chain("deep", 5, {compute_s, 0, 0, 0}, 2000), slow), compute_s + 1e-3 + 4000 * 1e-8,
+              1e-9);
 }
 
 TEST(HaloCost, of_overlap_pays_only_what_cannot_be_hidden) {
-  const HaloCost hidden{1.0, 0.5, 4, 2, 1000}, bare{1.0, 1e-3, 4, 2, 1000};
-  EXPECT_DOUBLE_EQ(predicted_step_s(strategy("overlap"), hidden, slow), 1.0);
-  EXPECT_DOUBLE_EQ(predicted_step_s(strategy("overlap"), bare, slow), 1.0 + 4 * (1e-3 + 1000 * 1e-8) - 1e-3);
+  const double exchange_s = 1e-3 + 1000 * 1e-8;
+  EXPECT_NEAR(predicted_step_s(chain("overlap", 5, {compute_s, 0.5, 0, 0}, 500), slow), compute_s, 1e-9);
+  EXPECT_NEAR(predicted_step_s(chain("overlap", 5, {compute_s, 1e-3, 0, 0}, 500), slow),
+              compute_s + 4 * exchange_s - 1e-3, 1e-9);
 }
 
 TEST(HaloCost, of_overlap_cannot_hide_what_the_processor_itself_does) {
-  const HaloCost cost{1.0, 0.5, 4, 2, 1000};
-  EXPECT_DOUBLE_EQ(predicted_step_s(strategy("overlap"), cost, busy), 1.0 + 2 * 4 * 2 * (5e-6 + 500 * 1e-9));
+  EXPECT_NEAR(predicted_step_s(chain("overlap", 5, {compute_s, 0.5, 0, 0}, 500), busy),
+              compute_s + 4 * 2 * 2 * (5e-6 + 500 * 1e-9), 1e-9);
 }
 
 TEST(HaloCost, of_messages_too_large_to_copy_leaves_the_processor_alone) {
-  const HaloCost cost{1.0, 0.5, 1, 2, 4 * eager_bytes};
-  EXPECT_DOUBLE_EQ(predicted_step_s(strategy("deep-overlap"), cost, busy), 1.0);
+  const PartTimes split{compute_s, 0, 0.3, 0.3};
+  const double step_s = predicted_step_s(chain("deep-overlap", 5, split, std::size_t(4 * eager_bytes)), busy);
+  EXPECT_NEAR(step_s, compute_s, 1e-9);
 }
 
-TEST(HaloCost, chooses_few_large_messages_where_latency_rules_and_no_redundancy_where_bandwidth_does) {
-  const HaloCost every_stage{1.0, 0, 4, 2, 1e5}, once{1.1, 0, 1, 2, 4e5};
+TEST(HaloCost, of_an_edge_that_is_sent_early_is_the_mean_of_both_ways) {
+  const Network far{0.3, 0, 0, 0}; // up: computed at 1, there at 1.3; down: computed at 0.2, there at 0.5
+  EXPECT_NEAR(predicted_step_s(chain("deep-overlap", 6, {compute_s, 0, 0, 0.2}, 8), far), compute_s, 1e-9);
+  const Network farther{0.5, 0, 0, 0};
+  EXPECT_NEAR(predicted_step_s(chain("deep-overlap", 6, {compute_s, 0, 0, 0.2}, 8), farther), (1.5 + 0.7) / 2, 1e-9);
+}
+
+TEST(HaloCost, of_shared_memory_is_less_than_that_of_messages) {
+  EXPECT_LT(predicted_step_s(chain("shared", 4, {compute_s, 0, 0, 0}, 2000), busy),
+            predicted_step_s(chain("deep", 4, {compute_s, 0, 0, 0}, 2000), busy));
+}
+
+TEST(HaloCost, prefers_few_large_messages_where_latency_rules_and_no_redundancy_where_bandwidth_does) {
+  const auto step_s = [](const char* name, double seconds, std::size_t bytes, const Network& network) {
+    return predicted_step_s(chain(name, 4, {seconds, 0, 0, 0}, bytes), network);
+  };
   const Network latency_rules{0.1, 1e-9, 0, 0}, bandwidth_rules{1e-9, 1e-9, 0, 0};
-  EXPECT_LT(predicted_step_s(strategy("deep"), once, latency_rules),
-            predicted_step_s(strategy("sendrecv"), every_stage, latency_rules));
-  EXPECT_GT(predicted_step_s(strategy("deep"), once, bandwidth_rules),
-            predicted_step_s(strategy("sendrecv"), every_stage, bandwidth_rules));
+  EXPECT_LT(step_s("deep", 1.1, 40000, latency_rules), step_s("sendrecv", 1.0, 10000, latency_rules));
+  EXPECT_GT(step_s("deep", 1.1, 40000, bandwidth_rules), step_s("sendrecv", 1.0, 10000, bandwidth_rules));
 }
 
 } // namespace

@@ -1,9 +1,8 @@
 #pragma once
 /// One problem on all ranks of a job: each computes its part by the executor of another variant.
-#include "variants/mpi/halo_exchange.hpp"
+#include "variants/mpi/distributed_part.hpp"
 #include "variants/mpi/spread.hpp"
 
-#include <memory>
 #include <optional>
 
 namespace dss {
@@ -21,7 +20,7 @@ public:
   int workers() const override { return workers_; }
   std::size_t bytes() const override { return bytes_; }
   RankInfo rank_info() const override { return info_; }
-  Traffic traffic() const override { return traffic_; }
+  Traffic traffic() const override { return part_->traffic(); }
   void work_alone(bool is_alone) override { world_.work_alone(is_alone); }
   std::vector<double> gather(double value) override { return world_.gather(value); }
 
@@ -34,16 +33,10 @@ private:
 
   World& world_;
   const Fault fault_;
-  Part part_;
   RankInfo info_;
-  std::unique_ptr<HaloExchange> exchange_;
-  std::optional<TimedHalo> halo_;
-  std::optional<FaultyHalo> faulty_halo_; ///< before it, for faults on purpose
-  std::optional<PartSetup> part_setup_;
-  std::unique_ptr<Executor> executor_;
+  std::optional<DistributedPart> part_;
   int workers_ = 0;
   std::size_t bytes_ = 0;
-  Traffic traffic_; ///< of the calls of advance
 };
 
 } // namespace dss

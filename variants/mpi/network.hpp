@@ -1,6 +1,6 @@
 #pragma once
 /// What a message between ranks costs here, by a short ping-pong.
-#include "variants/halo_cost.hpp"
+#include "variants/distribution.hpp"
 
 #include <mpi.h>
 

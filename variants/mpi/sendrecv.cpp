@@ -1,18 +1,23 @@
 #include "variants/mpi/transports.hpp"
 #include "variants/mpi/waiting.hpp"
+#include "variants/rounds.hpp"
 
 #include <algorithm>
-#include <set>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace dss {
 namespace {
 
-/// An indexed datatype over the pieces of a layout, relative to the first.
+/// An indexed datatype over the pieces of a layout, relative to the first; bytes, if they are one.
 class PiecesType {
 public:
   explicit PiecesType(const HaloLayout& layout) : start_(layout.pieces.front().at) {
+    if (layout.pieces.size() == 1 && layout.size <= std::size_t(std::numeric_limits<int>::max())) {
+      count_ = int(layout.size);
+      return;
+    }
     std::vector<int> lengths;
     std::vector<MPI_Aint> places;
     std::size_t bytes = 0;
@@ -26,17 +31,19 @@ public:
     MPI_Type_commit(&type_);
   }
   PiecesType(PiecesType&& other) noexcept
-      : start_(other.start_), type_(std::exchange(other.type_, MPI_DATATYPE_NULL)) {}
+      : start_(other.start_), count_(other.count_), type_(std::exchange(other.type_, MPI_BYTE)) {}
   PiecesType& operator=(PiecesType&&) = delete;
   ~PiecesType() {
-    if (type_ != MPI_DATATYPE_NULL) MPI_Type_free(&type_);
+    if (type_ != MPI_BYTE) MPI_Type_free(&type_);
   }
   std::byte* start() const { return start_; }
+  int count() const { return count_; }
   MPI_Datatype type() const { return type_; }
 
 private:
   std::byte* start_;
-  MPI_Datatype type_ = MPI_DATATYPE_NULL;
+  int count_ = 1; ///< of the type
+  MPI_Datatype type_ = MPI_BYTE;
 };
 
 std::vector<std::pair<int, int>> edges_of_all(const std::vector<Face>& faces, MPI_Comm comm) {
@@ -97,8 +104,8 @@ public:
       const Types& types = types_[f][std::size_t(copy)];
       const int rank = faces_[f].rank;
       const Waiting waiting(rank);
-      MPI_Sendrecv(types.send.start(), 1, types.send.type(), rank, 0, types.receive.start(), 1, types.receive.type(),
-                   rank, 0, comm_, MPI_STATUS_IGNORE);
+      MPI_Sendrecv(types.send.start(), types.send.count(), types.send.type(), rank, 0, types.receive.start(),
+                   types.receive.count(), types.receive.type(), rank, 0, comm_, MPI_STATUS_IGNORE);
       count(types.bytes);
     }
   }
@@ -114,19 +121,6 @@ private:
 };
 
 } // namespace
-
-std::vector<int> colour_edges(const std::vector<std::pair<int, int>>& edges, int vertices) {
-  std::vector<std::set<int>> used(static_cast<std::size_t>(vertices));
-  std::vector<int> rounds;
-  for (const auto& [a, b] : edges) {
-    int round = 0;
-    while (used[std::size_t(a)].contains(round) || used[std::size_t(b)].contains(round)) ++round;
-    used[std::size_t(a)].insert(round);
-    used[std::size_t(b)].insert(round);
-    rounds.push_back(round);
-  }
-  return rounds;
-}
 
 std::unique_ptr<HaloExchange> make_sendrecv_exchange(std::vector<Face> faces, MPI_Comm comm) {
   return std::make_unique<SendrecvExchange>(std::move(faces), comm);

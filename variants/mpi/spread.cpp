@@ -3,13 +3,11 @@
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
-#include "variants/halo_cost.hpp"
-#include "variants/mpi/network.hpp"
+#include "variants/mpi/strategy_choice.hpp"
 #include "variants/trial.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <limits>
 
 namespace dss {
 namespace {
@@ -37,33 +35,6 @@ Weights measured_weights(const Setup& setup, const Plugin& plugin, const Decompo
   return {*most > resolution * *least ? speed : std::vector<double>{}, {}};
 }
 
-/// A team of threads computes all rows at once: there are no edges that could be done before the rest.
-bool is_possible(const HaloStrategy& strategy, int threads) {
-  return threads == 1 || strategy.is_every_stage || !strategy.is_overlapped;
-}
-
-void choose_strategy(const Setup& setup, const Plugin& plugin, World& world, const Fault& fault, Spread& spread) {
-  const Network& network = spread.network = measure_network(world.comm());
-  const NodeSpeed speed = own_speed(setup, plugin, spread.decomposition, world, fault);
-  const int stages = setup.method.stages, reach = setup.problem.lattice.row_reach();
-  const double element_bytes = double(field_count) * (setup.precision == Precision::f64 ? 8.0 : 4.0);
-  double least = std::numeric_limits<double>::infinity();
-  for (const HaloStrategy& strategy : halo_strategies()) {
-    if (strategy.transport == HaloStrategy::Transport::shared && !world.is_one_node()) continue;
-    if (!is_possible(strategy, setup.threads)) continue;
-    const PartSize size =
-        part_size(setup.problem, spread.decomposition, world.rank(), halo_depth(strategy, setup.method));
-    HaloCost cost = halo_cost(size, part_times(size, strategy, stages, reach, speed), strategy, stages, element_bytes);
-    if (world.is_one_node()) cost.hiding_s = 0; // the processors themselves copy the messages
-    const double step_s = world.largest(predicted_step_s(strategy, cost, network));
-    spread.halo_reason += fmt::format("{}{} {:.4g} us", spread.halo_reason.empty() ? "predicted step: " : ", ",
-                                      strategy.name, 1e6 * step_s);
-    if (step_s >= least) continue;
-    least = step_s;
-    spread.halo = &strategy;
-  }
-}
-
 } // namespace
 
 Spread spread(const Setup& setup, const Plugin& plugin, World& world, const Fault& fault) {
@@ -87,7 +58,11 @@ Spread spread(const Setup& setup, const Plugin& plugin, World& world, const Faul
   } else if (world.ranks() == 1) {
     result.halo = find_halo_strategy("deep");
   } else {
-    choose_strategy(setup, plugin, world, fault, result);
+    const NodeSpeed speed = own_speed(setup, plugin, result.decomposition, world, fault);
+    const StrategyChoice choice = choose_strategy(setup, plugin, result.decomposition, speed, world, fault);
+    result.halo = choice.halo;
+    result.halo_reason = choice.reason;
+    result.network = choice.network;
   }
   return result;
 }

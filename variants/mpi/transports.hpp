@@ -12,8 +12,4 @@ std::unique_ptr<HaloExchange> make_message_exchange(std::vector<Face> faces, MPI
 /// Through a window of memory that the ranks of the node share. @throws InputError if `comm` spans several nodes
 std::unique_ptr<HaloExchange> make_shared_exchange(std::vector<Face> faces, MPI_Comm comm);
 
-/// Round in which each edge of a graph is used, so that no vertex is used twice in a round. Edges (a, b), a < b,
-/// ascending.
-std::vector<int> colour_edges(const std::vector<std::pair<int, int>>& edges, int vertices);
-
 } // namespace dss

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <numeric>
 #include <optional>
 #include <sys/prctl.h>
 
@@ -58,6 +59,20 @@ std::vector<double> World::gather(double value) {
   const Waiting waiting(Waiting::for_all);
   MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, comm_);
   return all;
+}
+
+std::vector<std::string> World::gather(const std::string& text) {
+  std::vector<int> sizes(std::size_t(ranks_), 0), places(sizes);
+  const int size = int(text.size());
+  const Waiting waiting(Waiting::for_all);
+  MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, comm_);
+  std::exclusive_scan(sizes.begin(), sizes.end(), places.begin(), 0);
+  std::string all(std::size_t(places.back() + sizes.back()), ' ');
+  MPI_Allgatherv(text.data(), size, MPI_CHAR, all.data(), sizes.data(), places.data(), MPI_CHAR, comm_);
+  std::vector<std::string> texts;
+  for (std::size_t r = 0; r < sizes.size(); ++r)
+    texts.push_back(all.substr(std::size_t(places[r]), std::size_t(sizes[r])));
+  return texts;
 }
 
 void World::join(std::span<double> values) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace dss {
@@ -27,6 +28,7 @@ public:
   bool is_one_node() const { return node_ranks_ == ranks_; }
 
   std::vector<double> gather(double value);
+  std::vector<std::string> gather(const std::string& text);
   /// Bitwise or over all ranks, for all: joins what each rank filled in where the others left zeros.
   void join(std::span<double> values);
   double least(double value);

@@ -11,7 +11,8 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
-#include <limits>
+#include <map>
+#include <string>
 
 namespace dss {
 namespace {
@@ -40,7 +41,7 @@ void compute(double seconds) {
   if (seconds > 0) smpi_execute(seconds);
 }
 
-/// The steps of one part, in the order of variants/engine: staged.hpp and row_executor.cpp.
+/// The steps of one part.
 class SimulatedPart {
 public:
   SimulatedPart(const PlannedStrategy& planned, const HaloStrategy& strategy, int rank, std::byte* message)
@@ -56,44 +57,14 @@ public:
   }
 
   void run(int steps) {
+    const int last = steps * planned_.exchanges - 1;
     for (const Side side : all_sides) exchange_->send(side, 0);
-    for (int n = 0; n < steps; ++n) {
-      const bool is_last = n + 1 == steps;
-      if (strategy_.is_every_stage)
-        step_by_stages(is_last);
-      else if (strategy_.is_overlapped)
-        overlapped_step(
-            *exchange_, n % copies_, (n + 1) % copies_, is_last, part_.times.upper_s > 0,
-            [&] { compute(part_.times.upper_s); },
-            [&](auto&& edge_is_done) {
-              compute(part_.times.edge_s);
-              edge_is_done();
-              compute(part_.times.compute_s - part_.times.upper_s - part_.times.edge_s);
-            });
-      else
-        step_at_once(n, is_last);
-    }
+    for (int n = 0; n <= last; ++n)
+      run_to_next_exchange(strategy_, part_.times, planned_.exchanges, *exchange_, n, n == last, compute);
   }
   const Traffic& traffic() const { return exchange_->traffic(); }
 
 private:
-  void step_by_stages(bool is_last) {
-    const double inner_s = strategy_.is_overlapped ? part_.times.inner_s / planned_.exchanges : 0;
-    for (int stage = 0; stage < planned_.exchanges; ++stage) {
-      compute(inner_s);
-      for (const Side side : all_sides) exchange_->receive(side, 0);
-      compute(part_.times.compute_s / planned_.exchanges - inner_s);
-      if (is_last && stage + 1 == planned_.exchanges) return;
-      for (const Side side : all_sides) exchange_->send(side, 0);
-    }
-  }
-  void step_at_once(int n, bool is_last) {
-    for (const Side side : all_sides) exchange_->receive(side, n % copies_);
-    compute(part_.times.compute_s);
-    if (is_last) return;
-    for (const Side side : all_sides) exchange_->send(side, (n + 1) % copies_);
-  }
-
   static constexpr int copies_ = 2;
   const PlannedStrategy& planned_;
   const HaloStrategy& strategy_;
@@ -110,40 +81,65 @@ double sum(double value) {
   return value;
 }
 
-double predicted_s(const PlannedStrategy& planned, const HaloStrategy& strategy, int rank, const Network& network) {
-  const PlannedPart& part = planned.parts[std::size_t(rank)];
-  HaloCost cost{part.times.compute_s,
-                strategy.is_every_stage ? part.times.inner_s : part.times.compute_s - part.times.upper_s,
-                planned.exchanges, int(part.faces.size()), 0};
-  for (const PlannedPart::Face& face : part.faces) cost.bytes += double(face.send_bytes);
-  return largest(predicted_step_s(strategy, cost, network));
+constexpr double in_step_s = 0.1;            ///< longer than a reduction over all ranks
+constexpr std::size_t most_tried_ranks = 64; ///< the model alone decides for more, which SimGrid takes minutes to try
+
+struct SimulatedSteps {
+  double step_s = 0, waited_s = 0;
+  Traffic traffic; ///< sent by this rank
+};
+
+SimulatedSteps run(const PlannedStrategy& planned, int steps, int rank, std::byte* message) {
+  SimulatedPart part(planned, *find_halo_strategy(planned.name), rank, message);
+  // All start at once: where messages rule, ranks that leave a barrier one after the other can stay out of step for good.
+  compute(largest(MPI_Wtime()) + in_step_s - MPI_Wtime());
+  const double start = MPI_Wtime(), waited_before_s = Waiting::total_s();
+  part.run(steps);
+  const double run_s = MPI_Wtime() - start, waited_s = Waiting::total_s() - waited_before_s;
+  return {largest(run_s) / steps, waited_s, part.traffic()};
+}
+
+using StepTimes = std::map<std::string, double>;
+
+/// The same for all ranks: one of them replays.
+const StepTimes& the_predictions(const SimulationPlan& plan, const Network& network) {
+  static const StepTimes step_s = [&] {
+    StepTimes times;
+    for (const PlannedStrategy& planned : plan.strategies)
+      times.emplace(planned.name, predicted_step_s(planned, network));
+    return times;
+  }();
+  return step_s;
+}
+
+/// Whether a strategy is run: the one asked for; for auto, as variants/mpi/strategy_choice.cpp does it, those that may be the fastest.
+bool is_run(const std::string& name, const SimulationPlan& plan, const StepTimes& predicted) {
+  if (plan.halo != "auto") return name == plan.halo;
+  const auto least = std::ranges::min_element(predicted, {}, &StepTimes::value_type::second);
+  const bool is_small = plan.strategies.front().parts.size() <= most_tried_ranks;
+  return is_small ? predicted.at(name) <= worth_trying * least->second : name == least->first;
 }
 
 void simulate(const SimulationPlan& plan, int rank) {
   const Network network = measure_network(MPI_COMM_WORLD);
-  nlohmann::ordered_json json{{"latency_s", network.latency_s}, {"seconds_a_byte", network.seconds_a_byte}};
-  const PlannedStrategy* chosen = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (const PlannedStrategy& planned : plan.strategies) {
-    const double step_s = predicted_s(planned, *find_halo_strategy(planned.name), rank, network);
-    json["predicted_step_s"][planned.name] = step_s;
-    const bool is_asked = plan.halo == planned.name;
-    if (is_asked || (plan.halo == "auto" && step_s < least)) chosen = &planned, least = step_s;
-  }
-  const HaloStrategy& strategy = *find_halo_strategy(chosen->name);
-  SimulatedPart part(*chosen, strategy, rank, the_message(largest_message(plan)));
-  MPI_Barrier(MPI_COMM_WORLD);
-  const double start = MPI_Wtime(), waited_before_s = Waiting::total_s();
-  part.run(plan.steps);
-  const double run_s = MPI_Wtime() - start, waited_s = Waiting::total_s() - waited_before_s;
+  const StepTimes& predicted = the_predictions(plan, network);
+  std::map<std::string, SimulatedSteps> tried;
+  for (const PlannedStrategy& planned : plan.strategies)
+    if (is_run(planned.name, plan, predicted))
+      tried.emplace(planned.name, run(planned, plan.steps, rank, the_message(largest_message(plan))));
+  const auto& [halo, result] = *std::ranges::min_element(tried, {}, [](const auto& one) { return one.second.step_s; });
   const double steps = plan.steps;
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  json["halo"] = strategy.name;
-  json["step_s"] = largest(run_s) / steps;
-  json["messages_per_step"] = sum(part.traffic().messages) / steps;
-  json["bytes_per_step"] = sum(part.traffic().bytes) / steps;
-  json["communication_s_per_step"] = sum(waited_s) / ranks / steps;
+  nlohmann::ordered_json json{{"halo", halo},
+                              {"step_s", result.step_s},
+                              {"messages_per_step", sum(result.traffic.messages) / steps},
+                              {"bytes_per_step", sum(result.traffic.bytes) / steps},
+                              {"communication_s_per_step", sum(result.waited_s) / ranks / steps},
+                              {"latency_s", network.latency_s},
+                              {"seconds_a_byte", network.seconds_a_byte}};
+  for (const auto& [name, seconds] : predicted) json["predicted_step_s"][name] = seconds;
+  for (const auto& [name, steps_run] : tried) json["tried_step_s"][name] = steps_run.step_s;
   if (rank == 0) fmt::print("{}\n", json.dump());
 }
 

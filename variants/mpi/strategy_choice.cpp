@@ -1,0 +1,105 @@
+#include "variants/mpi/strategy_choice.hpp"
+
+#include "solver/numerics/signal_rows.hpp"
+#include "variants/halo_cost.hpp"
+#include "variants/mpi/distributed_part.hpp"
+#include "variants/mpi/network.hpp"
+#include "variants/mpi/part_json.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+
+namespace dss {
+namespace {
+
+constexpr double trial_s = 4e-3; ///< of each timing
+constexpr int timings = 3, sweeps = 3;
+constexpr double large_elements = 500'000; ///< parts that take long to make are tried once
+constexpr double never = std::numeric_limits<double>::infinity();
+
+using StepTimes = std::map<const HaloStrategy*, double>;
+
+/// A step of this rank's part under a strategy.
+PlannedPart plan_own_part(const Setup& setup, const World& world, const Decomposition& decomposition,
+                          const HaloStrategy& strategy, const NodeSpeed& speed) {
+  const PartSize size = part_size(setup.problem, decomposition, world.rank(), halo_depth(strategy, setup.method));
+  PartTimes times = part_times(size, strategy, setup.method.stages, setup.problem.lattice.row_reach(), speed);
+  // On one node the processors themselves copy the messages: nothing is computed meanwhile.
+  if (world.is_one_node()) times = {times.compute_s, 0, 0, times.compute_s};
+  return plan_part(size, times, setup.precision);
+}
+
+StepTimes predict(const Setup& setup, const Decomposition& decomposition, const NodeSpeed& speed,
+                  const Network& network, World& world) {
+  StepTimes step_s;
+  for (const HaloStrategy& strategy : halo_strategies()) {
+    if (strategy.transport == HaloStrategy::Transport::shared && !world.is_one_node()) continue;
+    if (!is_possible(strategy, setup.threads)) continue;
+    const PlannedPart own = plan_own_part(setup, world, decomposition, strategy, speed);
+    PlannedStrategy planned{std::string(strategy.name), strategy.is_every_stage ? setup.method.stages : 1, {}};
+    for (const std::string& text : world.gather(nlohmann::json(own).dump()))
+      planned.parts.push_back(nlohmann::json::parse(text).get<PlannedPart>());
+    step_s[&strategy] = world.largest(predicted_step_s(planned, network));
+  }
+  return step_s;
+}
+
+/// The least of some timings [s].
+double try_strategy(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition,
+                    const HaloStrategy& strategy, World& world, const Fault& fault) {
+  DistributedPart part(setup, plugin, decomposition, strategy, world, fault);
+  const auto run_s = [&](long steps) {
+    const std::vector<double> signals = signal_rows(part.part().problem, setup.method, setup.dt, 0, steps);
+    world.meet();
+    const double start_s = MPI_Wtime();
+    part.advance(steps, signals);
+    return world.largest(MPI_Wtime() - start_s);
+  };
+  long steps = 1;
+  while (run_s(steps) < trial_s && steps < 1 << 16) steps *= 2;
+  double least_s = never;
+  for (int n = 0; n < timings; ++n) least_s = std::min(least_s, run_s(steps));
+  return least_s / double(steps);
+}
+
+double least_of(const StepTimes& step_s) {
+  double least = never;
+  for (const auto& [strategy, seconds] : step_s) least = std::min(least, seconds);
+  return least;
+}
+
+std::string text_of(const StepTimes& step_s) {
+  std::string text;
+  for (const HaloStrategy& strategy : halo_strategies())
+    if (const auto found = step_s.find(&strategy); found != step_s.end())
+      text += fmt::format("{}{} {:.4g} us", text.empty() ? "" : ", ", strategy.name, 1e6 * found->second);
+  return text;
+}
+
+} // namespace
+
+bool is_possible(const HaloStrategy& strategy, int threads) {
+  return threads == 1 || strategy.is_every_stage || !strategy.is_overlapped;
+}
+
+StrategyChoice choose_strategy(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition,
+                               const NodeSpeed& speed, World& world, const Fault& fault) {
+  StrategyChoice choice{nullptr, {}, measure_network(world.comm())};
+  const StepTimes predicted = predict(setup, decomposition, speed, choice.network, world);
+  const Fault slowness = fault.kind == Fault::Kind::slow ? fault : Fault{}; // others wait for the run itself
+  const bool is_large = double(setup.problem.lattice.element_count) / world.ranks() > large_elements;
+  StepTimes tried;
+  for (int sweep = 0; sweep < (is_large ? 1 : sweeps); ++sweep)
+    for (const auto& [strategy, seconds] : predicted) {
+      if (seconds > worth_trying * least_of(predicted)) continue;
+      double& best = tried.try_emplace(strategy, never).first->second;
+      best = std::min(best, try_strategy(setup, plugin, decomposition, *strategy, world, slowness));
+    }
+  choice.halo = std::ranges::min_element(tried, {}, [](const auto& one) { return one.second; })->first;
+  choice.reason = fmt::format("predicted step: {}; tried: {}", text_of(predicted), text_of(tried));
+  return choice;
+}
+
+} // namespace dss
