@@ -9,7 +9,6 @@ namespace dss {
 namespace {
 
 constexpr double trial_s = 4e-3; ///< of each timing
-constexpr int rounds = 8;
 constexpr std::size_t large_elements = 500'000;
 
 /// What is in the halo costs the same: it stays zero.
@@ -55,7 +54,8 @@ private:
 };
 
 /// Large parts are timed one schedule after the other, since both at once would take several times the memory of the run.
-NodeSpeed measure_large(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part) {
+NodeSpeed measure_large(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part,
+                        int rounds) {
   NodeSpeed best;
   const auto time = [&](const char* strategy, double& speed) {
     Trial trial(setup, plugin, decomposition, part, *find_halo_strategy(strategy));
@@ -68,9 +68,10 @@ NodeSpeed measure_large(const Setup& setup, const Plugin& plugin, const Decompos
 
 } // namespace
 
-NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part) {
+NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part,
+                        int rounds) {
   if (setup.problem.lattice.element_count / std::size_t(decomposition.parts) > large_elements)
-    return measure_large(setup, plugin, decomposition, part);
+    return measure_large(setup, plugin, decomposition, part, rounds);
   Trial at_once(setup, plugin, decomposition, part, *find_halo_strategy("deep"));
   Trial stage_by_stage(setup, plugin, decomposition, part, *find_halo_strategy("sendrecv"));
   NodeSpeed best;

@@ -18,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_trial_elements = 1'000'000;
 constexpr double time_limit_s = 600;
+constexpr int calibrations =
+    48; ///< timings of a part, the best of which counts: its noise would be taken for a network's
 
 /// Settings with which a ping-pong takes just the latency and bandwidth that the platform states, computation takes what
 /// is injected, and a thousand ranks run in seconds. (Measured: SimGrid 3.32; its defaults are those of one old cluster.)
@@ -84,7 +86,7 @@ NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposi
   const Decomposition tried = trial_decomposition(what.problem, decomposition, largest);
   largest_part(what.problem, tried, index);
   const Setup setup{what.problem, what.method, what.model, what.precision, what.problem.dt};
-  NodeSpeed speed = measure_speed(setup, load_variant("auto"), tried, index);
+  NodeSpeed speed = measure_speed(setup, load_variant("auto"), tried, index, calibrations);
   speed.name = "ours";
   return speed;
 }
