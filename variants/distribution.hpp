@@ -44,7 +44,7 @@ struct RankInfo {
   std::string variant, isa, decomposition, halo;
   bool has_fma = false;
   double imbalance = 1;    ///< own elements of the largest part over the mean
-  std::string halo_reason; ///< of an automatic choice: the predicted times
+  std::string halo_reason; ///< of an automatic choice: the predicted and tried times
   Network network;         ///< as measured for an automatic choice, else zeros
 };
 

@@ -41,7 +41,8 @@ private:
 class PartClock final : public Halo {
 public:
   PartClock(const PlannedPart& part, const Link& link, bool meets)
-      : part_(part), link_(link), meets_(meets), posted_s(part.faces.size()), arrival_s(part.faces.size()) {}
+      : part_(part), link_(link), meets_(meets), posted_s(part.faces.size()), arrival_s(part.faces.size()),
+        sent_s(part.faces.size()) {}
 
   void compute(double seconds) { now_s += seconds; }
   void send(Side side, int) override {
@@ -54,7 +55,7 @@ public:
   void receive(Side side, int) override {
     for (std::size_t f = 0; f < part_.faces.size(); ++f) {
       if (part_.faces[f].side != side) continue;
-      now_s = std::max(now_s, arrival_s[f]);
+      now_s = std::max({now_s, arrival_s[f], sent_s[f]});
       if (!meets_) now_s += link_.busy_s(part_.faces[f].receive_bytes);
     }
   }
@@ -67,6 +68,7 @@ private:
 public:
   double now_s = 0, adapter_s = 0;         ///< adapter_s: when it has sent all before
   std::vector<double> posted_s, arrival_s; ///< by face
+  std::vector<double> sent_s;              ///< large messages: when the adapter has fetched them
 };
 
 /// A message on its way through its sender's adapter.
@@ -169,6 +171,7 @@ private:
       const Edge to = other_end({part, one.face});
       clocks_[to.part].arrival_s[to.face] = one.end_s + link_.flight_s();
       sender.adapter_s = std::max(sender.adapter_s, one.end_s);
+      if (link_.is_large(bytes({part, one.face}))) sender.sent_s[one.face] = one.end_s;
     }
   }
 

@@ -7,6 +7,7 @@ namespace dss {
 
 /// Speed on one part of a decomposition, the best of some short timings of both schedules in turn: a shared machine is
 /// never too fast. `setup` is of the whole problem.
+/// @param rounds  timings of each schedule; half of them for parts above 500,000 elements
 NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part,
                         int rounds = 8);
 

@@ -86,10 +86,9 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       ->capture_default_str()
       ->group("Ranks");
   command
-      ->add_option(
-          "--halo", request.halo,
-          "How ranks exchange what they share: sendrecv, overlap, deep, deep-overlap, shared; auto: what a model "
-          "finds fastest")
+      ->add_option("--halo", request.halo,
+                   "How ranks exchange what they share: sendrecv, overlap, deep, deep-overlap, shared; auto: the "
+                   "fastest of a short trial")
       ->capture_default_str()
       ->group("Ranks");
   command

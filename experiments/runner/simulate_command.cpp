@@ -80,7 +80,7 @@ void add_simulate_command(CLI::App& app, Chosen& chosen) {
       ->add_option("--platform", arguments->platform,
                    "gigabit, ten_gigabit, fdr, a SimGrid platform file; this_host: two ranks here, by ping-pong")
       ->capture_default_str();
-  command->add_option("--halo", arguments->halo, "sendrecv, overlap, deep, deep-overlap; auto: as the model predicts")
+  command->add_option("--halo", arguments->halo, "sendrecv, overlap, deep, deep-overlap; auto: the fastest")
       ->capture_default_str();
   command->add_option("--decomposition", arguments->decomposition, "strips, blocks or metis")->capture_default_str();
   command

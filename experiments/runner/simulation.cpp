@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t most_trial_elements = 1'000'000;
-constexpr double time_limit_s = 600;
+constexpr double time_limit_s = 1800;
 constexpr int calibrations =
     48; ///< timings of a part, the best of which counts: its noise would be taken for a network's
 

@@ -1,8 +1,10 @@
 #include "variants/mpi/halo_exchange.hpp"
 
+#include "solver/error.hpp"
 #include "variants/mpi/transports.hpp"
 
 #include <cstring>
+#include <limits>
 
 namespace dss {
 
@@ -11,6 +13,12 @@ std::vector<Face> faces_of(const Part& part) {
   for (const Neighbour& neighbour : part.neighbours)
     faces.push_back({neighbour.part, side_of(part, neighbour), faces.size()});
   return faces;
+}
+
+int count_of(std::size_t bytes) {
+  if (bytes > std::size_t(std::numeric_limits<int>::max()))
+    throw InputError("a message between two parts exceeds 2 GiB; take more ranks, or --decomposition blocks");
+  return int(bytes);
 }
 
 void gather(const HaloLayout& layout, std::byte* message) {

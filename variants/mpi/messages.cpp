@@ -1,8 +1,6 @@
-#include "solver/error.hpp"
 #include "variants/mpi/transports.hpp"
 #include "variants/mpi/waiting.hpp"
 
-#include <limits>
 #include <utility>
 
 namespace dss {
@@ -12,15 +10,14 @@ namespace {
 class PersistentMessage {
 public:
   PersistentMessage(Way way, HaloLayout layout, int rank, MPI_Comm comm) : layout_(std::move(layout)) {
-    if (layout_.size > std::size_t(std::numeric_limits<int>::max()))
-      throw InputError("a message between two parts exceeds 2 GiB; take more ranks, or --decomposition blocks");
+    const int size = count_of(layout_.size);
     is_direct_ = layout_.is_stable && layout_.pieces.size() == 1;
     if (!is_direct_) buffer_.resize(layout_.size);
     std::byte* const memory = is_direct_ ? layout_.pieces.front().at : buffer_.data();
     if (way == Way::out)
-      MPI_Send_init(memory, int(layout_.size), MPI_BYTE, rank, 0, comm, &request_);
+      MPI_Send_init(memory, size, MPI_BYTE, rank, 0, comm, &request_);
     else
-      MPI_Recv_init(memory, int(layout_.size), MPI_BYTE, rank, 0, comm, &request_);
+      MPI_Recv_init(memory, size, MPI_BYTE, rank, 0, comm, &request_);
   }
   PersistentMessage(PersistentMessage&& other) noexcept
       : layout_(std::move(other.layout_)), buffer_(std::move(other.buffer_)), is_direct_(other.is_direct_),

@@ -3,7 +3,6 @@
 #include "variants/rounds.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -14,8 +13,8 @@ namespace {
 class PiecesType {
 public:
   explicit PiecesType(const HaloLayout& layout) : start_(layout.pieces.front().at) {
-    if (layout.pieces.size() == 1 && layout.size <= std::size_t(std::numeric_limits<int>::max())) {
-      count_ = int(layout.size);
+    if (layout.pieces.size() == 1) {
+      count_ = count_of(layout.size);
       return;
     }
     std::vector<int> lengths;
@@ -24,7 +23,7 @@ public:
     for (const auto& piece : layout.pieces) {
       if (piece.offset != bytes) throw std::logic_error("a datatype cannot write a number to two places");
       bytes += piece.count;
-      lengths.push_back(int(piece.count));
+      lengths.push_back(count_of(piece.count));
       places.push_back(MPI_Aint(piece.at - start_));
     }
     MPI_Type_create_hindexed(int(lengths.size()), lengths.data(), places.data(), MPI_BYTE, &type_);

@@ -12,7 +12,7 @@ namespace dss {
 struct Spread {
   Decomposition decomposition;
   const HaloStrategy* halo = nullptr;
-  std::string halo_reason; ///< predicted times, if they were asked for
+  std::string halo_reason; ///< predicted and tried times of an automatic choice
   Network network;         ///< that they are predicted with
 };
 

@@ -1,5 +1,6 @@
 /// A job on a simulated cluster (SimGrid SMPI): the exchange code of the variant `mpi` as it is; what its executors would
 /// compute is injected as time. Argument: the plan (plan.hpp). Prints one JSON object; anything else is a failure.
+#include "solver/error.hpp"
 #include "variants/halo_cost.hpp"
 #include "variants/mpi/halo_exchange.hpp"
 #include "variants/mpi/network.hpp"
@@ -92,8 +93,11 @@ struct SimulatedSteps {
 SimulatedSteps run(const PlannedStrategy& planned, int steps, int rank, std::byte* message) {
   SimulatedPart part(planned, *find_halo_strategy(planned.name), rank, message);
   // All start at once: where messages rule, ranks that leave a barrier one after the other can stay out of step for good.
-  compute(largest(MPI_Wtime()) + in_step_s - MPI_Wtime());
-  const double start = MPI_Wtime(), waited_before_s = Waiting::total_s();
+  const double start = largest(MPI_Wtime()) + in_step_s;
+  const double until_start = start - MPI_Wtime();
+  if (until_start < 0) throw InputError("a reduction over all ranks takes longer than 0.1 s on this network");
+  compute(until_start);
+  const double waited_before_s = Waiting::total_s();
   part.run(steps);
   const double run_s = MPI_Wtime() - start, waited_s = Waiting::total_s() - waited_before_s;
   return {largest(run_s) / steps, waited_s, part.traffic()};
