@@ -29,7 +29,7 @@ private:
   /// Leapfrog rows of velocity-dependent problems hold half-step velocities behind the model's fields.
   bool is_predicted() const { return is_leapfrog() && packed_.leapfrog_fields > packed_.fields(); }
   int stored_fields() const { return is_leapfrog() ? packed_.leapfrog_fields : packed_.fields(); }
-  bool is_part() const { return packed_.is_part(); }
+  bool is_part() const { return part_ != nullptr; }
   void make_blocks();
   Block<T>& block_of(int r);
   T* row(int r);
