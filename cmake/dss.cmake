@@ -10,15 +10,15 @@ if(DSS_SANITIZE)
   target_compile_definitions(dss_options INTERFACE DSS_SANITIZED)
 endif()
 
-# dss_add_variant(NAME ORDER n MARCH isa [VECTOR_BITS b] [DISTRIBUTED] [NEEDS feature...] [OPTIONS flag...] [SOURCES file...])
+# dss_add_variant(NAME ORDER n MARCH isa [VECTOR_BITS b] [BY_NAME] [NEEDS feature...] [OPTIONS flag...] [SOURCES file...])
 #
 # One MODULE library that exports one symbol, compiled for its own instruction set, and one entry of the registry that the loader reads.
 #   ORDER        place among the variants, slowest first: `--variant auto` takes the last that this CPU can run
 #   VECTOR_BITS  width of the packs of variants/engine (0: scalar); without SOURCES the module is that engine
-#   DISTRIBUTED  never the choice of auto: it computes by other variants
+#   BY_NAME      never the choice of auto: it computes by other variants or on devices, and is asked itself whether it can run
 #   NEEDS        CPU features, as __builtin_cpu_supports names them, that are checked before the module is opened
 function(dss_add_variant name)
-  cmake_parse_arguments(arg "DISTRIBUTED" "ORDER;MARCH;VECTOR_BITS" "NEEDS;OPTIONS;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "BY_NAME" "ORDER;MARCH;VECTOR_BITS" "NEEDS;OPTIONS;SOURCES" ${ARGN})
   if(NOT arg_VECTOR_BITS)
     set(arg_VECTOR_BITS 0)
   endif()
@@ -45,12 +45,12 @@ function(dss_add_variant name)
   install(TARGETS ${target} LIBRARY DESTINATION lib/dssbench/variants)
   set_property(GLOBAL APPEND PROPERTY DSS_VARIANT_TARGETS ${target})
   string(JOIN "," needs ${arg_NEEDS})
-  if(arg_DISTRIBUTED)
-    set(is_distributed true)
+  if(arg_BY_NAME)
+    set(is_by_name true)
   else()
-    set(is_distributed false)
+    set(is_by_name false)
   endif()
-  set_property(GLOBAL APPEND PROPERTY DSS_VARIANTS "${arg_ORDER}|{\"${name}\", \"${arg_MARCH}\", \"${needs}\", \"\", ${is_distributed}},")
+  set_property(GLOBAL APPEND PROPERTY DSS_VARIANTS "${arg_ORDER}|{\"${name}\", \"${arg_MARCH}\", \"${needs}\", \"\", ${is_by_name}},")
 endfunction()
 
 # dss_add_missing_variant(NAME ORDER n REASON text): a variant that this build lacks; it is listed, and skipped with the reason.

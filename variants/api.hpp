@@ -5,8 +5,10 @@
 #include "solver/model/model.hpp"
 #include "solver/model/problem.hpp"
 #include "solver/numerics/method.hpp"
+#include "variants/device.hpp"
 #include "variants/distribution.hpp"
 #include "variants/halo.hpp"
+#include "variants/member.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -26,6 +28,8 @@ struct Setup {
   int threads = 1;
   const PartSetup* part = nullptr;            ///< `problem` is a part of a larger one; outlives the executor
   const Distribution* distribution = nullptr; ///< for distributed variants, which take the default without
+  std::string device{};                       ///< of a variant on devices: see DeviceEntry; empty: its first
+  std::string members{};                      ///< of a hybrid: see parse_members; empty: its own choice, not questioned
 };
 
 /// Result of advance(): finite, or where the state first was not.
@@ -56,6 +60,8 @@ public:
   virtual std::size_t bytes() const = 0;
   /// Copies of the elements that an executor of a part exchanges; 0: it cannot compute parts.
   virtual int halo_copies() const { return 0; }
+  /// Elements that lie together in a copy: only layouts of executors with equal numbers have messages in the same order.
+  virtual int halo_lanes() const { return 0; }
   /// Where everything stored of these elements (ascending, local numbers) lies in a copy. Own elements are there to be read: every
   /// offset is given once. Halo elements are there to be written, some offsets in several places.
   virtual HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) {
@@ -63,6 +69,16 @@ public:
   }
   virtual RankInfo rank_info() const { return {}; }
   virtual Traffic traffic() const { return {}; }
+  /// What a method keeps of an element: 13 fields, and with some methods more.
+  virtual int kept_fields() const { return 0; }
+  /// Gets or sets all that the method keeps of elements [first, first + kept.size() / kept_fields()), so that another executor of the same
+  /// method, model and precision goes on to the last bit, whichever elements it has. 0 kept_fields: it cannot.
+  virtual void save(std::size_t first, std::span<double> kept) { (void)first, (void)kept; }
+  virtual void restore(std::size_t first, std::span<const double> kept) { (void)first, (void)kept; }
+  /// What was used of a device, and what its use cost.
+  virtual DeviceUse device_use() const { return {}; }
+  /// What the members of a hybrid do.
+  virtual HybridInfo hybrid_info() const { return {}; }
   /// This rank now works while others wait, perhaps for long, or no longer does. Not collective.
   virtual void work_alone(bool is_alone) { (void)is_alone; }
   /// This value of every rank, in their order. Collective.
@@ -77,11 +93,13 @@ struct Plugin {
   bool is_threaded;
   bool is_distributed; ///< computes on all ranks of the job
   std::unique_ptr<Executor> (*create)(const Setup& setup);
-  std::span<const CompiledKernel> (*kernels)(); ///< null if the variant has no kernels of its own
-  void (*end)(int exit_code, bool is_in_order); ///< null, or see end_variants
+  std::span<const CompiledKernel> (*kernels)();           ///< null if the variant has no kernels of its own
+  void (*end)(int exit_code, bool is_in_order) = nullptr; ///< null, or see end_variants
+  std::string (*why_unusable)() = nullptr; ///< null, or empty if it can run here, else why not: "no OpenCL platform"
+  std::vector<DeviceEntry> (*devices)() = nullptr; ///< null, or the devices that it can use, and those that it cannot
 };
 
-constexpr int plugin_abi = 3;
+constexpr int plugin_abi = 4;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

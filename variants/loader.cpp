@@ -19,7 +19,7 @@ struct Entry {
   const char* isa;
   const char* needs;   ///< CPU features, comma-separated
   const char* missing; ///< why this build lacks it, or empty
-  bool is_distributed; ///< computes by other variants
+  bool is_by_name;     ///< never the choice of auto; asked itself whether it can run
 };
 constexpr Entry registry[] = {
 #include "variants/registry.inc"
@@ -88,6 +88,16 @@ const Plugin& open_module(const VariantStatus& variant) {
   return *plugin;
 }
 
+/// A library that a module needs may be missing, or a device.
+std::string why_unusable(const VariantStatus& variant) {
+  try {
+    const Plugin& plugin = open_module(variant);
+    return plugin.why_unusable == nullptr ? "" : plugin.why_unusable();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 } // namespace
 
 const std::vector<VariantStatus>& variants() {
@@ -96,8 +106,18 @@ const std::vector<VariantStatus>& variants() {
     for (const Entry& entry : registry) {
       const std::string missing = missing_feature(entry.needs);
       const std::string cannot = missing.empty() ? entry.missing : fmt::format("this CPU lacks {}", missing);
-      list.push_back({entry.name, entry.isa, cannot, entry.is_distributed});
+      list.push_back({entry.name, entry.isa, cannot, entry.is_by_name});
     }
+    return list;
+  }();
+  return all;
+}
+
+const std::vector<VariantStatus>& asked_variants() {
+  static const std::vector<VariantStatus> all = [] {
+    std::vector<VariantStatus> list = variants();
+    for (VariantStatus& variant : list)
+      if (variant.is_by_name && variant.is_usable()) variant.unusable = why_unusable(variant);
     return list;
   }();
   return all;
@@ -105,7 +125,7 @@ const std::vector<VariantStatus>& variants() {
 
 std::vector<std::string> usable_variants() {
   std::vector<std::string> names;
-  for (const VariantStatus& variant : variants())
+  for (const VariantStatus& variant : asked_variants())
     if (variant.is_usable()) names.push_back(variant.name);
   return names;
 }
@@ -127,7 +147,7 @@ const Plugin& load_variant(const std::string& name) {
   std::vector<std::string> names{"auto"};
   for (const VariantStatus& variant : variants()) {
     names.push_back(variant.name);
-    if (variant.name == name || (name == "auto" && variant.is_usable() && !variant.is_distributed)) found = &variant;
+    if (variant.name == name || (name == "auto" && variant.is_usable() && !variant.is_by_name)) found = &variant;
   }
   if (found == nullptr)
     throw InputError(fmt::format("variant \"{}\" does not exist; {}", name, nearest_name(name, names)));

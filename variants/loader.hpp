@@ -11,14 +11,16 @@ namespace dss {
 /// A variant this build knows, and whether it can run here.
 struct VariantStatus {
   std::string name;
-  std::string isa;             ///< what the module is compiled for
-  std::string unusable;        ///< empty if it can run here, else the reason: "this CPU lacks avx512f"
-  bool is_distributed = false; ///< computes on ranks, by other variants
+  std::string isa;         ///< what the module is compiled for
+  std::string unusable;    ///< empty if it can run here, else the reason: "this CPU lacks avx512f"
+  bool is_by_name = false; ///< never the choice of auto: it computes on ranks or devices
   bool is_usable() const { return unusable.empty(); }
 };
 
-/// Every variant of the registry that CMake generated, slowest first; needs no module to be opened.
+/// Every variant of the registry that CMake generated, slowest first. Needs no module to be opened.
 const std::vector<VariantStatus>& variants();
+/// The same, where modules that need more than a CPU (a library, a device) have been opened and asked.
+const std::vector<VariantStatus>& asked_variants();
 /// Names of those that can run here.
 std::vector<std::string> usable_variants();
 

@@ -23,7 +23,7 @@ using Listing = nlohmann::ordered_json;
 
 Listing variant_listing() {
   Listing list = Listing::array();
-  for (const VariantStatus& status : variants()) {
+  for (const VariantStatus& status : asked_variants()) {
     Listing item = {{"variant", status.name}, {"isa", status.isa}, {"fma", ""}, {"threads", ""}, {"status", "usable"}};
     if (status.is_usable()) {
       const Plugin& plugin = load_variant(status.name);

@@ -36,12 +36,12 @@ const char* text_of(VerifyRow::Verdict verdict) {
 /// Variants to verify; those that cannot run here become rows that say so.
 std::vector<const Plugin*> chosen_plugins(const std::vector<std::string>& asked, std::vector<VerifyRow>& rows) {
   std::vector<std::string> known;
-  for (const VariantStatus& status : variants()) known.push_back(status.name);
+  for (const VariantStatus& status : asked_variants()) known.push_back(status.name);
   for (const std::string& name : asked)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(fmt::format("--variant {}: unknown variant; {}", name, nearest_name(name, known)));
   std::vector<const Plugin*> plugins;
-  for (const VariantStatus& status : variants()) {
+  for (const VariantStatus& status : asked_variants()) {
     if (!asked.empty() && std::find(asked.begin(), asked.end(), status.name) == asked.end()) continue;
     if (status.is_usable())
       plugins.push_back(&load_variant(status.name));

@@ -55,7 +55,6 @@ constexpr Plugin wrong{
     true,
     false,
     [](const Setup& setup) -> std::unique_ptr<Executor> { return std::make_unique<WrongExecutor>(setup); },
-    nullptr,
     nullptr};
 
 /// Names of the checks that failed in f64 of the spatial model; only the wrong variant may be blamed.

@@ -23,7 +23,7 @@ protected:
     std::string pattern = (fs::temp_directory_path() / "dssbench-study-XXXXXX").string();
     directory = ::mkdtemp(pattern.data());
     for (const VariantStatus& status : variants())
-      if (status.name != "reference" && !status.is_distributed) variant = status.name;
+      if (status.name != "reference" && !status.is_by_name) variant = status.name;
     block = {{"scene", "plate_paper"}, {"variants", {variant}}};
     study = {{"experiment", "ranks"},
              {"title", "Ranks"},

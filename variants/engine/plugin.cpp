@@ -8,7 +8,7 @@ extern "C" const dss::Plugin* dss_plugin() {
 #else
   constexpr bool has_fma = false;
 #endif
-  static constexpr dss::Plugin plugin{dss::plugin_abi,          DSS_VARIANT,           DSS_ISA, has_fma, true, false,
-                                      dss::create_row_executor, dss::compiled_kernels, nullptr};
+  static constexpr dss::Plugin plugin{dss::plugin_abi,          DSS_VARIANT,          DSS_ISA, has_fma, true, false,
+                                      dss::create_row_executor, dss::compiled_kernels};
   return &plugin;
 }

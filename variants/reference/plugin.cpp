@@ -42,7 +42,7 @@ std::unique_ptr<Executor> create(const Setup& setup) {
   return std::make_unique<ReferenceExecutor<double>>(setup);
 }
 
-constexpr Plugin plugin = {plugin_abi, DSS_VARIANT, DSS_ISA, false, false, false, create, nullptr, nullptr};
+constexpr Plugin plugin = {plugin_abi, DSS_VARIANT, DSS_ISA, false, false, false, create, nullptr};
 
 } // namespace
 } // namespace dss

@@ -1,0 +1,30 @@
+#pragma once
+/// Devices that a variant computes on, beside the program's own processor.
+#include <cstddef>
+#include <string>
+
+namespace dss {
+
+/// One device as a variant found it.
+struct DeviceEntry {
+  std::string id;   ///< "0:1": platform and device, as --device takes it
+  std::string kind; ///< "cpu", "gpu", "accelerator"
+  std::string name, platform, version;
+  int compute_units = 0;
+  double memory_bytes = 0, largest_buffer_bytes = 0;
+  bool has_f64 = false;
+  std::string unusable; ///< empty, or why it cannot be used
+};
+
+/// What an executor used of a device. Counts and times are of all calls of advance.
+struct DeviceUse {
+  DeviceEntry device;
+  double build_s = 0; ///< making the program ready: compilation, or reading it from the cache [s]
+  bool is_cached = false;
+  double launches = 0;
+  double to_device_bytes = 0, from_device_bytes = 0;
+  double transfer_s = 0; ///< in transfers that the host waited for [s]
+  double launch_s = 0;   ///< one empty launch and its end, as measured when the executor was made [s]
+};
+
+} // namespace dss
