@@ -38,6 +38,7 @@ struct SpatialPhysics {
 #include "kernels/algebra/spatial.h"
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"
+#include "kernels/wrench/wrench.h"
 #include "kernels/rk_update/rk_update.h"
 #include "kernels/stress/stress.h"
 #include "kernels/cases.h"
@@ -54,6 +55,7 @@ struct PlanarPhysics {
 #include "kernels/algebra/planar.h"
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"
+#include "kernels/wrench/wrench.h"
 #include "kernels/rk_update/rk_update.h"
 #include "kernels/cases.h"
   // clang-format on

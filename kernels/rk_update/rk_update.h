@@ -8,6 +8,14 @@ static inline REAL rk_increment(REAL ratio, REAL stage, REAL y, REAL t) { return
 static inline REAL rk_finish(REAL alpha_1, REAL t, REAL y) { return FMA(alpha_1, t, y); }
 /* y + beta f; the first term of t is the same operation on Y_1 - y */
 static inline REAL rk_first(REAL y, REAL beta, REAL rate) { return FMA(beta, rate, y); }
+/* With three increments: y1, y2, y3 are the Y_m, the ratios those of the later alpha to the first. */
+static inline REAL rk_combined(REAL y, REAL beta, REAL rate, REAL y1, REAL y2, REAL y3, REAL alpha_1, REAL ratio_2,
+                               REAL ratio_3) {
+  REAL t = rk_first(y1 - y, beta, rate);
+  t = rk_increment(ratio_2, y2, y, t);
+  t = rk_increment(ratio_3, y3, y, t);
+  return rk_finish(alpha_1, t, y);
+}
 
 /* Leapfrog: v_{n+1/2} = v_{n-1/2} + h a, x_{n+1} = x_n + h v_{n+1/2}, prediction p_{n+1} = v_{n+1/2} + h/2 a. */
 typedef struct {

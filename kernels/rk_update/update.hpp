@@ -40,9 +40,8 @@ struct RungeKuttaUpdate {
     each_component(rates, [&](R& k) {
       const R y = simd::load(base + at);
       if constexpr (has_increments) {
-        R t = P::rk_first(simd::load(increment[0] + at) - y, beta, k);
-        for (int m = 1; m < 3; ++m) t = P::rk_increment(alpha[m], simd::load(increment[m] + at), y, t);
-        k = P::rk_finish(alpha[0], t, y);
+        k = P::rk_combined(y, beta, k, simd::load(increment[0] + at), simd::load(increment[1] + at),
+                           simd::load(increment[2] + at), alpha[0], alpha[1], alpha[2]);
       } else {
         k = P::rk_first(y, beta, k);
       }

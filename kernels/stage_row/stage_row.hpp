@@ -25,25 +25,18 @@ struct StageRow {
   /// Scalars a pack of link forces (and couples) takes in a carry buffer.
   static constexpr int carry_size = (terms.has_couples() ? wrench_components : component_count<vec>()) * W;
 
-  /// What a link hands to the element behind it: the force on i, and the couple that is added there (paper's law:
-  /// subtracted).
-  struct Carry {
-    vec force;
-    spin couple;
-  };
-  /// Sums over an element's links. In the plane, forces on the y faces are turned onto the x face, so that one product gives
-  /// the moment of all.
-  struct Wrench {
-    vec force;
-    spin moment, couple;
-    vec on_x_face;
-  };
+  using prepared = typename P::prepared;
+  using carried = typename P::carried;
+  using wrench = typename P::wrench;
+  using axis_law = typename P::axis_law;
+  using exchange = typename P::exchange;
+  static constexpr typename P::term_flags flags{terms.is_material,   terms.is_damped, terms.is_bending,
+                                                terms.is_gyroscopic, terms.is_tied,   terms.is_oblong};
 
   const RowTask<T>& task;
   const BodyConstants<T>& body = *task.body;
   const std::array<typename P::paper_law, 3> laws{paper_law(0), paper_law(1), paper_law(2)};
   static constexpr bool is_planar = component_count<vec>() == 2;
-  static constexpr bool has_one_lever = is_planar && !terms.is_material;
   /// Plain packs, with every link in the plane and nothing applied, take a copy of the loop's body without branches. Measured
   /// (GCC 12, Zen 4): planar 1.10 to 1.15 of the rate without it, spatial 0.89, since straight code over 13 fields spills more.
   static constexpr bool has_plain_path = is_planar;
@@ -95,164 +88,78 @@ struct StageRow {
             R(a.k_z),           R(a.k_xz),          R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
   }
 
-  /// An element with what its links share (paper's law): k x + d x' of its centre, its faces on the x axis.
-  struct Prepared {
-    element e;
-    vec pull, lower_x;
-    typename P::face x;
-  };
-  Prepared prepare(const T* p) const {
-    Prepared r;
-    r.e = load_element(p);
-    if constexpr (!terms.is_material) {
-      r.pull = P::centre_pull(r.e, laws[0], terms.is_damped);
-      r.x = P::element_face(r.e, 0, laws[0], terms.is_damped);
-      r.lower_x = P::lower_face(r.pull, r.x);
-    }
-    return r;
-  }
-  /// Upper or lower face of an element on axis 1 or 2, and the moment of a force on it; the plane's are turned from the
-  /// x axis.
-  vec upper_across(const vec& pull, const typename P::face& x, const typename P::face& own) const {
-    return P::upper_face(pull, across(x, own));
-  }
-  vec lower_across(const element& e, const vec& pull, const int axis) const {
-    if constexpr (is_planar)
-      return P::lower_face(pull, across(P::element_face(e, 0, laws[0], terms.is_damped), {}));
-    else
-      return P::lower_face(pull, P::element_face(e, axis, laws[std::size_t(axis)], terms.is_damped));
-  }
-  typename P::face across(const typename P::face& x, const typename P::face& own) const {
-    if constexpr (is_planar)
-      return {x.arm, scaled_to_y(P::vec_turned(x.swing))};
-    else
-      return own;
-  }
-  vec scaled_to_y(const vec& a) const {
-    if constexpr (terms.is_oblong)
-      return P::vec_scale(R(body.edge_ratio), a);
-    else
-      return a;
-  }
+  axis_law law(int axis) const { return {laws[0], laws[std::size_t(axis)], material(axis), R(body.edge_ratio)}; }
+  prepared prepare(const T* p) const { return P::prepare(load_element(p), laws[0], flags); }
 
-  /// Exchange over the link from i to j on `axis`; `lower` is j's lower face (paper's law), `upper` i's upper face.
-  typename P::exchange link(const element& i, const vec& upper, const element& j, const vec& lower,
-                            const int axis) const {
-    if constexpr (terms.is_material) return P::material_link(i, j, axis, material(axis), terms.is_damped);
-    typename P::exchange x{};
-    x.force = P::vec_sub(lower, upper);
-    if constexpr (terms.has_couples())
-      x.couple_i = P::paper_couple(i.q, i.w, j.q, j.w, laws[std::size_t(axis)], terms.is_bending, terms.is_damped);
-    return x;
-  }
-  static Carry carry_of(const typename P::exchange& x) {
-    if constexpr (terms.is_material) return {x.force, x.couple_j};
-    return {x.force, x.couple_i};
-  }
   template <bool is_plain = false>
-  static void mask_links(simd::LaneMask mask, typename P::exchange& x) {
+  static void mask_links(simd::LaneMask mask, exchange& x) {
     if (is_plain || mask == simd::all_lanes<T>) return;
     keep(mask, x.force);
     if constexpr (terms.has_couples()) keep(mask, x.couple_i);
     if constexpr (terms.is_material) keep(mask, x.couple_j);
   }
-  static spin couples(const typename P::exchange& up, const Carry& low) {
-    if constexpr (terms.is_material)
-      return P::spin_add(up.couple_i, low.couple);
-    else
-      return P::spin_sub(up.couple_i, low.couple);
-  }
-  static void add_couples(const typename P::exchange& up, const Carry& low, spin& couple) {
-    if constexpr (terms.is_material)
-      couple = P::spin_add(P::spin_add(couple, up.couple_i), low.couple);
-    else if constexpr (terms.has_couples())
-      couple = P::spin_sub(P::spin_add(couple, up.couple_i), low.couple);
-  }
-  static void store_carry(T* p, const Carry& c) {
+  static void store_carry(T* p, const carried& c) {
     store_all(p, c.force);
     if constexpr (terms.has_couples()) store_all(p, c.couple);
   }
-  static Carry load_carry(const T* p) {
-    Carry c;
+  static carried load_carry(const T* p) {
+    carried c{zero<vec>(), zero<spin>()};
     c.force = load_all<vec>(p);
     if constexpr (terms.has_couples()) c.couple = load_all<spin>(p);
     return c;
   }
 
-  /// Link between element i and the element at `upper` across a y or z face, for rows and for the first rows of a block
-  /// alike.
-  typename P::exchange link_across(const element& i, const vec& upper_face, const T* upper, const int axis) const {
-    const element j = load_element(upper);
-    vec lower_face;
-    if constexpr (!terms.is_material)
-      lower_face = lower_across(j, P::centre_pull(j, laws[std::size_t(axis)], terms.is_damped), axis);
-    return link(i, upper_face, j, lower_face, axis);
-  }
-
-  /// `upper`: the upper row; `carry`, `from`: carry buffers; each may be null where no mask needs it.
+  /// Links across y or z. `upper`: the upper row; `carry`, `from`: carry buffers; each may be null where no mask needs it.
   template <bool is_plain>
-  void add_across(const Prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper,
-                  T* carry, const T* from, int pack, Wrench& sum) const {
+  void add_across(const prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper,
+                  T* carry, const T* from, int pack, wrench& sum) const {
     if (!is_plain && (above | below) == 0) return;
     typename P::face own;
     vec upper_face;
-    if constexpr (terms.is_material)
-      own.arm = arm(i.e, axis);
-    else if constexpr (!is_planar)
-      own = P::element_face(i.e, axis, laws[std::size_t(axis)], terms.is_damped);
-    if constexpr (!terms.is_material) upper_face = upper_across(i.pull, i.x, own);
-    typename P::exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
+    if constexpr (terms.is_material) {
+      own.arm = P::material_arm(i.e, axis, material(axis));
+      upper_face = i.e.u;
+    } else {
+      own = P::face_across(i.e, i.x, axis, law(axis), flags);
+      upper_face = P::upper_face(i.pull, own);
+    }
+    exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
-      up = link_across(i.e, upper_face, upper + std::ptrdiff_t(pack) * (stride * W), axis);
+      up = P::link_across(i.e, upper_face, load_element(upper + std::ptrdiff_t(pack) * (stride * W)), axis, law(axis),
+                          flags);
       mask_links<is_plain>(above, up);
     }
-    Carry low{zero<vec>(), zero<spin>()};
+    carried low{zero<vec>(), zero<spin>()};
     if (is_plain || below != 0) low = load_carry(from + std::ptrdiff_t(pack) * carry_size);
-    sum.force = P::vec_sub(P::vec_add(sum.force, up.force), low.force);
-    const vec both = P::vec_add(up.force, low.force);
-    if constexpr (has_one_lever)
-      sum.on_x_face = P::vec_add(sum.on_x_face, scaled_to_y(P::vec_turned_back(both)));
-    else
-      sum.moment = P::vec_moment(own.arm, both, sum.moment);
-    add_couples(up, low, sum.couple);
+    sum = P::wrench_across(sum, up, low, own.arm, law(axis), flags);
     if (is_plain || above != 0)
-      store_carry(carry + std::ptrdiff_t(pack) * carry_size, carry_of(up)); // perhaps over what was read
-  }
-  vec arm(const element& e, const int axis) const {
-    return P::face_arm(e.q, axis, R(body.edge[axis]), R(body.edge[axis] / 2));
+      store_carry(carry + std::ptrdiff_t(pack) * carry_size, P::carried_by(up, flags)); // perhaps over what was read
   }
 
   template <bool is_plain>
-  Wrench links_x(const Prepared& i, const Prepared& next, simd::LaneMask mask, Carry& previous) const {
+  wrench links_x(const prepared& i, const prepared& next, simd::LaneMask mask, carried& previous) const {
     element j;
-    vec lower;
+    vec lower, upper;
     if constexpr (terms.is_material) {
       j = from_above(i.e, next.e);
+      lower = upper = i.e.u;
     } else {
       lower = from_above(i.lower_x, next.lower_x);
+      upper = P::upper_face(i.pull, i.x);
       if constexpr (terms.is_damped) j.w = from_above(i.e.w, next.e.w);
       if constexpr (terms.is_bending) j.q = from_above(i.e.q, next.e.q);
     }
-    vec upper;
-    if constexpr (!terms.is_material) upper = P::upper_face(i.pull, i.x);
-    typename P::exchange up = link(i.e, upper, j, lower, 0);
+    exchange up = P::link_exchange(i.e, upper, j, lower, 0, law(0), flags);
     mask_links<is_plain>(mask, up);
-    const Carry carry = carry_of(up);
-    Carry low;
-    low.force = from_below(previous.force, carry.force);
-    if constexpr (terms.has_couples()) low.couple = from_below(previous.couple, carry.couple);
-    previous = carry;
-    vec arm_x = i.x.arm;
-    if constexpr (terms.is_material) arm_x = arm(i.e, 0);
-    Wrench sum;
-    sum.force = P::vec_sub(up.force, low.force);
-    sum.on_x_face = P::vec_add(up.force, low.force);
-    if constexpr (!has_one_lever) sum.moment = P::vec_cross(arm_x, sum.on_x_face);
-    if constexpr (terms.has_couples()) sum.couple = couples(up, low);
-    return sum;
+    const carried own = P::carried_by(up, flags);
+    carried low{zero<vec>(), zero<spin>()};
+    low.force = from_below(previous.force, own.force);
+    if constexpr (terms.has_couples()) low.couple = from_below(previous.couple, own.couple);
+    previous = own;
+    return P::wrench_of_x(i, up, low, law(0), flags);
   }
 
-  void apply_wrenches(int pack, Wrench& sum) const {
+  void apply_wrenches(int pack, wrench& sum) const {
     for (int n = 0; n < task.applied->pattern_count; ++n) {
       const auto& pattern = task.applied->patterns[n];
       if (unsigned(pack - pattern.first) >= unsigned(pattern.packs)) continue;
@@ -282,18 +189,6 @@ struct StageRow {
   /// w' over turn (kernels/motion/motion.h). A scalar inertia is the same about every axis; the plane has one about z.
   T turn_scale() const { return terms.is_gyroscopic ? T(1) : body.inverse_inertia[2]; }
 
-  void add_couples_and_ties(const Prepared& i, const typename P::tie_law& tie, Wrench& sum) const {
-    if constexpr (has_one_lever) sum.moment = P::vec_cross(i.x.arm, sum.on_x_face);
-    if constexpr (terms.is_material)
-      sum.moment = P::spin_add(sum.moment, sum.couple);
-    else if constexpr (terms.has_couples())
-      sum.moment = P::couple_moment(sum.couple, laws[0], terms.is_bending, sum.moment);
-    if constexpr (terms.is_tied) {
-      sum.force = P::tie_force(i.e, tie, sum.force);
-      sum.moment = P::tie_moment(i.e, tie, sum.moment);
-    }
-  }
-
   /// Only the links across `axis` from this row to the upper one, into the carry buffer. `fields` a pack of the rows
   /// holds.
   void prime(const int axis, int fields) const {
@@ -302,15 +197,11 @@ struct StageRow {
       if (above == 0) continue;
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * (fields * W);
       const element i = load_element(task.in + place);
-      vec upper;
-      if constexpr (!terms.is_material) {
-        const vec pull = P::centre_pull(i, laws[0], terms.is_damped);
-        upper = upper_across(pull, P::element_face(i, 0, laws[0], terms.is_damped),
-                             P::element_face(i, is_planar ? 0 : axis, laws[std::size_t(axis)], terms.is_damped));
-      }
-      typename P::exchange up = link_across(i, upper, (axis == 1 ? task.upper_y : task.upper_z) + place, axis);
+      const element j = load_element((axis == 1 ? task.upper_y : task.upper_z) + place);
+      exchange up = P::link_across(i, P::upper_across(i, axis, law(axis), flags), j, axis, law(axis), flags);
       mask_links(above, up);
-      store_carry((axis == 1 ? task.carry_y : task.carry_z) + std::ptrdiff_t(pack) * carry_size, carry_of(up));
+      store_carry((axis == 1 ? task.carry_y : task.carry_z) + std::ptrdiff_t(pack) * carry_size,
+                  P::carried_by(up, flags));
     }
   }
 
@@ -330,19 +221,19 @@ struct StageRow {
     const vec frame = splat<vec>(task.signals);
     const spin inertia = splat<spin>(body.inertia), inverse_inertia = splat<spin>(body.inverse_inertia);
     const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot), R(body.tie_d_rot)};
-    Prepared next = prepare(in);
-    Carry previous{zero<vec>(), zero<spin>()};
+    prepared next = prepare(in);
+    carried previous{zero<vec>(), zero<spin>()};
     const auto one_pack = [&]<bool is_plain>(const int pack, const bool is_applied, std::bool_constant<is_plain>) {
       const PackMasks& masks = all_masks[pack];
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * (stride * W);
-      Prepared i = next;
+      prepared i = next;
       i.e = load_element(in + place);
       next = prepare(in + place + stride * W);
-      Wrench sum = links_x<is_plain>(i, next, masks.link_x, previous);
+      wrench sum = links_x<is_plain>(i, next, masks.link_x, previous);
       add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack, sum);
       if constexpr (!is_planar)
         add_across<false>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, sum);
-      add_couples_and_ties(i, tie, sum);
+      sum = P::wrench_finished(sum, i, laws[0], tie, flags);
       if (is_applied) apply_wrenches(pack, sum);
       if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);
       spin turn = P::turn(sum.moment, i.e, inertia, inverse_inertia, terms.is_gyroscopic);

@@ -1,0 +1,161 @@
+/* What the links of one element add up to, in the shared subset: from the elements on both sides of its faces to its force
+ * and moment. How elements and link forces reach one another (lanes of a pack, rows, work-items) is the includer's
+ * business. Order of summation, whatever that is: x, y, z, the upper link before the lower; ties. */
+
+/* What is compiled in: constants at every call (kernels/physics.hpp has them as Terms). */
+typedef struct {
+  int is_material, is_damped, is_bending, is_gyroscopic, is_tied, is_oblong;
+} term_flags;
+static inline int has_couples(const term_flags terms) {
+  return terms.is_material || terms.is_damped || terms.is_bending;
+}
+
+#ifdef PLANAR
+#define IS_PLANAR 1
+#else
+#define IS_PLANAR 0
+#endif
+
+/* The laws of the links across one axis. */
+typedef struct {
+  paper_law x, own; /* of the x axis, and of this one */
+  material_law material;
+  REAL edge_ratio; /* y over x */
+} axis_law;
+
+/* An element with what its links share (paper's law): k x + d x' of its centre, its faces on the x axis. */
+typedef struct {
+  element e;
+  vec pull, lower_x;
+  face x;
+} prepared;
+
+static inline prepared prepare(element e, paper_law law_x, const term_flags terms) {
+  prepared r;
+  r.e = e;
+  if (!terms.is_material) {
+    r.pull = centre_pull(e, law_x, terms.is_damped);
+    r.x = element_face(e, 0, law_x, terms.is_damped);
+    r.lower_x = lower_face(r.pull, r.x);
+  }
+  return r;
+}
+
+/* What a link hands to the element behind it: the force on i, and the couple that is added there (paper's law:
+ * subtracted). */
+typedef struct {
+  vec force;
+  spin couple;
+} carried;
+static inline carried carried_by(exchange x, const term_flags terms) {
+  carried c = {x.force, terms.is_material ? x.couple_j : x.couple_i};
+  return c;
+}
+
+/* Sums over an element's links. In the plane, forces on the y faces are turned onto the x face, so that one product gives
+ * the moment of all. */
+typedef struct {
+  vec force;
+  spin moment, couple;
+  vec on_x_face;
+} wrench;
+static inline int has_one_lever(const term_flags terms) { return IS_PLANAR && !terms.is_material; }
+
+static inline vec scaled_to_y(vec a, REAL edge_ratio, const term_flags terms) {
+  return terms.is_oblong ? vec_scale(edge_ratio, a) : a;
+}
+
+/* Face of an element on axis 1 or 2; the plane's is its x face, turned. */
+static inline face face_across(element e, face x, const int axis, axis_law law, const term_flags terms) {
+  face f;
+#if IS_PLANAR
+  (void)e, (void)axis;
+  f.arm = x.arm;
+  f.swing = scaled_to_y(vec_turned(x.swing), law.edge_ratio, terms);
+#else
+  (void)x;
+  f = element_face(e, axis, law.own, terms.is_damped);
+#endif
+  return f;
+}
+static inline vec material_arm(element e, const int axis, material_law law) {
+  return face_arm(e.q, axis, law.edge_i, SPLAT(0.5) * law.edge_i);
+}
+
+/* Exchange over the link from i to j; `lower` is j's lower face (paper's law), `upper` i's upper face. */
+static inline exchange link_exchange(element i, vec upper, element j, vec lower, const int axis, axis_law law,
+                                     const term_flags terms) {
+  exchange x;
+  if (terms.is_material) return material_link(i, j, axis, law.material, terms.is_damped);
+  x.force = vec_sub(lower, upper);
+  x.couple_i =
+      has_couples(terms) ? paper_couple(i.q, i.w, j.q, j.w, law.own, terms.is_bending, terms.is_damped) : spin_zero();
+  x.couple_j = spin_zero();
+  return x;
+}
+
+/* Upper face of an element by itself on axis 1 or 2, where its x face is not at hand. */
+static inline vec upper_across(element i, const int axis, axis_law law, const term_flags terms) {
+  if (terms.is_material) return i.u;
+  return upper_face(centre_pull(i, law.x, terms.is_damped),
+                    face_across(i, element_face(i, 0, law.x, terms.is_damped), axis, law, terms));
+}
+/* Exchange with the element j across a y or z face; `upper` is i's upper face. */
+static inline exchange link_across(element i, vec upper, element j, const int axis, axis_law law,
+                                   const term_flags terms) {
+  vec lower = j.u;
+  if (!terms.is_material)
+    lower = lower_face(centre_pull(j, law.x, terms.is_damped),
+                       face_across(j, element_face(j, 0, law.x, terms.is_damped), axis, law, terms));
+  return link_exchange(i, upper, j, lower, axis, law, terms);
+}
+
+/* The x links start the sums: what the upper link exchanges, and what the lower one carried here. */
+static inline wrench wrench_of_x(prepared i, exchange up, carried low, axis_law law, const term_flags terms) {
+  wrench sum;
+  sum.force = vec_sub(up.force, low.force);
+  sum.on_x_face = vec_add(up.force, low.force);
+  sum.moment = spin_zero();
+  if (!has_one_lever(terms))
+    sum.moment = vec_cross(terms.is_material ? material_arm(i.e, 0, law.material) : i.x.arm, sum.on_x_face);
+  sum.couple = spin_zero();
+  if (terms.is_material)
+    sum.couple = spin_add(up.couple_i, low.couple);
+  else if (has_couples(terms))
+    sum.couple = spin_sub(up.couple_i, low.couple);
+  return sum;
+}
+/* The links of another axis; `arm` is the element's upper arm on it. */
+static inline wrench wrench_across(wrench sum, exchange up, carried low, vec arm, axis_law law,
+                                   const term_flags terms) {
+  vec both = vec_add(up.force, low.force);
+  sum.force = vec_sub(vec_add(sum.force, up.force), low.force);
+#if IS_PLANAR
+  if (has_one_lever(terms))
+    sum.on_x_face = vec_add(sum.on_x_face, scaled_to_y(vec_turned_back(both), law.edge_ratio, terms));
+  else
+    sum.moment = vec_moment(arm, both, sum.moment);
+#else
+  (void)law;
+  sum.moment = vec_moment(arm, both, sum.moment);
+#endif
+  if (terms.is_material)
+    sum.couple = spin_add(spin_add(sum.couple, up.couple_i), low.couple);
+  else if (has_couples(terms))
+    sum.couple = spin_sub(spin_add(sum.couple, up.couple_i), low.couple);
+  return sum;
+}
+/* Couples join the moment, and ties both. */
+static inline wrench wrench_finished(wrench sum, prepared i, paper_law law_x, tie_law tie, const term_flags terms) {
+  if (has_one_lever(terms)) sum.moment = vec_cross(i.x.arm, sum.on_x_face);
+  if (terms.is_material)
+    sum.moment = spin_add(sum.moment, sum.couple);
+  else if (has_couples(terms))
+    sum.moment = couple_moment(sum.couple, law_x, terms.is_bending, sum.moment);
+  if (terms.is_tied) {
+    sum.force = tie_force(i.e, tie, sum.force);
+    sum.moment = tie_moment(i.e, tie, sum.moment);
+  }
+  return sum;
+}
+#undef IS_PLANAR
