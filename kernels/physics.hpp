@@ -17,6 +17,7 @@ struct Terms {
   constexpr bool has_couples() const { return is_material || is_damped || is_bending; }
   /// Forces depend on velocities: leapfrog then carries a prediction of them.
   constexpr bool is_velocity_dependent() const { return is_damped || is_gyroscopic || is_tied; }
+  constexpr bool operator==(const Terms&) const = default;
   constexpr bool covers(const Terms& need) const {
     return is_material == need.is_material && is_damped >= need.is_damped &&
            (is_material || is_bending >= need.is_bending) && is_gyroscopic >= need.is_gyroscopic &&

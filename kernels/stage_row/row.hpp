@@ -10,20 +10,12 @@ struct PackMasks {
   simd::LaneMask link_x = 0, link_y = 0, link_z = 0, below_y = 0, below_z = 0;
 };
 
-/// Constants of a body as the laws need them (kernels/link_force/link_force.h, kernels/motion/motion.h). Forces and
-/// moments of the row kernel are in units of `unit` newtons: the paper's k, 1 for the material law. Masses and ties are
-/// scaled to match.
+/// Constants of a body as the laws need them, in the form of the kernels.
 template <class T>
 struct BodyConstants {
-  T edge[3], edge_ratio; // edge_ratio: y over x
-  T inverse_unit;        // 1 / unit
-  T tau, kt2, dt;        // paper's law
-  struct Axis {
-    T k_s, k_ns, d_s, d_ns, k_z, k_xz, k_yz, d_z, d_xz, d_yz;
-  } axis[3]; // material law
-  T mass, inverse_mass, inertia[3], inverse_inertia[3];
-  T tie_k, tie_d, tie_k2_rot, tie_d_rot; // stabilization
-  bool is_accelerated;                   // gravity or base acceleration acts
+#define NUMBER T
+#include "kernels/stage_row/body_constants.h"
+#undef NUMBER
 };
 
 /// Wrenches and clamps of a row that has any, on the packs [first, first + packs).

@@ -158,4 +158,19 @@ static inline wrench wrench_finished(wrench sum, prepared i, paper_law law_x, ti
   }
   return sum;
 }
+
+/* A link outside the grid, by itself: what it exerts on i and, its force negated, on j. */
+typedef struct {
+  vec force;
+  spin moment_i, moment_j;
+} pair_wrench;
+static inline pair_wrench wrench_of_pair(element i, element j, const int axis, const int is_material,
+                                         material_law material, paper_law law_i, paper_law law_j) {
+  pair_wrench w;
+  exchange x = is_material ? material_link(i, j, axis, material, 1) : paper_link(i, j, axis, law_i, law_j, 1, 1);
+  w.force = x.force;
+  w.moment_i = vec_moment(face_arm(i.q, axis, law_i.edge, law_i.half_edge), x.force, x.couple_i);
+  w.moment_j = vec_moment(face_arm(j.q, axis, law_j.edge, law_j.half_edge), x.force, x.couple_j);
+  return w;
+}
 #undef IS_PLANAR

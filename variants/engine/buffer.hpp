@@ -9,18 +9,33 @@
 
 namespace dss {
 
+/// Where buffers lie: the heap, or one piece that a device can take as a whole.
+class Memory {
+public:
+  static constexpr std::size_t page = std::size_t(2) << 20, line = 64;
+  virtual ~Memory() = default;
+  /// Zeroed, aligned to a line; large pieces to a huge page. @throws std::bad_alloc
+  virtual void* allocate(std::size_t bytes) {
+    const std::size_t alignment = bytes >= 2 * page ? page : line;
+    void* const at = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    if (at == nullptr) throw std::bad_alloc();
+    if (alignment == page) madvise(at, bytes, MADV_HUGEPAGE);
+    return std::memset(at, 0, bytes);
+  }
+  virtual void release(void* at) { std::free(at); }
+  static Memory& heap() {
+    static Memory memory;
+    return memory;
+  }
+};
+
 template <class T>
 class Buffer {
 public:
   Buffer() = default;
-  /// @throws std::bad_alloc
-  explicit Buffer(std::size_t count) : size_(count) {
-    constexpr std::size_t page = std::size_t(2) << 20, line = 64;
-    const std::size_t bytes = count * sizeof(T), alignment = bytes >= 2 * page ? page : line;
-    data_.reset(static_cast<T*>(std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)));
-    if (data_ == nullptr && count > 0) throw std::bad_alloc();
-    if (alignment == page) madvise(data_.get(), bytes, MADV_HUGEPAGE);
-    if (count > 0) std::memset(static_cast<void*>(data_.get()), 0, bytes);
+  /// `memory` outlives it. @throws std::bad_alloc
+  explicit Buffer(std::size_t count, Memory& memory = Memory::heap()) : size_(count), data_(nullptr, {&memory}) {
+    if (count > 0) data_.reset(static_cast<T*>(memory.allocate(count * sizeof(T))));
   }
   T* data() { return data_.get(); }
   const T* data() const { return data_.get(); }
@@ -29,11 +44,12 @@ public:
   bool empty() const { return size_ == 0; }
 
 private:
-  struct Free {
-    void operator()(T* p) const { std::free(p); }
+  struct Release {
+    Memory* memory = nullptr;
+    void operator()(T* p) const { memory->release(p); }
   };
-  std::unique_ptr<T[], Free> data_;
   std::size_t size_ = 0;
+  std::unique_ptr<T[], Release> data_;
 };
 
 } // namespace dss

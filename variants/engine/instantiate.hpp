@@ -44,21 +44,16 @@ struct RowKernels {
     const auto along = [&](auto axis) {
       const auto& b = link.body;
       const auto& a = b.axis[axis];
-      typename S::exchange x;
-      if (link.is_material)
-        x = S::material_link(
-            i, j, axis,
-            {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns, a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz},
-            true);
-      else
-        x = S::paper_link(i, j, axis, {link.edge_i, link.edge_i / 2, b.tau, b.kt2, b.dt},
-                          {link.edge_j, link.edge_j / 2, b.tau, b.kt2, b.dt}, true, true);
-      const auto add = [&](T* wrench, T sign, typename S::spin moment) {
-        each_component(x.force, [&](T& c) { *wrench = simd::fma(sign * link.unit, c, *wrench), ++wrench; });
+      const auto w = S::wrench_of_pair(
+          i, j, axis, link.is_material,
+          {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns, a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz},
+          {link.edge_i, link.edge_i / 2, b.tau, b.kt2, b.dt}, {link.edge_j, link.edge_j / 2, b.tau, b.kt2, b.dt});
+      const auto add = [&](T* wrench, T sign, typename S::vec force, typename S::spin moment) {
+        each_component(force, [&](T& c) { *wrench = simd::fma(sign * link.unit, c, *wrench), ++wrench; });
         each_component(moment, [&](T& c) { *wrench = simd::fma(link.unit, c, *wrench), ++wrench; });
       };
-      add(wrench_i, T(1), S::vec_moment(S::face_arm(i.q, axis, link.edge_i, link.edge_i / 2), x.force, x.couple_i));
-      add(wrench_j, T(-1), S::vec_moment(S::face_arm(j.q, axis, link.edge_j, link.edge_j / 2), x.force, x.couple_j));
+      add(wrench_i, T(1), w.force, w.moment_i);
+      add(wrench_j, T(-1), w.force, w.moment_j);
     };
     if (link.axis == 0) along(std::integral_constant<int, 0>{});
     if (link.axis == 1) along(std::integral_constant<int, 1>{});
@@ -66,21 +61,19 @@ struct RowKernels {
       if (link.axis == 2) along(std::integral_constant<int, 2>{});
   }
 
-  static constexpr KernelSet<T> set{
-      terms,     StageRow<P, T, terms>::carry_size, leapfrog_fields, stage<false>, stage<true>, leapfrog, prime,
-      extra_link};
+  static constexpr KernelSet<T> set{terms, stage<false>, stage<true>, leapfrog, prime, extra_link};
 };
 
 template <template <class> class Physics, class T, std::size_t... index>
-const KernelSet<T>& first_that_covers(const Terms& need, std::index_sequence<index...>) {
+const KernelSet<T>& of_terms(const Terms& terms, std::index_sequence<index...>) {
   static constexpr const KernelSet<T>* sets[] = {&RowKernels<Physics, T, compiled_terms[index]>::set...};
   for (const KernelSet<T>* set : sets)
-    if (set->terms.covers(need)) return *set;
-  throw std::logic_error("kernel_set.hpp: no compiled combination covers the terms of the problem");
+    if (set->terms == terms) return *set;
+  throw std::logic_error("kernel_set.hpp: this combination of terms is not compiled");
 }
 template <template <class> class Physics, class T>
-const KernelSet<T>& find_compiled(const Terms& need) {
-  return first_that_covers<Physics, T>(need, std::make_index_sequence<compiled_terms.size()>{});
+const KernelSet<T>& find_compiled(const Terms& terms) {
+  return of_terms<Physics, T>(terms, std::make_index_sequence<compiled_terms.size()>{});
 }
 
 } // namespace dss

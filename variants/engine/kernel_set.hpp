@@ -19,6 +19,16 @@ inline constexpr std::array compiled_terms{
     Terms{true, true, true, true, true, false},
 };
 
+/// What the terms of a row make of its memory.
+struct RowShape {
+  Terms terms;              ///< one of compiled_terms
+  int carry_components = 0; ///< of a link's force (and couple) in a carry buffer
+  int leapfrog_fields =
+      0; ///< an element of a leapfrog row holds: half-step velocities too where forces depend on velocities
+};
+/// The shape that a body takes. @throws std::logic_error if no compiled combination covers what it needs
+RowShape row_shape(Model model, const Terms& need);
+
 /// Constants of one link outside the grid; T-valued, both laws.
 template <class T>
 struct ExtraLinkConstants {
@@ -31,8 +41,6 @@ struct ExtraLinkConstants {
 template <class T>
 struct KernelSet {
   Terms terms;
-  int carry_size;      ///< scalars a pack in a carry buffer
-  int leapfrog_fields; ///< fields a pack of a leapfrog row holds
   /// One Runge-Kutta stage of a row, without and with increments; false if a stage with increments left a non-finite
   /// velocity.
   bool (*first_stage)(const RowTask<T>& task);
@@ -48,28 +56,28 @@ struct KernelSet {
   void (*extra_link)(const ExtraLinkConstants<T>& link, const T* i, const T* j, T* wrench_i, T* wrench_j);
 };
 
-/// The kernels for a model and what a body needs. One definition a (model, precision): variants/engine/kernels_*.cpp.
-const KernelSet<double>& spatial_f64_kernels(const Terms& need);
-const KernelSet<float>& spatial_f32_kernels(const Terms& need);
-const KernelSet<double>& planar_f64_kernels(const Terms& need);
-const KernelSet<float>& planar_f32_kernels(const Terms& need);
+/// The kernels for a model and the terms of a shape. One definition a (model, precision): variants/engine/kernels_*.cpp.
+const KernelSet<double>& spatial_f64_kernels(const Terms& terms);
+const KernelSet<float>& spatial_f32_kernels(const Terms& terms);
+const KernelSet<double>& planar_f64_kernels(const Terms& terms);
+const KernelSet<float>& planar_f32_kernels(const Terms& terms);
 
 template <class T>
-const KernelSet<T>& find_kernels(Model model, const Terms& need) {
+const KernelSet<T>& find_kernels(Model model, const Terms& terms) {
   constexpr bool is_f64 = sizeof(T) == sizeof(double);
   switch (model) { // no default: a model without kernels is a warning here
   case Model::planar:
     if constexpr (is_f64)
-      return planar_f64_kernels(need);
+      return planar_f64_kernels(terms);
     else
-      return planar_f32_kernels(need);
+      return planar_f32_kernels(terms);
   case Model::spatial:
     break;
   }
   if constexpr (is_f64)
-    return spatial_f64_kernels(need);
+    return spatial_f64_kernels(terms);
   else
-    return spatial_f32_kernels(need);
+    return spatial_f32_kernels(terms);
 }
 
 } // namespace dss

@@ -1,11 +1,24 @@
 #include "variants/engine/packed_rows.hpp"
 
 #include "solver/model/link_constants.hpp"
+#include "variants/engine/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace dss {
+
+RowShape row_shape(Model model, const Terms& need) {
+  for (const Terms& terms : compiled_terms) {
+    if (!terms.covers(need)) continue;
+    const ModelLayout layout = model_layout(model);
+    const int all = int(layout.wrench.size());
+    return {terms, terms.has_couples() ? all : layout.vec_size,
+            int(layout.fields.size()) + (terms.is_velocity_dependent() ? all : 0)};
+  }
+  throw std::logic_error("kernel_set.hpp: no compiled combination covers the terms of the problem");
+}
 
 std::size_t row_of(const Lattice& lattice, std::size_t element) {
   const auto after = std::upper_bound(lattice.rows.begin(), lattice.rows.end(), element,
@@ -13,9 +26,8 @@ std::size_t row_of(const Lattice& lattice, std::size_t element) {
   return std::size_t(after - lattice.rows.begin()) - 1;
 }
 
-template <class T>
-Place place_of(const PackedRows<T>& packed, std::size_t element) {
-  constexpr int W = PackedRows<T>::W;
+template <class T, int W>
+Place place_of(const PackedRows<T, W>& packed, std::size_t element) {
   const std::size_t r = row_of(packed.lattice, element);
   Place place{r, 0, 0};
   const Row& row = packed.lattice.rows[r];
@@ -31,13 +43,13 @@ Place place_of(const PackedRows<T>& packed, std::size_t element) {
   return place;
 }
 
-template <class T>
-PackedRows<T>::PackedRows(const Problem& problem, Model model, const Part* part)
-    : lattice(problem.lattice), layout(model_layout(model)), rows(lattice.rows.size()), own_end(int(rows.size())),
-      part_(part), applied_index_(lattice.rows.size(), -1) {
+template <class T, int W>
+PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* part, Memory& where)
+    : memory(where), lattice(problem.lattice), layout(model_layout(model)), rows(lattice.rows.size()),
+      own_end(int(rows.size())), part_(part), applied_index_(lattice.rows.size(), -1) {
   reach = lattice.row_reach();
   if (part_ != nullptr) find_layers();
-  choose_kernels(problem, model);
+  choose_shapes(problem, model);
   std::size_t packs = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Row& row = lattice.rows[r];
@@ -45,7 +57,7 @@ PackedRows<T>::PackedRows(const Problem& problem, Model model, const Part* part)
     packed.first_pack = row.x_begin / W;
     packed.packs = (row.x_end + W - 1) / W - packed.first_pack;
     packed.pack_offset = packs;
-    packed.kernels = kernels_[std::size_t(row.body)];
+    packed.shape = shapes_[std::size_t(row.body)];
     packed.body = &bodies_[std::size_t(row.body)];
     packs += std::size_t(packed.packs);
     packs_across = std::max(packs_across, packed.first_pack + packed.packs);
@@ -78,8 +90,8 @@ PackedRows<T>::PackedRows(const Problem& problem, Model model, const Part* part)
   }
 }
 
-template <class T>
-void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
+template <class T, int W>
+void PackedRows<T, W>::choose_shapes(const Problem& problem, Model model) {
   Terms common;
   common.is_tied = problem.stabilization.is_present();
   for (const Body& body : problem.bodies) {
@@ -94,14 +106,14 @@ void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
   for (const ExtraLink& link : problem.extra_links)
     common.is_damped |= link.constants.d_normal != 0 || link.constants.d_shear != 0 || link.constants.d_rot != Vec3{};
   const auto choose = [&] {
-    kernels_.clear();
+    shapes_.clear();
     bool is_velocity_dependent = false;
     for (const Body& body : problem.bodies) {
       Terms need = common;
       need.is_material = body.law == LinkLaw::material;
       need.is_oblong = body.edge[1] != body.edge[0] || (model == Model::spatial && body.edge[2] != body.edge[0]);
-      kernels_.push_back(&find_kernels<T>(model, need));
-      is_velocity_dependent |= kernels_.back()->terms.is_velocity_dependent();
+      shapes_.push_back(row_shape(model, need));
+      is_velocity_dependent |= shapes_.back().terms.is_velocity_dependent();
     }
     return is_velocity_dependent;
   };
@@ -111,14 +123,14 @@ void PackedRows<T>::choose_kernels(const Problem& problem, Model model) {
     bodies_.push_back(body_constants<T>(body, problem.stabilization));
     for (const Signal& a : problem.frame_acceleration) bodies_.back().is_accelerated |= !is_zero_always(a);
   }
-  for (const KernelSet<T>* set : kernels_) {
-    carry_size = std::max(carry_size, set->carry_size);
-    leapfrog_fields = std::max(leapfrog_fields, set->leapfrog_fields);
+  for (const RowShape& shape : shapes_) {
+    carry_size = std::max(carry_size, shape.carry_components * W);
+    leapfrog_fields = std::max(leapfrog_fields, shape.leapfrog_fields);
   }
 }
 
-template <class T>
-void PackedRows<T>::find_layers() {
+template <class T, int W>
+void PackedRows<T, W>::find_layers() {
   row_layer_.assign(rows.size(), UINT8_MAX);
   has_halo_.assign(rows.size(), false);
   for (std::size_t r = 0; r < rows.size(); ++r)
@@ -130,8 +142,8 @@ void PackedRows<T>::find_layers() {
   while (row_layer_[std::size_t(own_end - 1)] > 0) --own_end;
 }
 
-template <class T>
-bool PackedRows<T>::reads_halo(int row) const {
+template <class T, int W>
+bool PackedRows<T, W>::reads_halo(int row) const {
   if (has_halo_.empty()) return false;
   const Row& r = lattice.rows[std::size_t(row)];
   for (const int read : {row, r.lower_y, r.upper_y, r.lower_z, r.upper_z})
@@ -139,8 +151,8 @@ bool PackedRows<T>::reads_halo(int row) const {
   return false;
 }
 
-template <class T>
-std::optional<std::size_t> PackedRows<T>::first_failed(int row, const T* packs, int fields) const {
+template <class T, int W>
+std::optional<std::size_t> PackedRows<T, W>::first_failed(int row, const T* packs, int fields) const {
   std::optional<std::size_t> failed;
   each_cell(lattice, lattice.rows[std::size_t(row)], [&](std::size_t element, int x) {
     if (failed || (part_ != nullptr && part_->layer[element] > 0)) return;
@@ -151,8 +163,8 @@ std::optional<std::size_t> PackedRows<T>::first_failed(int row, const T* packs, 
   return failed;
 }
 
-template <class T>
-void PackedRows<T>::mark_links() {
+template <class T, int W>
+void PackedRows<T, W>::mark_links() {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Row& row = lattice.rows[r];
     const auto links_to = [&](int other, int x) {
@@ -170,8 +182,8 @@ void PackedRows<T>::mark_links() {
   }
 }
 
-template <class T>
-typename PackedRows<T>::AppliedRow& PackedRows<T>::applied_row(std::size_t row) {
+template <class T, int W>
+typename PackedRows<T, W>::AppliedRow& PackedRows<T, W>::applied_row(std::size_t row) {
   if (applied_index_[row] < 0) {
     applied_index_[row] = int(applied_.size());
     applied_.push_back(std::make_unique<AppliedRow>());
@@ -179,8 +191,8 @@ typename PackedRows<T>::AppliedRow& PackedRows<T>::applied_row(std::size_t row) 
   return *applied_[std::size_t(applied_index_[row])];
 }
 
-template <class T>
-void PackedRows<T>::apply_loads(const Problem& problem) {
+template <class T, int W>
+void PackedRows<T, W>::apply_loads(const Problem& problem) {
   const std::size_t components = layout.wrench.size();
   for (std::size_t n = 0; n < problem.loads.size(); ++n) {
     const Load& load = problem.loads[n];
@@ -191,7 +203,7 @@ void PackedRows<T>::apply_loads(const Problem& problem) {
       while (to < places.size() && places[to].row == r) ++to;
       const int first = places[from].pack, packs = places[to - 1].pack - first + 1;
       AppliedRow& row = applied_row(r);
-      Buffer<T> values(std::size_t(packs) * components * W);
+      Buffer<T> values(std::size_t(packs) * components * W, memory);
       for (std::size_t p = from; p < to; ++p)
         for (std::size_t c = 0; c < components; ++c) {
           const std::size_t w = std::size_t(layout.wrench[c]);
@@ -204,8 +216,8 @@ void PackedRows<T>::apply_loads(const Problem& problem) {
   }
 }
 
-template <class T>
-void PackedRows<T>::apply_extra_links(const Problem& problem) {
+template <class T, int W>
+void PackedRows<T, W>::apply_extra_links(const Problem& problem) {
   if (problem.extra_links.empty()) return;
   extra_.resize(rows.size());
   const int constant_one = int(3 + problem.loads.size());
@@ -213,27 +225,26 @@ void PackedRows<T>::apply_extra_links(const Problem& problem) {
     for (const std::size_t element : {link.i, link.j}) {
       const std::size_t r = row_of(lattice, element);
       if (!extra_[r].empty()) continue;
-      extra_[r] = Buffer<T>(std::size_t(rows[r].packs) * layout.wrench.size() * W);
+      extra_[r] = Buffer<T>(std::size_t(rows[r].packs) * layout.wrench.size() * W, memory);
       applied_row(r).patterns.push_back({extra_[r].data(), constant_one, 0, rows[r].packs});
     }
 }
 
-template <class T>
-void PackedRows<T>::apply_clamps(const Problem& problem) {
+template <class T, int W>
+void PackedRows<T, W>::apply_clamps(const Problem& problem) {
   const std::size_t components = layout.wrench.size();
   for (const Clamp& clamp : problem.clamps) {
     const Place place = place_of(*this, clamp.element);
     AppliedRow& row = applied_row(place.row);
-    if (row.free_lanes.empty())
-      row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, simd::all_lanes<T>);
+    if (row.free_lanes.empty()) row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, all_lanes);
     for (std::size_t c = 0; c < components; ++c)
       if ((clamp.dofs >> layout.wrench[c] & 1) != 0)
         row.free_lanes[std::size_t(place.pack) * components + c] &= simd::LaneMask(~(1u << place.lane));
   }
 }
 
-template <class T>
-std::size_t PackedRows<T>::bytes() const {
+template <class T, int W>
+std::size_t PackedRows<T, W>::bytes() const {
   std::size_t sum =
       rows.size() * sizeof(PackedRow<T>) + masks_.size() * sizeof(PackMasks) + applied_index_.size() * sizeof(int);
   for (const auto& row : applied_) {
@@ -283,10 +294,11 @@ ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLi
   return c;
 }
 
-template class PackedRows<double>;
-template class PackedRows<float>;
-template Place place_of(const PackedRows<double>&, std::size_t);
-template Place place_of(const PackedRows<float>&, std::size_t);
+#define DSS_INSTANTIATE(T, W)                                                                                          \
+  template class PackedRows<T, W>;                                                                                     \
+  template Place place_of(const PackedRows<T, W>&, std::size_t);
+DSS_EACH_PACK(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
 template ExtraLinkConstants<double> extra_link_constants(const Problem&, const ExtraLink&);
 template ExtraLinkConstants<float> extra_link_constants(const Problem&, const ExtraLink&);
 

@@ -15,28 +15,33 @@ template <class T>
 struct PackedRow {
   int first_pack = 0, packs = 0;
   std::size_t pack_offset = 0; ///< packs of all rows before it
-  const KernelSet<T>* kernels = nullptr;
+  RowShape shape;
+  const KernelSet<T>* kernels =
+      nullptr; ///< null until the executor attaches them; always for devices, which have their own
   const BodyConstants<T>* body = nullptr;
   const PackMasks* masks = nullptr;
   const Applied<T>* applied = nullptr;
 };
 
-template <class T>
+/// W: lanes of a pack, the module's own or a device's.
+template <class T, int W = simd::lanes<T>>
 class PackedRows {
 public:
-  static constexpr int W = simd::lanes<T>;
-  /// @param part  null, or the part that `problem` is
-  PackedRows(const Problem& problem, Model model, const Part* part);
+  static constexpr int lanes = W;
+  static constexpr simd::LaneMask all_lanes = simd::LaneMask((1u << W) - 1);
+  /// @param part  null, or the part that `problem` is  @param memory  of what devices need too; outlives it
+  PackedRows(const Problem& problem, Model model, const Part* part, Memory& memory = Memory::heap());
   PackedRows(const PackedRows&) = delete;
   PackedRows& operator=(const PackedRows&) = delete;
 
+  Memory& memory;
   const Lattice& lattice;
   const ModelLayout layout;
   std::vector<PackedRow<T>> rows;
   int reach = 0;        ///< largest distance in rows of two linked elements
   int packs_across = 0; ///< packs of the widest body's grid
   int max_packs = 0;    ///< packs of the longest row
-  int carry_size = 0;   ///< scalars a pack of a carry buffer, largest over the bodies
+  int carry_size = 0;   ///< numbers a pack of a carry buffer, largest over the bodies
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
 
@@ -66,7 +71,7 @@ private:
     std::vector<Buffer<T>> values;
     std::vector<simd::LaneMask> free_lanes;
   };
-  void choose_kernels(const Problem& problem, Model model);
+  void choose_shapes(const Problem& problem, Model model);
   void find_layers();
   void mark_links();
   void apply_loads(const Problem& problem);
@@ -77,7 +82,7 @@ private:
   const Part* part_;
   std::vector<std::uint8_t> row_layer_; ///< least layer of a row's elements; empty for a whole problem
   std::vector<bool> has_halo_;          ///< rows with an element of the halo
-  std::vector<const KernelSet<T>*> kernels_;
+  std::vector<RowShape> shapes_;
   std::vector<BodyConstants<T>> bodies_;
   std::vector<PackMasks> masks_;
   std::vector<int> applied_index_; ///< row -> applied_, or -1
@@ -99,8 +104,8 @@ void each_cell(const Lattice& lattice, const Row& row, Visit&& visit) {
   for (int x = row.x_begin; x < row.x_end; ++x)
     if (lattice.is_present(row, x)) visit(element++, x);
 }
-template <class T>
-Place place_of(const PackedRows<T>& packed, std::size_t element);
+template <class T, int W>
+Place place_of(const PackedRows<T, W>& packed, std::size_t element);
 
 /// Constants of a body in the form of the kernels.
 template <class T>

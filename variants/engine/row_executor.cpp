@@ -44,6 +44,7 @@ template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part) {
+  for (PackedRow<T>& row : packed_.rows) row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
   if (!setup_.problem.extra_links.empty() || (part_ != nullptr && part_->is_every_stage))
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, stored_fields(), setup_.threads, part_);
   else

@@ -24,7 +24,7 @@ public:
   HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) override;
 
 private:
-  static constexpr int W = PackedRows<T>::W;
+  static constexpr int W = simd::lanes<T>;
   bool is_leapfrog() const { return setup_.method.family == Method::Family::leapfrog; }
   /// Leapfrog rows of velocity-dependent problems hold half-step velocities behind the model's fields.
   bool is_predicted() const { return is_leapfrog() && packed_.leapfrog_fields > packed_.fields(); }

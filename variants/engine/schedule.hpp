@@ -15,9 +15,10 @@ template <class T>
 class CarryRings {
 public:
   CarryRings() = default;
-  explicit CarryRings(const PackedRows<T>& packed)
+  template <int W>
+  explicit CarryRings(const PackedRows<T, W>& packed)
       : rows_z_(packed.reach), row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
-        data_(std::size_t(1 + rows_z_) * row_size_) {}
+        data_(std::size_t(1 + rows_z_) * row_size_, packed.memory) {}
   /// Ring rows start at pack 0 of the body's grid, so rows of different first packs agree.
   T* y() { return data_.data(); }
   T* z(int row) { return data_.data() + std::size_t(1 + row % rows_z_) * row_size_; }
@@ -31,12 +32,13 @@ private:
 
 /// Fills the part of a task that depends on the row and its neighbours: masks, constants, input rows, carries.
 /// `input(row)` is the address of any row's input; rows hold `fields` fields a pack.
-template <class T, class Input>
-void set_row(RowTask<T>& task, const PackedRows<T>& packed, int row, int fields, CarryRings<T>& carry, Input&& input) {
+template <class T, int W, class Input>
+void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fields, CarryRings<T>& carry,
+             Input&& input) {
   const PackedRow<T>& p = packed.rows[std::size_t(row)];
   const Row& r = packed.lattice.rows[std::size_t(row)];
-  const std::ptrdiff_t pack_size = std::ptrdiff_t(fields) * PackedRows<T>::W;
-  const std::ptrdiff_t carry_offset = std::ptrdiff_t(p.first_pack) * p.kernels->carry_size;
+  const std::ptrdiff_t pack_size = std::ptrdiff_t(fields) * W;
+  const std::ptrdiff_t carry_offset = std::ptrdiff_t(p.first_pack) * p.shape.carry_components * W;
   const auto aligned = [&](int upper) -> const T* {
     return upper < 0 ? nullptr : input(upper) + (p.first_pack - packed.rows[std::size_t(upper)].first_pack) * pack_size;
   };
@@ -53,20 +55,22 @@ void set_row(RowTask<T>& task, const PackedRows<T>& packed, int row, int fields,
 }
 
 /// Computes only the links that a row leaves for its upper neighbours.
-template <class T>
-void prime_upper(const PackedRows<T>& packed, int row, const RowTask<T>& task, int fields) {
+template <class T, int W>
+void prime_upper(const PackedRows<T, W>& packed, int row, const RowTask<T>& task, int fields) {
   const KernelSet<T>& kernels = *packed.rows[std::size_t(row)].kernels;
   if (task.upper_y != nullptr) kernels.prime(task, 1, fields);
   if (task.upper_z != nullptr) kernels.prime(task, 2, fields);
 }
 
-/// Computes the links that rows before `begin` leave for rows from `begin` on: what a block needs before its first row.
-template <class T, class Input>
-void prime_links(const PackedRows<T>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input) {
+/// Calls visit(row, task, axis) for the links that rows before `begin` leave for rows from `begin` on: what a block needs before its
+/// first row.
+template <class T, int W, class Input, class Visit>
+void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input,
+                Visit&& visit) {
   const auto prime = [&](int lower, int axis) {
     RowTask<T> task;
     set_row(task, packed, lower, fields, carry, input);
-    packed.rows[std::size_t(lower)].kernels->prime(task, axis, fields);
+    visit(packed.rows[std::size_t(lower)], task, axis);
   };
   const int rows = int(packed.rows.size());
   if (begin >= rows) return;
@@ -74,9 +78,16 @@ void prime_links(const PackedRows<T>& packed, int begin, int fields, CarryRings<
   for (int row = begin; row < rows && row < begin + packed.reach; ++row)
     if (const int lower = packed.lattice.rows[std::size_t(row)].lower_z; lower >= 0 && lower < begin) prime(lower, 2);
 }
+/// Computes them.
+template <class T, int W, class Input>
+void prime_links(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input) {
+  each_prime(packed, begin, fields, carry, input, [&](const PackedRow<T>& row, const RowTask<T>& task, int axis) {
+    row.kernels->prime(task, axis, fields);
+  });
+}
 
 /// First row of each of `parts` blocks of own rows with about equal packs, and the end.
-template <class T>
-std::vector<int> cut_rows(const PackedRows<T>& packed, int parts);
+template <class T, int W>
+std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts);
 
 } // namespace dss

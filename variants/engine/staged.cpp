@@ -1,25 +1,27 @@
 #include "variants/engine/staged.hpp"
 
+#include "variants/engine/packs.hpp"
+
 namespace dss {
 
-template <class T>
-StagedRows<T>::StagedRows(PackedRows<T>& packed, const Problem& problem, const Method& method, double dt, int fields,
-                          int threads, const PartSetup* exchange)
+template <class T, int W>
+StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt,
+                             int fields, int threads, const PartSetup* exchange)
     : packed_(packed), method_(method), exchange_(exchange), fields_(fields),
-      pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)), cuts_(cut_rows(packed, threads)),
+      pack_size_(std::size_t(fields) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
       failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, dt)), extra_links_(problem, packed) {
   const PackedRow<T>& last = packed.rows.back();
   const std::size_t packs = last.pack_offset + std::size_t(last.packs) + 1; // rows look one pack ahead
   const int copies = std::max(method.stages, 2);
-  for (int m = 0; m < copies; ++m) stages_.emplace_back(packs * pack_size_);
+  for (int m = 0; m < copies; ++m) stages_.emplace_back(packs * pack_size_, packed.memory);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
   plan_rows();
 }
 
 /// The rows of [begin, end) that are computed, and before them the rows whose links they need.
-template <class T>
+template <class T, int W>
 template <class IsComputed>
-auto StagedRows<T>::actions(int begin, int end, IsComputed&& is_computed) const -> RowActions {
+auto StagedRows<T, W>::actions(int begin, int end, IsComputed&& is_computed) const -> RowActions {
   const auto is_whole = [&](int r) { return r >= begin && r < end && is_computed(r); };
   RowActions list;
   for (int r = std::max(0, begin - packed_.reach); r < end; ++r) {
@@ -29,8 +31,8 @@ auto StagedRows<T>::actions(int begin, int end, IsComputed&& is_computed) const 
   return list;
 }
 
-template <class T>
-void StagedRows<T>::plan_rows() {
+template <class T, int W>
+void StagedRows<T, W>::plan_rows() {
   const int rows = int(packed_.rows.size()), threads = int(cuts_.size()) - 1;
   const bool is_overlapped = exchange_ != nullptr && exchange_->is_overlapped;
   for (int t = 0; t < threads; ++t) {
@@ -50,8 +52,8 @@ void StagedRows<T>::plan_rows() {
   }
 }
 
-template <class T>
-void StagedRows<T>::compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows) {
+template <class T, int W>
+void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows) {
   const bool is_leapfrog = method_.family == Method::Family::leapfrog, is_last = stage + 1 == method_.stages;
   CarryRings<T>& carry = carry_[std::size_t(thread)];
   for (const RowAction& action : rows) {
@@ -72,22 +74,23 @@ void StagedRows<T>::compute(int thread, int stage, const StepSignals<T>& signals
   }
 }
 
-template <class T>
-int StagedRows<T>::failed_row() const {
+template <class T, int W>
+int StagedRows<T, W>::failed_row() const {
   for (const int row : failed_rows_)
     if (row >= 0) return row;
   return -1;
 }
 
-template <class T>
-std::size_t StagedRows<T>::bytes() const {
+template <class T, int W>
+std::size_t StagedRows<T, W>::bytes() const {
   std::size_t sum = 0;
   for (const auto& stage : stages_) sum += stage.bytes();
   for (const auto& carry : carry_) sum += carry.bytes();
   return sum;
 }
 
-template class StagedRows<double>;
-template class StagedRows<float>;
+#define DSS_INSTANTIATE(T, W) template class StagedRows<T, W>;
+DSS_EACH_PACK(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
 
 } // namespace dss

@@ -10,10 +10,10 @@ namespace dss {
 
 /// Links outside the grid: evaluated one by one, always in the same order, into the wrench rows that the row kernels
 /// add.
-template <class T>
+template <class T, int W = simd::lanes<T>>
 class ExtraLinks {
 public:
-  ExtraLinks(const Problem& problem, PackedRows<T>& packed);
+  ExtraLinks(const Problem& problem, PackedRows<T, W>& packed);
   bool empty() const { return links_.empty(); }
   /// `row(r)` is the address of row r, with `fields` fields a pack.
   template <class RowAddress>
@@ -25,18 +25,18 @@ private:
     Place i, j;
   };
   T* lane(T* row, const Place& place, int components) const {
-    return row + std::ptrdiff_t(place.pack) * components * PackedRows<T>::W + place.lane;
+    return row + std::ptrdiff_t(place.pack) * components * W + place.lane;
   }
-  PackedRows<T>& packed_;
+  PackedRows<T, W>& packed_;
   std::vector<Link> links_;
 };
 
 /// All rows of the state and of every intermediate stage.
-template <class T>
+template <class T, int W = simd::lanes<T>>
 class StagedRows {
 public:
   /// @param exchange  null, or how the halo of the part is exchanged
-  StagedRows(PackedRows<T>& packed, const Problem& problem, const Method& method, double dt, int fields, int threads,
+  StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt, int fields, int threads,
              const PartSetup* exchange);
   T* row(int r) { return stage_row(0, r); }
   /// Row r of a copy that parts exchange: an input of a stage, or the present and the next state of a method of one stage.
@@ -78,7 +78,7 @@ private:
   bool is_exchanged(int stage) const { return exchange_ != nullptr && (stage == 0 || exchange_->is_every_stage); }
   int copy_of(int stage) const { return is_swapped() ? parity_ : stage; }
 
-  PackedRows<T>& packed_;
+  PackedRows<T, W>& packed_;
   const Method& method_;
   const PartSetup* exchange_;
   const int fields_;
@@ -91,19 +91,19 @@ private:
   std::vector<CarryRings<T>> carry_;
   std::vector<int> failed_rows_;
   const std::vector<StageUpdate<T>> updates_;
-  ExtraLinks<T> extra_links_;
+  ExtraLinks<T, W> extra_links_;
 };
 
-template <class T>
-ExtraLinks<T>::ExtraLinks(const Problem& problem, PackedRows<T>& packed) : packed_(packed) {
+template <class T, int W>
+ExtraLinks<T, W>::ExtraLinks(const Problem& problem, PackedRows<T, W>& packed) : packed_(packed) {
   for (const ExtraLink& link : problem.extra_links)
     links_.push_back({extra_link_constants<T>(problem, link), place_of(packed, link.i), place_of(packed, link.j)});
 }
 
-template <class T>
+template <class T, int W>
 template <class RowAddress>
-void ExtraLinks<T>::evaluate(RowAddress&& row, int fields) {
-  constexpr int W = PackedRows<T>::W, most = field_count;
+void ExtraLinks<T, W>::evaluate(RowAddress&& row, int fields) {
+  constexpr int most = field_count;
   const int components = int(packed_.layout.wrench.size());
   for (const Link& link : links_)
     for (const Place* place : {&link.i, &link.j}) {
@@ -126,9 +126,9 @@ void ExtraLinks<T>::evaluate(RowAddress&& row, int fields) {
   }
 }
 
-template <class T>
+template <class T, int W>
 template <class Synchronise>
-void StagedRows<T>::step(int thread, const StepSignals<T>& signals, bool is_last_step, Synchronise&& synchronise) {
+void StagedRows<T, W>::step(int thread, const StepSignals<T>& signals, bool is_last_step, Synchronise&& synchronise) {
   const auto receive = [&](int s) {
     for (const Side side : all_sides) exchange_->halo.receive(side, copy_of(s));
   };

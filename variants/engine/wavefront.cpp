@@ -1,12 +1,14 @@
 #include "variants/engine/wavefront.hpp"
 
+#include "variants/engine/packs.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
 namespace dss {
 
-template <class T>
-std::vector<int> cut_rows(const PackedRows<T>& packed, int parts) {
+template <class T, int W>
+std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts) {
   const int begin = packed.own_begin, end = packed.own_end;
   parts = std::clamp(parts, 1, end - begin);
   const std::size_t first = packed.rows[std::size_t(begin)].pack_offset;
@@ -44,14 +46,15 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
   return updates;
 }
 
-template <class T>
-Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, int halo, bool has_rings, int sweeps)
-    : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)),
+template <class T, int W>
+Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fields, int halo, bool has_rings,
+                   int sweeps)
+    : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)),
       row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo) {
   const PackedRow<T>& last_row = packed.rows[std::size_t(end - 1)];
   const std::size_t packs =
       last_row.pack_offset + std::size_t(last_row.packs) - packed.rows[std::size_t(begin)].pack_offset;
-  state_ = Buffer<T>((packs + 1) * pack_size_); // one pack more: rows look one pack ahead
+  state_ = Buffer<T>((packs + 1) * pack_size_, packed.memory); // one pack more: rows look one pack ahead
   make_published();
   for (int s = 0; s < sweeps; ++s) carry.emplace_back(packed);
   if (!has_rings) return;
@@ -61,38 +64,38 @@ Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, in
     // two reaches back.
     const int reaches = begin > 0 ? std::max(stages - 1 - s, 2) : stages - 1 - s;
     const int rows = std::min(reaches * packed.reach + 1, int(packed.rows.size()));
-    rings_.emplace_back(std::size_t(rows) * row_size_ + pack_size_);
+    rings_.emplace_back(std::size_t(rows) * row_size_ + pack_size_, packed.memory);
     ring_rows_.emplace_back();
     for (int r = 0; r < int(packed.rows.size()); ++r)
       ring_rows_.back().push_back(rings_.back().data() + std::size_t(r % rows) * row_size_);
   }
 }
 
-template <class T>
-Block<T>::Block(const PackedRows<T>& packed, int first, int last, int fields, int halo)
-    : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(PackedRows<T>::W)),
-      row_size_(0), halo_(halo) {
+template <class T, int W>
+Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fields, int halo)
+    : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)), row_size_(0),
+      halo_(halo) {
   make_published();
 }
 
-template <class T>
-void Block<T>::make_published() {
+template <class T, int W>
+void Block<T, W>::make_published() {
   std::size_t packs = 0;
   for (int r = begin; r < end; ++r) {
     published_offset_.push_back(packs * pack_size_);
     if (is_published(r)) packs += std::size_t(packed_->rows[std::size_t(r)].packs);
   }
-  for (auto& copy : published_) copy = Buffer<T>(packs == 0 ? 0 : (packs + 1) * pack_size_);
+  for (auto& copy : published_) copy = Buffer<T>(packs == 0 ? 0 : (packs + 1) * pack_size_, packed_->memory);
 }
 
-template <class T>
-void Block<T>::publish(int r, int parity) {
+template <class T, int W>
+void Block<T, W>::publish(int r, int parity) {
   const std::size_t packs = std::size_t(packed_->rows[std::size_t(r)].packs);
   std::copy_n(row(r), packs * pack_size_, published(r, parity));
 }
 
-template <class T>
-std::size_t Block<T>::bytes() const {
+template <class T, int W>
+std::size_t Block<T, W>::bytes() const {
   std::size_t sum = state_.bytes() + published_[0].bytes() + published_[1].bytes();
   for (const auto& ring : rings_) sum += ring.bytes();
   for (const auto& rings : carry) sum += rings.bytes();
@@ -100,9 +103,9 @@ std::size_t Block<T>::bytes() const {
   return sum;
 }
 
-template <class T>
-WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields,
-                                std::size_t signal_count, std::vector<Block<T>>& blocks, std::size_t index)
+template <class T, int W>
+WavefrontStep<T, W>::WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt, int fields,
+                                   std::size_t signal_count, std::vector<Block<T, W>>& blocks, std::size_t index)
     : packed_(packed), fields_(fields), stages_(method.stages), block_(blocks[index]),
       signals_(signal_count, sweeps(packed, method, blocks.size() == 1 && !packed.is_part())) {
   find_state_rows(method, blocks);
@@ -112,21 +115,21 @@ WavefrontStep<T>::WavefrontStep(const PackedRows<T>& packed, const Method& metho
   if (blocks.size() > 1) sweeps_[1] = make_sweeps(method, steps, updates, 1);
 }
 
-template <class T>
-void WavefrontStep<T>::find_state_rows(const Method& method, std::vector<Block<T>>& blocks) {
+template <class T, int W>
+void WavefrontStep<T, W>::find_state_rows(const Method& method, std::vector<Block<T, W>>& blocks) {
   const int halo = method.stages * packed_.reach;
   for (int parity : {0, 1}) {
     std::vector<T*>& rows = state_rows_[std::size_t(parity)];
     rows.assign(packed_.rows.size(), nullptr);
-    for (Block<T>& other : blocks)
+    for (Block<T, W>& other : blocks)
       for (int r = std::max(other.begin, block_.begin - halo); r < std::min(other.end, block_.end + halo); ++r)
         rows[std::size_t(r)] = &other == &block_ ? block_.row(r) : other.published(r, parity);
   }
 }
 
-template <class T>
-auto WavefrontStep<T>::make_sweeps(const Method& method, int steps, const std::vector<StageUpdate<T>>& updates,
-                                   int parity) -> std::vector<Sweep> {
+template <class T, int W>
+auto WavefrontStep<T, W>::make_sweeps(const Method& method, int steps, const std::vector<StageUpdate<T>>& updates,
+                                      int parity) -> std::vector<Sweep> {
   const bool is_leapfrog = method.family == Method::Family::leapfrog;
   std::vector<Sweep> sweeps;
   for (int n = 0; n < steps * stages_; ++n) {
@@ -151,16 +154,16 @@ auto WavefrontStep<T>::make_sweeps(const Method& method, int steps, const std::v
   return sweeps;
 }
 
-template <class T>
-std::size_t WavefrontStep<T>::bytes() const {
+template <class T, int W>
+std::size_t WavefrontStep<T, W>::bytes() const {
   std::size_t sum = (state_rows_[0].size() + state_rows_[1].size()) * sizeof(T*);
   for (const auto& sweeps : sweeps_)
     for (const Sweep& sweep : sweeps) sum += sweep.rows.size() * sizeof(RowStage);
   return sum;
 }
 
-template <class T>
-void WavefrontStep<T>::operator()(const double* signals, int steps, int parity) {
+template <class T, int W>
+void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parity) {
   const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
   int count = steps * stages_; // sweeps that run; after a failure only those of earlier steps, which may fail as well
   signals_.set(signals, count);
@@ -187,13 +190,13 @@ void WavefrontStep<T>::operator()(const double* signals, int steps, int parity) 
   if (is_watched) watched_row_done_(); // a failure ended the pass before; others wait for the row all the same
 }
 
-#define DSS_INSTANTIATE(T)                                                                                             \
-  template std::vector<int> cut_rows(const PackedRows<T>&, int);                                                       \
-  template class Block<T>;                                                                                             \
-  template class WavefrontStep<T>;                                                                                     \
-  template std::vector<StageUpdate<T>> stage_updates(const Method&, double);
-DSS_INSTANTIATE(double)
-DSS_INSTANTIATE(float)
+#define DSS_INSTANTIATE(T, W)                                                                                          \
+  template std::vector<int> cut_rows(const PackedRows<T, W>&, int);                                                    \
+  template class Block<T, W>;                                                                                          \
+  template class WavefrontStep<T, W>;
+DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE
+template std::vector<StageUpdate<double>> stage_updates(const Method&, double);
+template std::vector<StageUpdate<float>> stage_updates(const Method&, double);
 
 } // namespace dss

@@ -11,12 +11,12 @@ namespace dss {
 /// A contiguous block of rows with its own storage. What other blocks need of it is published twice over, by parity of
 /// the step, so that one synchronisation a step is enough: while step n reads one copy, the other is written for step n
 /// + 1. Halo rows of a part beside its own rows are a remote block: published by messages, computed elsewhere.
-template <class T>
+template <class T, int W = simd::lanes<T>>
 class Block {
 public:
-  Block(const PackedRows<T>& packed, int begin, int end, int fields, int halo, bool has_rings, int sweeps);
+  Block(const PackedRows<T, W>& packed, int begin, int end, int fields, int halo, bool has_rings, int sweeps);
   /// A remote block.
-  Block(const PackedRows<T>& packed, int begin, int end, int fields, int halo);
+  Block(const PackedRows<T, W>& packed, int begin, int end, int fields, int halo);
 
   int begin, end;
   bool is_remote() const { return state_.empty(); }
@@ -41,7 +41,7 @@ public:
 
 private:
   void make_published();
-  const PackedRows<T>* packed_;
+  const PackedRows<T, W>* packed_;
   std::size_t pack_size_, row_size_;
   int halo_;
   Buffer<T> state_;
@@ -97,19 +97,19 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt);
 /// Steps one block; `blocks` are all blocks. A pass over the rows makes one sweep for each stage of a step or, with leapfrog on
 /// one block, for several steps. What a sweep does to a row is the same in every pass but for the parity of what
 /// neighbours publish, so all row tasks are made once: making them anew would cost as much as several packs of a row.
-template <class T>
+template <class T, int W = simd::lanes<T>>
 class WavefrontStep {
 public:
-  WavefrontStep(const PackedRows<T>& packed, const Method& method, double dt, int fields, std::size_t signal_count,
-                std::vector<Block<T>>& blocks, std::size_t index);
+  WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt, int fields, std::size_t signal_count,
+                std::vector<Block<T, W>>& blocks, std::size_t index);
   /// Sweeps that a block needs carry buffers for. `is_alone`: nothing but this block computes any of the problem.
-  static int sweeps(const PackedRows<T>& packed, const Method& method, bool is_alone) {
+  static int sweeps(const PackedRows<T, W>& packed, const Method& method, bool is_alone) {
     return method.stages * steps_a_pass(packed, method, is_alone);
   }
   /// Leapfrog updates in place, so a step can follow `reach` rows behind the one before: several steps for one trip
   /// through memory. Measured: eight for a plate; four where a link reaches over a plane of rows, of which eight leave L2.
   /// Several blocks would need halos as many times deeper, and take one step a pass.
-  static int steps_a_pass(const PackedRows<T>& packed, const Method& method, bool is_alone) {
+  static int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, bool is_alone) {
     if (method.family != Method::Family::leapfrog || !is_alone) return 1;
     return packed.reach == 1 ? 8 : 4;
   }
@@ -140,13 +140,13 @@ private:
   T* input_row(int stage, int r, int parity) {
     return stage == 0 ? state_row(r, parity) : block_.ring_row(stage - 1, r);
   }
-  void find_state_rows(const Method& method, std::vector<Block<T>>& blocks);
+  void find_state_rows(const Method& method, std::vector<Block<T, W>>& blocks);
   std::vector<Sweep> make_sweeps(const Method& method, int steps, const std::vector<StageUpdate<T>>& updates,
                                  int parity);
 
-  const PackedRows<T>& packed_;
+  const PackedRows<T, W>& packed_;
   const int fields_, stages_;
-  Block<T>& block_;
+  Block<T, W>& block_;
   StepSignals<T> signals_;
   std::array<std::vector<T*>, 2> state_rows_; ///< parity, row: the block's own rows and its neighbours' published ones
   std::array<std::vector<Sweep>, 2> sweeps_;  ///< parity, sweep; a block without neighbours needs one parity

@@ -1,0 +1,12 @@
+/* Members of the constants of a body as the laws need them (kernels/link_force/link_force.h, kernels/motion/motion.h), for a
+ * struct in C++ and in OpenCL C. NUMBER: float or double. Forces and moments of the row kernel are in units of `unit` newtons:
+ * the paper's k, 1 for the material law. Masses and ties are scaled to match. */
+NUMBER edge[3], edge_ratio; /* edge_ratio: y over x */
+NUMBER inverse_unit;        /* 1 / unit */
+NUMBER tau, kt2, dt;        /* paper's law */
+struct {
+  NUMBER k_s, k_ns, d_s, d_ns, k_z, k_xz, k_yz, d_z, d_xz, d_yz;
+} axis[3]; /* material law */
+NUMBER mass, inverse_mass, inertia[3], inverse_inertia[3];
+NUMBER tie_k, tie_d, tie_k2_rot, tie_d_rot; /* stabilization */
+int is_accelerated;                         /* gravity or base acceleration acts */

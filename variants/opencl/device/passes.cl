@@ -1,0 +1,72 @@
+/* Kernels. `failed`: [0] the first step that left a number that is not finite, then of each block its own and the row; later
+ * passes do nothing, so that the host finds the state of that step. */
+
+/* Whether an own element of the row is not finite: halo elements may be, since the outermost lack links. */
+static bool has_failed(device d, global const row_stage* task) {
+  bool is_failed = false;
+  for (int pack = FIRST_PACK(task); pack < task->packs; pack += PACKS_AT_ONCE) {
+    const uint mask = d.masks[task->masks + pack].own;
+    global const NUMBER* p = d.arena + task->out + (long)pack * (task->fields * W) + LANE;
+    REAL sum = SPLAT(0);
+    for (int f = 0; f < task->fields; ++f, p += W) sum = FMA(LOAD(p), SPLAT(0), sum);
+    KEEP(sum)
+    is_failed = is_failed || !IS_ZERO(sum);
+  }
+  return is_failed;
+}
+
+static void record_failure(global int* failed, const int block, const int step, const int row) {
+  atomic_min(failed, step);
+  if (step < failed[1 + 2 * block]) failed[2 + 2 * block] = row; /* the first that this work-item meets */
+  atomic_min(failed + 1 + 2 * block, step);
+}
+
+static void publish(device d, global const row_stage* task) {
+  for (int pack = FIRST_PACK(task); pack < task->packs; pack += PACKS_AT_ONCE) {
+    const long place = (long)pack * (task->fields * W) + LANE;
+    for (int f = 0; f < task->fields; ++f)
+      STORE(LOAD(d.arena + task->out + place + f * W), d.arena + task->published + place + f * W);
+  }
+}
+
+/* One pass of the wavefront over each block's rows (variants/engine/wavefront.cpp): sweep n is n * lag rows behind the first. */
+kernel void run_pass(TABLES, global const sweep* sweeps, global const NUMBER* signals, global int* failed,
+                     const int first_block, const int most_sweeps, const int parity, const int sweep_count,
+                     const int first_step, const int stages, const int lag, const int signal_width) {
+  const device d = DEVICE;
+  const int block = first_block + BLOCK;
+  if (failed[0] < first_step) return;
+  global const sweep* own = sweeps + (block * 2 + parity) * most_sweeps;
+  int count = sweep_count; /* after a failure only sweeps of earlier steps, which may fail as well */
+  const int end = own[count - 1].end + (count - 1) * lag;
+  for (int t = own[0].begin; t < end; ++t)
+    for (int n = 0; n < count; ++n) {
+      const int r = t - n * lag;
+      if (r < own[n].begin || r >= own[n].end) continue;
+      if (r == own[n].begin)
+        for (int p = 0; p < own[n].prime_count; ++p) run_task(d, tasks + own[n].primes + p, signals);
+      global const row_stage* task = tasks + own[n].rows + (r - own[n].begin);
+      const bool is_finite = run_task(d, task, signals + n * signal_width);
+      if ((n + 1) % stages == 0) {
+        if (!is_finite && task->action >= first_stage && has_failed(d, task)) {
+          record_failure(failed, block, first_step + n / stages, r);
+          STOP_AT(n)
+        }
+        if (task->published >= 0) publish(d, task);
+      }
+      SYNCHRONISE;
+    }
+}
+
+/* Lists of rows, in their order: a stage of all rows, or their rates. `lists`: places of first and last plus one in tasks. */
+kernel void run_rows(TABLES, global const int2* lists, global const NUMBER* signals, global int* failed,
+                     const int first_list, const int step, const int is_last_stage) {
+  const device d = DEVICE;
+  const int2 list = lists[first_list + BLOCK];
+  if (failed[0] < step) return;
+  for (int n = list.x; n < list.y; ++n) {
+    const bool is_finite = run_task(d, tasks + n, signals);
+    if (is_last_stage && !is_finite && tasks[n].action > first_stage && has_failed(d, tasks + n))
+      record_failure(failed, BLOCK, step, tasks[n].row);
+  }
+}

@@ -1,0 +1,55 @@
+/* Tables that the host fills and kernels read, the same text for both. NUMBER: float or double. Offsets count numbers from the
+ * start of the arena; -1: none. */
+
+typedef struct {
+#include "kernels/stage_row/body_constants.h"
+} body_constants;
+
+/* What to do with a row. */
+enum row_action {
+  prime_y,     /* its links to the upper rows across y, or z, or both: what a block needs of a row before it */
+  prime_z,
+  prime_upper,
+  first_stage, /* as RowTask (kernels/stage_row/row.hpp) without increments, and with */
+  later_stage,
+  leapfrog_step,
+  rates        /* out = rates, forces and moments unscaled: for a host that updates */
+};
+
+/* One row of one stage. */
+typedef struct {
+  long in, upper_y, upper_z;
+  long carry_y, carry_z, from_y, from_z;
+  long base, out, increment[3];
+  long published; /* where else the new state goes */
+  int action, shape, body, applied; /* shape: of the compiled terms; applied: -1 for most rows */
+  int packs, first_pack, masks, fields, row;
+  NUMBER beta, alpha[3];
+} row_stage;
+
+/* One stage of one step over a block's rows [begin, end). */
+typedef struct {
+  int begin, end, rows, primes, prime_count; /* rows, primes: places in the table of row_stage */
+} sweep;
+
+/* As Applied and its Pattern. */
+typedef struct {
+  long values;
+  int signal, first, packs;
+} pattern;
+typedef struct {
+  int first, packs, patterns, pattern_count, free_lanes; /* patterns, free_lanes: places in their tables; -1: none */
+} applied_row;
+
+/* Lane masks of a pack: as PackMasks, and the lanes of own elements. */
+typedef struct {
+  ushort link_x, link_y, link_z, below_y, below_z, own;
+} pack_masks;
+
+/* A link outside the grid; places of both elements and their wrenches. */
+typedef struct {
+  int is_material, axis, row_i, row_j, lane_i, lane_j; /* lane_*: offset of the first field from the start of the row */
+  long wrench_i, wrench_j;
+  NUMBER edge_i, edge_j, unit;
+  body_constants body;
+} extra_link;

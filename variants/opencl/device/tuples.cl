@@ -1,0 +1,77 @@
+/* Components of the model's tuples, and how they move between memory and REALs. Words: W lanes a pack; LOAD(p), STORE(v, p) at a
+ * component's address; COMPONENT_STEP from one component to the next. */
+#ifdef PLANAR
+#define EACH_OF_VEC(act, t) act(t.x) act(t.y)
+#define EACH_OF_SPIN(act, t) act(t.z)
+#define EACH_OF_ROTOR(act, t) act(t.s) act(t.z)
+#define VEC_SIZE 2
+#define SPIN_SIZE 1
+#define FIELDS 7
+#else
+#define EACH_OF_VEC(act, t) act(t.x) act(t.y) act(t.z)
+#define EACH_OF_SPIN(act, t) act(t.x) act(t.y) act(t.z)
+#define EACH_OF_ROTOR(act, t) act(t.s) act(t.x) act(t.y) act(t.z)
+#define VEC_SIZE 3
+#define SPIN_SIZE 3
+#define FIELDS 13
+#endif
+#define WRENCH_SIZE (VEC_SIZE + SPIN_SIZE)
+
+#define READ(c) c = LOAD(p), p += W;
+#define WRITE(c) STORE(c, p), p += W;
+static inline element element_at(global const NUMBER* p) {
+  element e;
+  EACH_OF_VEC(READ, e.u) EACH_OF_VEC(READ, e.v) EACH_OF_ROTOR(READ, e.q) EACH_OF_SPIN(READ, e.w)
+  return e;
+}
+static inline vec vec_at(global const NUMBER* p) {
+  vec a;
+  EACH_OF_VEC(READ, a)
+  return a;
+}
+static inline spin spin_at(global const NUMBER* p) {
+  spin a;
+  EACH_OF_SPIN(READ, a)
+  return a;
+}
+static inline void put_vec(vec a, global NUMBER* p) { EACH_OF_VEC(WRITE, a) }
+static inline void put_spin(spin a, global NUMBER* p) { EACH_OF_SPIN(WRITE, a) }
+static inline void put_rotor(rotor a, global NUMBER* p) { EACH_OF_ROTOR(WRITE, a) }
+
+static inline vec vec_zero(void) {
+  vec a;
+#define CLEAR(c) c = SPLAT(0);
+  EACH_OF_VEC(CLEAR, a)
+  return a;
+}
+static inline vec vec_splat(global const NUMBER* xyz) {
+  vec a;
+  a.x = SPLAT(xyz[0]), a.y = SPLAT(xyz[1]);
+#ifndef PLANAR
+  a.z = SPLAT(xyz[2]);
+#endif
+  return a;
+}
+static inline spin spin_splat(global const NUMBER* xyz) {
+  spin a;
+#ifndef PLANAR
+  a.x = SPLAT(xyz[0]), a.y = SPLAT(xyz[1]);
+#endif
+  a.z = SPLAT(xyz[2]);
+  return a;
+}
+static inline exchange no_exchange(void) {
+  exchange x = {vec_zero(), spin_zero(), spin_zero()};
+  return x;
+}
+static inline carried nothing_carried(void) {
+  carried c = {vec_zero(), spin_zero()};
+  return c;
+}
+
+/* Notices what stops being finite at one multiply-add a component: 0 * x is 0 unless x is infinite or NaN. */
+#define ADD_ZERO(c) sum = FMA(c, SPLAT(0), sum);
+static inline REAL finite_check(vec v, spin w, REAL sum) {
+  EACH_OF_VEC(ADD_ZERO, v) EACH_OF_SPIN(ADD_ZERO, w)
+  return sum;
+}
