@@ -102,3 +102,27 @@ function(dss_test name)
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   gtest_discover_tests(${name} PROPERTIES LABELS ${kind} ENVIRONMENT "${dss_test_environment}" DISCOVERY_MODE PRE_TEST)
 endfunction()
+
+# dss_embed(TARGET FILES path...): puts files of the source tree, by their paths from its root, into a target, where dss::embedded(path) gives their text
+# (variants/opencl/embedded.hpp). Call it once a target.
+function(dss_embed target)
+  cmake_parse_arguments(arg "" "" "FILES" ${ARGN})
+  set(definitions "")
+  set(cases "")
+  foreach(path IN LISTS arg_FILES)
+    set(file ${PROJECT_SOURCE_DIR}/${path})
+    if(NOT EXISTS ${file})
+      message(FATAL_ERROR "dss_embed(${target}): there is no ${file}")
+    endif()
+    string(MAKE_C_IDENTIFIER "dss_embedded_${path}" symbol)
+    string(APPEND definitions "asm(\".pushsection .rodata\\n.global ${symbol}\\n.hidden ${symbol}\\n${symbol}:\\n.incbin \\\"${file}\\\"\\n\"\n"
+      "    \".global ${symbol}_end\\n.hidden ${symbol}_end\\n${symbol}_end:\\n.popsection\");\n"
+      "extern \"C\" [[gnu::visibility(\"hidden\")]] const char ${symbol}[], ${symbol}_end[];\n")
+    string(APPEND cases "  if (path == \"${path}\") return {${symbol}, std::size_t(${symbol}_end - ${symbol})};\n")
+    list(APPEND files ${file})
+  endforeach()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_embedded.cpp)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/embedded.cpp.in ${source} @ONLY)
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}")
+  target_sources(${target} PRIVATE ${source})
+endfunction()

@@ -1,7 +1,9 @@
 #pragma once
 /// Devices that a variant computes on, beside the program's own processor.
-#include <cstddef>
+#include "solver/model/model.hpp"
+
 #include <string>
+#include <vector>
 
 namespace dss {
 
@@ -15,6 +17,13 @@ struct DeviceEntry {
   bool has_f64 = false;
   std::string unusable; ///< empty, or why it cannot be used
 };
+
+/// The device meant by the text of --device: "0:1" (platform and device), "gpu", "cpu" or "accelerator" (the first of its kind), else a part
+/// of the name of a device or platform, in any case; empty: the first that can be used, of the kinds gpu, accelerator, cpu in this order.
+/// @throws InputError if there is none, or the one that is meant cannot be used
+const DeviceEntry& choose_device(const std::vector<DeviceEntry>& devices, const std::string& text);
+/// @throws InputError if `precision` is f64 and the device has no double precision
+void require_precision(const DeviceEntry& device, Precision precision);
 
 /// What an executor used of a device. Counts and times are of all calls of advance.
 struct DeviceUse {

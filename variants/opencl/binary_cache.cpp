@@ -1,0 +1,68 @@
+#include "variants/opencl/binary_cache.hpp"
+#include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <functional>
+
+namespace dss::opencl {
+namespace {
+
+/// The same in every process of one build of the C++ library; another build only finds no binaries.
+std::string hash(std::string_view text) { return fmt::format("{:016x}", std::hash<std::string_view>{}(text)); }
+
+std::string file_of(std::string_view key) {
+  const std::string directory = cache_directory();
+  return directory.empty() ? "" : fmt::format("{}/{}.bin", directory, hash(key));
+}
+
+/// The whole key is in the file, so that no two programs with equal hashes are confused.
+std::string head_of(std::string_view key) { return fmt::format("dssbench binary 1\n{}\n{}\n", key.size(), key); }
+
+} // namespace
+
+std::string cache_directory() {
+  const auto environment = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string(value == nullptr ? "" : value);
+  };
+  if (const std::string own = environment("DSSBENCH_CACHE_DIR"); !own.empty()) return own;
+  if (const std::string caches = environment("XDG_CACHE_HOME"); !caches.empty()) return caches + "/dssbench/opencl";
+  const std::string home = environment("HOME");
+  return home.empty() ? "" : home + "/.cache/dssbench/opencl";
+}
+
+std::optional<std::string> load_binary(std::string_view key) {
+  const std::string file = file_of(key);
+  if (file.empty()) return std::nullopt;
+  try {
+    const std::string text = read_text(file), head = head_of(key);
+    constexpr std::size_t hash_size = 16;
+    if (text.size() < head.size() + hash_size || !text.starts_with(head)) return std::nullopt;
+    const std::string binary = text.substr(head.size() + hash_size);
+    // Checked here, because drivers crash on damaged binaries.
+    if (text.compare(head.size(), hash_size, hash(binary)) != 0) return std::nullopt;
+    return binary;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+void store_binary(std::string_view key, std::string_view binary) {
+  const std::string path = file_of(key);
+  if (path.empty() || binary.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(cache_directory(), error);
+  try {
+    AtomicFile file(path);
+    file.write(head_of(key));
+    file.write(hash(binary));
+    file.write(binary);
+    file.commit();
+  } catch (const InputError&) { // works without
+  }
+}
+
+} // namespace dss::opencl

@@ -1,0 +1,35 @@
+#pragma once
+/// The OpenCL devices of this machine.
+#include "solver/model/model.hpp"
+#include "variants/device.hpp"
+#include "variants/opencl/opencl.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dss::opencl {
+
+/// A device, and what decides how a program is laid out on it.
+struct Device {
+  cl::Device handle;
+  DeviceEntry entry;
+  bool is_cpu = false;
+  bool is_unified = false; ///< shares the host's memory: mapping copies nothing
+  bool is_correctly_rounded_f32 = false;
+  int compute_units = 1;
+  int width_f64 = 1, width_f32 = 1; ///< lanes of its native vectors; 1 on GPUs
+
+  int vector_width(Precision precision) const { return precision == Precision::f64 ? width_f64 : width_f32; }
+};
+
+/// Every device of every platform; empty without a platform. Those that cannot be used say why. No errors.
+std::vector<DeviceEntry> devices();
+
+/// Empty if there is a usable device, else why not.
+std::string why_unusable();
+
+/// The device meant by `text`, as choose_device says.
+/// @throws InputError if there is none, it cannot be used, or it lacks double precision where `precision` is f64
+Device find_device(const std::string& text, Precision precision);
+
+} // namespace dss::opencl

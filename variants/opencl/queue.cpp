@@ -1,0 +1,166 @@
+#include "variants/opencl/queue.hpp"
+#include "solver/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <fmt/format.h>
+#include <map>
+#include <mutex>
+
+namespace dss::opencl {
+namespace {
+
+constexpr double gibibyte = 1024.0 * 1024 * 1024;
+
+/// Bytes that this process has allocated on a device.
+std::atomic<std::size_t>& allocated_on(const Device& device) {
+  static std::mutex mutex;
+  static auto& of_devices = *new std::map<cl_device_id, std::atomic<std::size_t>>; // outlives every buffer
+  const std::lock_guard lock(mutex);
+  return of_devices[device.handle()];
+}
+
+/// Counts bytes as allocated while it lives.
+class Reservation {
+public:
+  Reservation(std::atomic<std::size_t>& allocated, std::size_t bytes) : allocated_(allocated), bytes_(bytes) {
+    allocated_ += bytes_;
+  }
+  Reservation(const Reservation&) = delete;
+  Reservation& operator=(const Reservation&) = delete;
+  ~Reservation() { allocated_ -= bytes_; }
+
+private:
+  std::atomic<std::size_t>& allocated_;
+  std::size_t bytes_;
+};
+
+void require_memory(const DeviceEntry& device, double bytes, double allocated) {
+  const auto refuse = [&](const std::string& what, double there) {
+    throw InputError(fmt::format("opencl: device {} ({}): {} {:.3g} GiB, {:.3g} GiB are there; take a smaller scene, "
+                                 "--precision f32, or another --device",
+                                 device.id, device.name, what, bytes / gibibyte, there / gibibyte));
+  };
+  if (bytes > device.largest_buffer_bytes) refuse("one buffer needs", device.largest_buffer_bytes);
+  bytes += allocated;
+  if (bytes > device.memory_bytes) refuse("the scene needs at least", device.memory_bytes);
+}
+
+} // namespace
+
+Mapping::~Mapping() {
+  try {
+    queue_.enqueueUnmapMemObject(buffer_, data_);
+  } catch (const cl::Error&) { // the next command of the queue meets and reports the same error
+  }
+}
+
+Queue::Queue(const Device& device)
+    : device_(device), queue_(guarded(device.entry.name, [&] {
+        return cl::CommandQueue(context_of(device), device.handle, cl::QueueProperties::Profiling);
+      })) {}
+
+Buffer Queue::make_buffer(std::size_t bytes, cl_mem_flags flags, void* host) const {
+  std::atomic<std::size_t>& allocated = allocated_on(device_);
+  require_memory(device_.entry, double(bytes), double(allocated.load()));
+  return guarded(device_.entry.name, [&] {
+    Buffer buffer;
+    buffer.handle_ = cl::Buffer(context_of(device_), flags, bytes, host);
+    buffer.bytes_ = bytes;
+    buffer.reservation_ = std::make_shared<Reservation>(allocated, bytes);
+    return buffer;
+  });
+}
+
+Kernel Queue::make_kernel(const Program& program, const char* name) const {
+  return guarded(fmt::format("{} (kernel {})", device_.entry.name, name), [&] {
+    Kernel kernel;
+    kernel.handle_ = cl::Kernel(program.handle, name);
+    kernel.device_ = fmt::format("{} (kernel {})", device_.entry.name, name);
+    return kernel;
+  });
+}
+
+/// The time is the device's own, so that kernels before it in the queue are not counted.
+template <class Enqueue>
+void Queue::transfer(std::size_t bytes, Wait wait, double Counts::*counter, Enqueue&& enqueue) {
+  guarded(device_.entry.name, [&] {
+    cl::Event done;
+    enqueue(wait == Wait::yes ? CL_TRUE : CL_FALSE, &done);
+    if (!is_counting_) return;
+    counts_.*counter += double(bytes);
+    if (wait == Wait::yes)
+      counts_.transfer_s += 1e-9 * double(done.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                          done.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+  });
+}
+
+void Queue::write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data, Wait wait) {
+  if (data.empty()) return;
+  transfer(data.size(), wait, &Counts::to_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
+    queue_.enqueueWriteBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), nullptr, done);
+  });
+}
+
+void Queue::read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait) {
+  if (data.empty()) return;
+  transfer(data.size(), wait, &Counts::from_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
+    queue_.enqueueReadBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), nullptr, done);
+  });
+}
+
+void Queue::copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset,
+                 std::size_t bytes) {
+  if (bytes == 0) return;
+  guarded(device_.entry.name,
+          [&] { queue_.enqueueCopyBuffer(from.handle(), to.handle(), from_offset, to_offset, bytes); });
+}
+
+void Queue::clear(const Buffer& buffer) {
+  guarded(device_.entry.name, [&] { queue_.enqueueFillBuffer(buffer.handle(), cl_uchar(0), 0, buffer.bytes()); });
+}
+
+Mapping Queue::map(const Buffer& buffer, std::size_t offset, std::size_t bytes, cl_map_flags flags) {
+  return guarded(device_.entry.name, [&] {
+    void* data = queue_.enqueueMapBuffer(buffer.handle(), CL_TRUE, flags, offset, bytes);
+    if (is_counting_ && !device_.is_unified) {
+      if ((flags & CL_MAP_READ) != 0) counts_.from_device_bytes += double(bytes);
+      if ((flags & (CL_MAP_WRITE | CL_MAP_WRITE_INVALIDATE_REGION)) != 0) counts_.to_device_bytes += double(bytes);
+    }
+    return Mapping(queue_, buffer.handle(), data, bytes);
+  });
+}
+
+void Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local) {
+  guarded(kernel.device_, [&] { queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local); });
+  if (is_counting_) ++counts_.launches;
+}
+
+void Queue::flush() {
+  guarded(device_.entry.name, [&] { queue_.flush(); });
+}
+
+void Queue::finish() {
+  guarded(device_.entry.name, [&] { queue_.finish(); });
+}
+
+double Queue::empty_launch_s() {
+  const Kernel nothing = make_kernel(build_program(device_, "__kernel void nothing() {}"), "nothing");
+  std::array<double, 11> times{};
+  const bool was_counting = std::exchange(is_counting_, false);
+  launch(nothing, cl::NDRange(1)); // the first compiles
+  finish();
+  for (double& time : times) {
+    const auto start = std::chrono::steady_clock::now();
+    launch(nothing, cl::NDRange(1));
+    finish();
+    time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  is_counting_ = was_counting;
+  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+  return times[times.size() / 2];
+}
+
+} // namespace dss::opencl

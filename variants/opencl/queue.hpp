@@ -1,0 +1,125 @@
+#pragma once
+/// Memory, kernels and an in-order queue of one device. Every error is an InputError of one line.
+#include "variants/opencl/device.hpp"
+#include "variants/opencl/program.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace dss::opencl {
+
+/// Memory of a device; copies share it.
+class Buffer {
+public:
+  Buffer() = default;
+  std::size_t bytes() const { return bytes_; }
+  const cl::Buffer& handle() const { return handle_; }
+
+private:
+  friend class Queue;
+  cl::Buffer handle_;
+  std::size_t bytes_ = 0;
+  std::shared_ptr<void> reservation_;
+};
+
+/// A kernel of a built program with its arguments: one for each executor, since arguments are part of it.
+class Kernel {
+public:
+  Kernel() = default;
+  const cl::Kernel& handle() const { return handle_; }
+  /// Sets all arguments from the first on: buffers, numbers, cl::Local(bytes). @throws InputError for a wrong size
+  template <class... Arguments>
+  Kernel& set(const Arguments&... arguments) {
+    cl_uint index = 0;
+    (set_one(index++, arguments), ...);
+    return *this;
+  }
+  template <class Argument>
+  void set_one(cl_uint index, const Argument& argument) {
+    guarded(device_, [&] { handle_.setArg(index, argument); });
+  }
+  void set_one(cl_uint index, const Buffer& buffer) { set_one(index, buffer.handle()); }
+
+private:
+  friend class Queue;
+  cl::Kernel handle_;
+  std::string device_;
+};
+
+/// Part of a buffer in the host's memory, until it is destroyed.
+class Mapping {
+public:
+  Mapping(const cl::CommandQueue& queue, const cl::Buffer& buffer, void* data, std::size_t bytes)
+      : queue_(queue), buffer_(buffer), data_(data), bytes_(bytes) {}
+  Mapping(const Mapping&) = delete;
+  Mapping& operator=(const Mapping&) = delete;
+  /// The device has it back before the next command of the queue begins.
+  ~Mapping();
+  template <class T>
+  std::span<T> as() const {
+    return {static_cast<T*>(data_), bytes_ / sizeof(T)};
+  }
+
+private:
+  cl::CommandQueue queue_;
+  cl::Buffer buffer_;
+  void* data_;
+  std::size_t bytes_;
+};
+
+/// What a queue has done.
+struct Counts {
+  double launches = 0;
+  double to_device_bytes = 0, from_device_bytes = 0;
+  double transfer_s = 0; ///< in transfers that the host waited for [s]
+};
+
+/// Whether the host waits for the end of a transfer. If not, its memory must live, unchanged, until finish().
+enum class Wait { yes, no };
+
+/// Commands of one device, done in order. All sizes and offsets in bytes.
+class Queue {
+public:
+  explicit Queue(const Device& device);
+
+  const Device& device() const { return device_; }
+  const cl::CommandQueue& handle() const { return queue_; }
+  /// What was done while counting was on (it is at first).
+  const Counts& counts() const { return counts_; }
+  void set_counting(bool is_counting) { is_counting_ = is_counting; }
+
+  /// @throws InputError before anything is allocated if the device's largest buffer or its memory, less what this process has of it, is
+  /// too small: how many GiB are needed, and how many are there
+  Buffer make_buffer(std::size_t bytes, cl_mem_flags flags = CL_MEM_READ_WRITE, void* host = nullptr) const;
+  Kernel make_kernel(const Program& program, const char* name) const;
+
+  void write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data, Wait wait = Wait::yes);
+  void read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait = Wait::yes);
+  void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset, std::size_t bytes);
+  /// Sets all bytes to zero.
+  void clear(const Buffer& buffer);
+  /// @param flags  CL_MAP_READ, CL_MAP_WRITE, both, or CL_MAP_WRITE_INVALIDATE_REGION
+  Mapping map(const Buffer& buffer, std::size_t offset, std::size_t bytes, cl_map_flags flags);
+
+  void launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local = cl::NullRange);
+  /// Begins what is enqueued, without waiting.
+  void flush();
+  /// Waits for all that is enqueued.
+  void finish();
+
+  /// One launch of a kernel that does nothing, and its end: the median of some [s].
+  double empty_launch_s();
+
+private:
+  template <class Enqueue>
+  void transfer(std::size_t bytes, Wait wait, double Counts::*counter, Enqueue&& enqueue);
+
+  Device device_;
+  cl::CommandQueue queue_;
+  Counts counts_;
+  bool is_counting_ = true;
+};
+
+} // namespace dss::opencl
