@@ -69,10 +69,11 @@ public:
   }
   virtual RankInfo rank_info() const { return {}; }
   virtual Traffic traffic() const { return {}; }
-  /// What a method keeps of an element: 13 fields, and with some methods more.
+  /// What a method keeps of an element: 13 fields, and with some methods more (variants/kept_state.hpp).
   virtual int kept_fields() const { return 0; }
   /// Gets or sets all that the method keeps of elements [first, first + kept.size() / kept_fields()), so that another executor of the same
-  /// method, model and precision goes on to the last bit, whichever elements it has. 0 kept_fields: it cannot.
+  /// method, model and precision goes on to the last bit, whichever elements it has. After restore comes write or advance. 0
+  /// kept_fields: it cannot.
   virtual void save(std::size_t first, std::span<double> kept) { (void)first, (void)kept; }
   virtual void restore(std::size_t first, std::span<const double> kept) { (void)first, (void)kept; }
   /// What was used of a device, and what its use cost.

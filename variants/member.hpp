@@ -12,8 +12,11 @@ struct Member {
   double weight = 0; ///< of its first share, relative; 0: as measured
 };
 
-/// "avx512:1,opencl@cpu:1". @throws InputError: what is wrong with which member
+/// "avx512:1,opencl@cpu:1=9": members separated by commas. A device that is a number, or has one of : , = [ ] in it, stands in brackets:
+/// "opencl@[0:1]:2". Weights are of all members or of none.
+/// @throws InputError: what is wrong with which member
 std::vector<Member> parse_members(const std::string& text);
+/// As parse_members takes it, without the weight: "opencl@[0:1]:2".
 std::string name(const Member& member);
 
 /// What became of a hybrid.

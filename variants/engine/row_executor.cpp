@@ -202,6 +202,37 @@ void RowExecutor<T>::read(std::size_t first, std::span<double> fields) {
   });
 }
 
+template <class T>
+void RowExecutor<T>::save(std::size_t first, std::span<double> kept) {
+  const std::size_t count = std::size_t(kept_fields());
+  std::fill(kept.begin(), kept.end(), 0.0);
+  each_element(first, kept.size() / count, [&](std::size_t element, const T* lane) {
+    const std::span<double> out = kept.subspan((element - first) * count, count);
+    for (int f = 0; f < packed_.fields(); ++f)
+      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
+    if (!is_leapfrog()) return;
+    each_velocity([&](int f, int half) {
+      out[std::size_t(kept_half_velocity(packed_.layout.fields[std::size_t(f)]))] = double(lane[half * W]);
+    });
+    out[kept_is_started] = is_started_;
+  });
+}
+
+template <class T>
+void RowExecutor<T>::restore(std::size_t first, std::span<const double> kept) {
+  const std::size_t count = std::size_t(kept_fields());
+  end_rates_ = {};
+  each_element(first, kept.size() / count, [&](std::size_t element, T* lane) {
+    const double* from = &kept[(element - first) * count];
+    for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
+    if (!is_leapfrog()) return;
+    each_velocity(
+        [&](int f, int half) { lane[half * W] = T(from[kept_half_velocity(packed_.layout.fields[std::size_t(f)])]); });
+    is_started_ = from[kept_is_started] != 0;
+  });
+  publish_all();
+}
+
 /// v_n = v_{n-1/2} + (h / 2) a(x_n, p_n)
 template <class T>
 void RowExecutor<T>::read_synchronised(std::size_t element, const T* lane, std::span<double> out) {

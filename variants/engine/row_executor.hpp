@@ -4,6 +4,7 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "variants/api.hpp"
 #include "variants/engine/staged.hpp"
+#include "variants/kept_state.hpp"
 
 #include <optional>
 
@@ -22,6 +23,10 @@ public:
   int workers() const override { return staged_ ? staged_->threads() : threads_; }
   int halo_copies() const override { return staged_ ? staged_->copies() : 2; }
   HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) override;
+  int halo_lanes() const override { return W; }
+  int kept_fields() const override { return kept_field_count(setup_.method); }
+  void save(std::size_t first, std::span<double> kept) override;
+  void restore(std::size_t first, std::span<const double> kept) override;
 
 private:
   static constexpr int W = simd::lanes<T>;
