@@ -43,7 +43,8 @@ static const PartSetup* part_with_neighbours(const PartSetup* setup) {
 template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
-      packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part) {
+      packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part),
+      rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows) row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
   if (!setup_.problem.extra_links.empty() || (part_ != nullptr && part_->is_every_stage))
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, stored_fields(), setup_.threads, part_);
@@ -94,44 +95,18 @@ std::pair<T*, T*> RowExecutor<T>::copy_row(int copy, int r) {
 
 template <class T>
 HaloLayout RowExecutor<T>::halo_layout(std::span<const std::size_t> elements, int copy) {
-  const std::size_t number = sizeof(T), fields = std::size_t(stored_fields());
-  HaloLayout layout;
-  layout.is_stable = true;
-  const auto add = [&](T* at, std::size_t offset, std::size_t count) {
-    auto& pieces = layout.pieces;
-    auto* const bytes = reinterpret_cast<std::byte*>(at);
-    if (!pieces.empty() && pieces.back().at + pieces.back().count == bytes &&
-        pieces.back().offset + pieces.back().count == offset)
-      pieces.back().count += count;
-    else
-      pieces.push_back({bytes, offset, count});
-  };
-  // Messages hold pack after pack, field after field, the elements' lanes: as whole packs lie in memory.
-  std::vector<HaloLayout::Piece> second;
-  for (std::size_t from = 0, to = 0; from < elements.size(); from = to) {
-    const Place place = place_of(packed_, elements[from]);
-    std::vector<int> lanes;
-    for (; to < elements.size(); ++to) {
-      const Place other = place_of(packed_, elements[to]);
-      if (other.row != place.row || other.pack != place.pack) break;
-      lanes.push_back(other.lane);
-    }
-    const auto [first, twin] = copy_row(copy, int(place.row));
-    const bool is_own = part_->part.layer[elements[from]] == 0;
-    const bool is_halo_row = !packed_.is_computed(int(place.row), 0);
+  bool is_stable = true;
+  const auto is_own = [&](std::size_t element) { return part_->part.layer[element] == 0; };
+  HaloLayout layout = rows_.layout(elements, [&](int r) { return copy_row(copy, r); }, is_own);
+  for (const std::size_t element : elements) {
+    const int r = int(row_of(packed_.lattice, element));
+    const bool own = is_own(element), is_halo_row = !packed_.is_computed(r, 0);
     if (staged_) // own rows are written whole, with the halo elements among them
-      layout.is_stable &= staged_->copies() > 1 && (is_own || is_halo_row);
+      is_stable &= staged_->copies() > 1 && (own || is_halo_row);
     else
-      layout.is_stable &= is_own ? twin != nullptr : block_of(int(place.row)).is_remote();
-    for (T* const target : {is_own && twin != nullptr ? twin : first, is_own ? nullptr : twin}) {
-      if (target == nullptr) continue;
-      T* const pack = target + std::size_t(place.pack) * fields * W;
-      for (std::size_t f = 0; f < fields; ++f)
-        for (std::size_t l = 0; l < lanes.size(); ++l)
-          add(pack + f * W + lanes[l], layout.size + (f * lanes.size() + l) * number, number);
-    }
-    layout.size += fields * lanes.size() * number;
+      is_stable &= own ? copy_row(copy, r).second != nullptr : block_of(r).is_remote();
   }
+  layout.is_stable = is_stable;
   return layout;
 }
 
@@ -155,107 +130,39 @@ void RowExecutor<T>::publish_all() {
 }
 
 template <class T>
-template <class Visit>
-void RowExecutor<T>::each_element(std::size_t first, std::size_t count, Visit&& visit) {
-  if (count == 0) return;
-  for (std::size_t r = row_of(packed_.lattice, first); r < packed_.rows.size(); ++r) {
-    const Row& lattice_row = packed_.lattice.rows[r];
-    if (lattice_row.first_element >= first + count) break;
-    T* const packs = row(int(r));
-    each_cell(packed_.lattice, lattice_row, [&](std::size_t element, int x) {
-      if (element < first || element >= first + count) return;
-      visit(element, packs + std::ptrdiff_t(x / W - packed_.rows[r].first_pack) * stored_fields() * W + x % W);
-    });
-  }
-}
-
-template <class T>
-template <class Visit>
-void RowExecutor<T>::each_velocity(Visit&& visit) const {
-  int half = packed_.fields();
-  for (int f = 0; f < packed_.fields(); ++f) {
-    const Field field = packed_.layout.fields[std::size_t(f)];
-    if ((field >= vx && field <= vz) || field >= wx) visit(f, is_predicted() ? half++ : f);
-  }
-}
-
-template <class T>
 void RowExecutor<T>::write(std::size_t first, std::span<const double> fields) {
   stop_leapfrog();
   parity_ = 0;
-  each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
-    const double* from = &fields[(element - first) * field_count];
-    for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
-  });
+  rows_.write(first, fields);
   publish_all();
 }
 
 template <class T>
 void RowExecutor<T>::read(std::size_t first, std::span<double> fields) {
   if (is_started_ && end_rates_.empty()) end_rates_ = evaluate(end_signals_);
-  std::fill(fields.begin(), fields.end(), 0.0);
-  each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
-    const std::span<double> out = fields.subspan((element - first) * field_count, field_count);
-    for (int f = 0; f < packed_.fields(); ++f)
-      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
-    if (is_started_) read_synchronised(element, lane, out);
-  });
+  rows_.read(first, fields, is_started_ ? end_rates_.data() : nullptr);
 }
 
 template <class T>
 void RowExecutor<T>::save(std::size_t first, std::span<double> kept) {
-  const std::size_t count = std::size_t(kept_fields());
-  std::fill(kept.begin(), kept.end(), 0.0);
-  each_element(first, kept.size() / count, [&](std::size_t element, const T* lane) {
-    const std::span<double> out = kept.subspan((element - first) * count, count);
-    for (int f = 0; f < packed_.fields(); ++f)
-      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
-    if (!is_leapfrog()) return;
-    each_velocity([&](int f, int half) {
-      out[std::size_t(kept_half_velocity(packed_.layout.fields[std::size_t(f)]))] = double(lane[half * W]);
-    });
-    out[kept_is_started] = is_started_;
-  });
+  rows_.save(first, kept, is_started_);
 }
 
 template <class T>
 void RowExecutor<T>::restore(std::size_t first, std::span<const double> kept) {
-  const std::size_t count = std::size_t(kept_fields());
   end_rates_ = {};
-  each_element(first, kept.size() / count, [&](std::size_t element, T* lane) {
-    const double* from = &kept[(element - first) * count];
-    for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
-    if (!is_leapfrog()) return;
-    each_velocity(
-        [&](int f, int half) { lane[half * W] = T(from[kept_half_velocity(packed_.layout.fields[std::size_t(f)])]); });
-    is_started_ = from[kept_is_started] != 0;
-  });
+  is_started_ = rows_.restore(first, kept);
   publish_all();
-}
-
-/// v_n = v_{n-1/2} + (h / 2) a(x_n, p_n)
-template <class T>
-void RowExecutor<T>::read_synchronised(std::size_t element, const T* lane, std::span<double> out) {
-  const Place place = place_of(packed_, element);
-  const std::size_t pack = packed_.rows[place.row].pack_offset + std::size_t(place.pack);
-  const T* rates = end_rates_.data() + pack * std::size_t(packed_.fields() * W) + place.lane;
-  each_velocity([&](int f, int half) {
-    out[std::size_t(packed_.layout.fields[std::size_t(f)])] =
-        double(simd::fma(T(setup_.dt / 2), rates[f * W], lane[half * W]));
-  });
 }
 
 template <class T>
 Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
   refresh_halo();
   const FlushDenormals guard;
-  const std::size_t pack_size = std::size_t(packed_.fields() * W), stored_size = std::size_t(stored_fields() * W);
-  const std::size_t packs = packed_.rows.back().pack_offset + std::size_t(packed_.rows.back().packs) + 1;
-  Buffer<T> plain(packs * pack_size), rates(packs * pack_size), zero(std::size_t(packed_.max_packs) * pack_size);
-  const auto plain_row = [&](int r) { return plain.data() + packed_.rows[std::size_t(r)].pack_offset * pack_size; };
-  for (int r = 0; r < int(packed_.rows.size()); ++r)
-    for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
-      std::copy_n(row(r) + std::size_t(p) * stored_size, pack_size, plain_row(r) + std::size_t(p) * pack_size);
+  Buffer<T> plain(rows_.plain_size()), rates(rows_.plain_size()),
+      zero(std::size_t(packed_.max_packs) * std::size_t(packed_.fields() * W));
+  rows_.copy_plain(plain.data());
+  const auto plain_row = [&](int r) { return plain.data() + rows_.plain_offset(r); };
   ExtraLinks<T> extra_links(setup_.problem, packed_);
   extra_links.evaluate(plain_row, packed_.fields());
   StepSignals<T> values(signals.size(), 1);
@@ -266,7 +173,7 @@ Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
     set_row(task, packed_, r, packed_.fields(), carry, plain_row);
     task.signals = values.stage(0);
     task.base = zero.data(); // out = 0 + 1 f
-    task.out = rates.data() + packed_.rows[std::size_t(r)].pack_offset * pack_size;
+    task.out = rates.data() + rows_.plain_offset(r);
     task.beta = 1;
     packed_.rows[std::size_t(r)].kernels->stage(task);
   }
@@ -276,15 +183,7 @@ Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
 template <class T>
 void RowExecutor<T>::derivative(std::span<const double> signals, std::span<double> rates) {
   stop_leapfrog();
-  const Buffer<T> values = evaluate(signals);
-  std::fill(rates.begin(), rates.end(), 0.0);
-  for (std::size_t r = 0; r < packed_.rows.size(); ++r)
-    each_cell(packed_.lattice, packed_.lattice.rows[r], [&](std::size_t element, int x) {
-      const std::size_t pack = packed_.rows[r].pack_offset + std::size_t(x / W - packed_.rows[r].first_pack);
-      const T* lane = values.data() + pack * std::size_t(packed_.fields() * W) + x % W;
-      for (int f = 0; f < packed_.fields(); ++f)
-        rates[element * field_count + std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
-    });
+  rows_.rates_out(evaluate(signals).data(), rates);
 }
 
 template <class T>
@@ -297,19 +196,9 @@ void RowExecutor<T>::stop_leapfrog() {
   write(0, state);
 }
 
-/// v_{-1/2} = v_0 - (h / 2) a_0, and p_0 = v_0, which the rows hold already.
 template <class T>
 void RowExecutor<T>::start_leapfrog(std::span<const double> signals) {
-  const Buffer<T> rates = evaluate(signals);
-  for (int r = 0; r < int(packed_.rows.size()); ++r)
-    for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
-      for (int l = 0; l < W; ++l) {
-        T* lane = row(r) + std::ptrdiff_t(p) * stored_fields() * W + l;
-        const std::size_t pack = packed_.rows[std::size_t(r)].pack_offset + std::size_t(p);
-        const T* rate = rates.data() + pack * std::size_t(packed_.fields() * W) + l;
-        each_velocity(
-            [&](int f, int half) { lane[half * W] = simd::fma(T(-setup_.dt / 2), rate[f * W], lane[f * W]); });
-      }
+  rows_.start(evaluate(signals).data());
   publish_all();
 }
 

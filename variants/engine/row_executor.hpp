@@ -4,7 +4,7 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "variants/api.hpp"
 #include "variants/engine/staged.hpp"
-#include "variants/kept_state.hpp"
+#include "variants/engine/state_rows.hpp"
 
 #include <optional>
 
@@ -24,16 +24,14 @@ public:
   int halo_copies() const override { return staged_ ? staged_->copies() : 2; }
   HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) override;
   int halo_lanes() const override { return W; }
-  int kept_fields() const override { return kept_field_count(setup_.method); }
+  int kept_fields() const override { return rows_.kept_fields(); }
   void save(std::size_t first, std::span<double> kept) override;
   void restore(std::size_t first, std::span<const double> kept) override;
 
 private:
   static constexpr int W = simd::lanes<T>;
-  bool is_leapfrog() const { return setup_.method.family == Method::Family::leapfrog; }
-  /// Leapfrog rows of velocity-dependent problems hold half-step velocities behind the model's fields.
-  bool is_predicted() const { return is_leapfrog() && packed_.leapfrog_fields > packed_.fields(); }
-  int stored_fields() const { return is_leapfrog() ? packed_.leapfrog_fields : packed_.fields(); }
+  bool is_leapfrog() const { return rows_.is_leapfrog(); }
+  int stored_fields() const { return rows_.stored_fields(); }
   bool is_part() const { return part_ != nullptr; }
   void make_blocks();
   Block<T>& block_of(int r);
@@ -45,18 +43,11 @@ private:
   /// All of the halo anew, of the present state. Every part must take part.
   void refresh_halo();
   void publish_all();
-  /// Calls visit(element, lane pointer to the first field) for elements [first, first + count).
-  template <class Visit>
-  void each_element(std::size_t first, std::size_t count, Visit&& visit);
   /// Rates of all model fields, packs of packed_.fields() fields, at the present state.
   Buffer<T> evaluate(std::span<const double> signals);
-  /// Place of velocity and spin components: (index in the model's fields, index among the stored half-step velocities).
-  template <class Visit>
-  void each_velocity(Visit&& visit) const;
   void start_leapfrog(std::span<const double> signals);
   /// Velocities back from the half step to the present time, so that the state is what read() says.
   void stop_leapfrog();
-  void read_synchronised(std::size_t element, const T* lane, std::span<double> out);
   Outcome run_blocks(long steps, std::span<const double> signals);
   /// One step of a part by one thread, which sends as early and receives as late as it can.
   void step_overlapped(const double* signals, int parity, bool is_last);
@@ -65,6 +56,7 @@ private:
   const Setup setup_;
   const PartSetup* part_; ///< null for a whole problem, or a part that has no neighbours
   PackedRows<T> packed_;
+  StateRows<T> rows_;
   std::vector<Block<T>> blocks_; ///< wavefront; of a part: remote blocks first and last where it has a halo there
   std::vector<WavefrontStep<T>> steps_; ///< of each own block
   int threads_ = 1;

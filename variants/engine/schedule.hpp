@@ -62,7 +62,7 @@ void prime_upper(const PackedRows<T, W>& packed, int row, const RowTask<T>& task
   if (task.upper_z != nullptr) kernels.prime(task, 2, fields);
 }
 
-/// Calls visit(row, task, axis) for the links that rows before `begin` leave for rows from `begin` on: what a block needs before its
+/// Calls visit(row number, task, axis) for the links that rows before `begin` leave for rows from `begin` on: what a block needs before its
 /// first row.
 template <class T, int W, class Input, class Visit>
 void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input,
@@ -70,7 +70,7 @@ void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRing
   const auto prime = [&](int lower, int axis) {
     RowTask<T> task;
     set_row(task, packed, lower, fields, carry, input);
-    visit(packed.rows[std::size_t(lower)], task, axis);
+    visit(lower, task, axis);
   };
   const int rows = int(packed.rows.size());
   if (begin >= rows) return;
@@ -81,8 +81,8 @@ void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRing
 /// Computes them.
 template <class T, int W, class Input>
 void prime_links(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input) {
-  each_prime(packed, begin, fields, carry, input, [&](const PackedRow<T>& row, const RowTask<T>& task, int axis) {
-    row.kernels->prime(task, axis, fields);
+  each_prime(packed, begin, fields, carry, input, [&](int row, const RowTask<T>& task, int axis) {
+    packed.rows[std::size_t(row)].kernels->prime(task, axis, fields);
   });
 }
 

@@ -53,23 +53,30 @@ void StagedRows<T, W>::plan_rows() {
 }
 
 template <class T, int W>
+RowTask<T> StagedRows<T, W>::task_of(int thread, int stage, int r, bool is_whole) {
+  RowTask<T> task;
+  set_row(task, packed_, r, fields_, carry_[std::size_t(thread)], [&](int row) { return stage_row(stage, row); });
+  if (!is_whole) return task;
+  const bool is_last = stage + 1 == method_.stages;
+  T* const out = is_swapped() ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(stage + 1, r);
+  updates_[std::size_t(stage)].set(task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); });
+  return task;
+}
+
+template <class T, int W>
 void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows) {
   const bool is_leapfrog = method_.family == Method::Family::leapfrog, is_last = stage + 1 == method_.stages;
-  CarryRings<T>& carry = carry_[std::size_t(thread)];
   for (const RowAction& action : rows) {
     const int r = action.row;
-    RowTask<T> task;
-    set_row(task, packed_, r, fields_, carry, [&](int row) { return stage_row(stage, row); });
+    RowTask<T> task = task_of(thread, stage, r, action.is_whole);
     if (!action.is_whole) {
       prime_upper(packed_, r, task, fields_);
       continue;
     }
     task.signals = signals.stage(stage);
-    T* const out = is_swapped() ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(stage + 1, r);
-    updates_[std::size_t(stage)].set(task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); });
     const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
     const bool is_finite = is_leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
-    if (!is_finite && is_last && failed_rows_[std::size_t(thread)] < 0 && packed_.first_failed(r, out, fields_))
+    if (!is_finite && is_last && failed_rows_[std::size_t(thread)] < 0 && packed_.first_failed(r, task.out, fields_))
       failed_rows_[std::size_t(thread)] = r;
   }
 }

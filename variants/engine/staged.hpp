@@ -49,6 +49,22 @@ public:
   /// With a part, the halo of the first stage's input has been sent; that of the next step's is, unless this is the last.
   template <class Synchronise>
   void step(int thread, const StepSignals<T>& signals, bool is_last_step, Synchronise&& synchronise);
+  /// Calls visit(row, is_whole, task) for all that a thread does in a stage, in its order.
+  template <class Visit>
+  void each_task(int thread, int stage, Visit&& visit) {
+    for (const RowActions* rows : {&plan_[std::size_t(thread)][std::size_t(stage)].inner,
+                                   &plan_[std::size_t(thread)][std::size_t(stage)].outer})
+      for (const RowAction& action : *rows)
+        visit(action.row, action.is_whole, task_of(thread, stage, action.row, action.is_whole));
+  }
+  /// The input of a stage, or the output of the one before.
+  T* stage_row(int stage, int r) { return buffer_row(std::size_t(is_swapped() ? stage ^ parity_ : stage), r); }
+  /// Method of one stage: it reads neighbours while it writes, so output and state change places.
+  bool is_swapped() const { return method_.stages == 1; }
+  void swap() { parity_ ^= 1; }
+  /// Whether parts exchange the input of a stage, and as which copy.
+  bool is_exchanged(int stage) const { return exchange_ != nullptr && (stage == 0 || exchange_->is_every_stage); }
+  int copy_of(int stage) const { return is_swapped() ? parity_ : stage; }
   int failed_row() const;
   void forget_failures() { std::fill(failed_rows_.begin(), failed_rows_.end(), -1); }
   std::size_t bytes() const;
@@ -65,18 +81,14 @@ private:
   struct StageRows {
     RowActions inner, outer;
   };
-  /// Method of one stage: it reads neighbours while it writes, so output and state change places.
-  bool is_swapped() const { return method_.stages == 1; }
   T* buffer_row(std::size_t buffer, int r) {
     return stages_[buffer].data() + packed_.rows[std::size_t(r)].pack_offset * pack_size_;
   }
-  T* stage_row(int stage, int r) { return buffer_row(std::size_t(is_swapped() ? stage ^ parity_ : stage), r); }
   template <class IsComputed>
   RowActions actions(int begin, int end, IsComputed&& is_computed) const;
   void plan_rows();
+  RowTask<T> task_of(int thread, int stage, int r, bool is_whole);
   void compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows);
-  bool is_exchanged(int stage) const { return exchange_ != nullptr && (stage == 0 || exchange_->is_every_stage); }
-  int copy_of(int stage) const { return is_swapped() ? parity_ : stage; }
 
   PackedRows<T, W>& packed_;
   const Method& method_;
@@ -148,7 +160,7 @@ void StagedRows<T, W>::step(int thread, const StepSignals<T>& signals, bool is_l
     compute(thread, s, signals, rows.outer);
     synchronise();
     if (is_last && is_swapped()) {
-      if (thread == 0) parity_ ^= 1;
+      if (thread == 0) swap();
       synchronise();
     }
     const int next = is_last ? 0 : s + 1;

@@ -145,9 +145,11 @@ auto WavefrontStep<T, W>::make_sweeps(const Method& method, int steps, const std
       T* const base = state_row(r, parity);
       updates[std::size_t(s)].set(task, base, is_last ? base : block_.ring_row(s, r),
                                   [&](int m) { return block_.ring_row(m, r); });
-      const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
-      const RowKernel kernel = is_leapfrog ? kernels.leapfrog : kernels.stage_kernel(task.has_increments);
-      sweep.rows.push_back({packed_.is_computed(r, stages_ - 1 - s) ? kernel : nullptr, task});
+      const KernelSet<T>* kernels = packed_.rows[std::size_t(r)].kernels;
+      const RowKernel kernel = kernels == nullptr ? nullptr
+                               : is_leapfrog      ? kernels->leapfrog
+                                                  : kernels->stage_kernel(task.has_increments);
+      sweep.rows.push_back({packed_.is_computed(r, stages_ - 1 - s), kernel, task});
     }
     sweeps.push_back(std::move(sweep));
   }
@@ -179,7 +181,7 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
                     [&](int row) { return input_row(s, row, parity); });
       const RowStage& row = sweep.rows[std::size_t(r - sweep.begin)];
       const bool is_last = s + 1 == stages_;
-      if (row.kernel == nullptr) {
+      if (!row.is_whole) {
         prime_upper(packed_, r, row.task, fields_);
       } else if (!row.kernel(row.task) && is_last && packed_.first_failed(r, block_.row(r), fields_)) {
         block_.failed_row = r, block_.failed_step = n / stages_, count = n;

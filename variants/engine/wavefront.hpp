@@ -124,11 +124,16 @@ public:
     watched_row_done_ = std::move(done);
   }
   std::size_t bytes() const;
+  /// Describes the pass of a parity to one who computes it elsewhere, sweep by sweep: sweep(begin, end), prime(row, task, axis) for what
+  /// must come before the first row, row(number, is_whole, task).
+  template <class OnSweep, class OnPrime, class OnRow>
+  void describe(int parity, OnSweep&& on_sweep, OnPrime&& on_prime, OnRow&& on_row);
 
 private:
   using RowKernel = bool (*)(const RowTask<T>&);
   struct RowStage {
-    RowKernel kernel; ///< null: this stage needs no more of the row than its links to upper rows
+    bool is_whole;    ///< else this stage needs no more of the row than its links to upper rows
+    RowKernel kernel; ///< null on devices
     RowTask<T> task;
   };
   /// One stage of one step over rows [begin, end): the block, and what the step's later stages read on either side.
@@ -153,5 +158,21 @@ private:
   int watched_row_ = -1;
   std::function<void()> watched_row_done_;
 };
+
+template <class T, int W>
+template <class OnSweep, class OnPrime, class OnRow>
+void WavefrontStep<T, W>::describe(int parity, OnSweep&& on_sweep, OnPrime&& on_prime, OnRow&& on_row) {
+  const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
+  for (std::size_t n = 0; n < sweeps.size(); ++n) {
+    const Sweep& sweep = sweeps[n];
+    on_sweep(sweep.begin, sweep.end);
+    if (sweep.begin > 0)
+      each_prime(
+          packed_, sweep.begin, fields_, block_.carry[n],
+          [&](int row) { return input_row(int(n) % stages_, row, parity); }, on_prime);
+    for (std::size_t r = 0; r < sweep.rows.size(); ++r)
+      on_row(sweep.begin + int(r), sweep.rows[r].is_whole, sweep.rows[r].task);
+  }
+}
 
 } // namespace dss

@@ -1,20 +1,30 @@
-#include "solver/error.hpp"
+/// Entry point of both variants: DSS_OPENCL_EXECUTOR is the executor of each, from CMake.
 #include "variants/api.hpp"
-#include "variants/opencl/device.hpp"
+#include "variants/opencl/resident_executor.hpp"
+#include "variants/opencl/rhs_executor.hpp"
 
 namespace dss {
 namespace {
 
+template <class T>
+std::unique_ptr<Executor> create_for(const Setup& setup, const opencl::Device& device, const opencl::Layout& layout) {
+  return opencl::with_lanes<T>(layout.lanes, [&](auto lanes) -> std::unique_ptr<Executor> {
+    return std::make_unique<opencl::DSS_OPENCL_EXECUTOR<T, lanes>>(setup, device, layout);
+  });
+}
+
 std::unique_ptr<Executor> create(const Setup& setup) {
-  opencl::find_device(setup.device, setup.precision);
-  throw InputError("variant " DSS_VARIANT ": not built yet");
+  const opencl::Device device = opencl::find_device(setup.device, setup.precision);
+  const opencl::Layout layout = opencl::layout_on(device, setup.precision, setup.threads);
+  if (setup.precision == Precision::f32) return create_for<float>(setup, device, layout);
+  return create_for<double>(setup, device, layout);
 }
 
 constexpr Plugin plugin = {.abi = plugin_abi,
                            .name = DSS_VARIANT,
                            .isa = "OpenCL C 1.2",
                            .has_fma = true,
-                           .is_threaded = false,
+                           .is_threaded = true,
                            .is_distributed = false,
                            .create = create,
                            .kernels = nullptr,

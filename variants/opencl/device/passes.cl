@@ -31,11 +31,12 @@ static void publish(device d, global const row_stage* task) {
 
 /* One pass of the wavefront over each block's rows (variants/engine/wavefront.cpp): sweep n is n * lag rows behind the first. */
 kernel void run_pass(TABLES, global const sweep* sweeps, global const NUMBER* signals, global int* failed,
-                     const int first_block, const int most_sweeps, const int parity, const int sweep_count,
+                     const int first_stage_number, const int most_sweeps, const int parity, const int sweep_count,
                      const int first_step, const int stages, const int lag, const int signal_width) {
   const device d = DEVICE;
-  const int block = first_block + BLOCK;
+  const int block = BLOCK;
   if (failed[0] < first_step) return;
+  signals += first_stage_number * signal_width;
   global const sweep* own = sweeps + (block * 2 + parity) * most_sweeps;
   int count = sweep_count; /* after a failure only sweeps of earlier steps, which may fail as well */
   const int end = own[count - 1].end + (count - 1) * lag;
@@ -60,12 +61,12 @@ kernel void run_pass(TABLES, global const sweep* sweeps, global const NUMBER* si
 
 /* Lists of rows, in their order: a stage of all rows, or their rates. `lists`: places of first and last plus one in tasks. */
 kernel void run_rows(TABLES, global const int2* lists, global const NUMBER* signals, global int* failed,
-                     const int first_list, const int step, const int is_last_stage) {
+                     const int first_signal, const int step, const int is_last_stage) {
   const device d = DEVICE;
-  const int2 list = lists[first_list + BLOCK];
+  const int2 list = lists[BLOCK];
   if (failed[0] < step) return;
   for (int n = list.x; n < list.y; ++n) {
-    const bool is_finite = run_task(d, tasks + n, signals);
+    const bool is_finite = run_task(d, tasks + n, signals + first_signal);
     if (is_last_stage && !is_finite && tasks[n].action > first_stage && has_failed(d, tasks + n))
       record_failure(failed, BLOCK, step, tasks[n].row);
   }

@@ -1,0 +1,134 @@
+#include "variants/engine/state_rows.hpp"
+
+#include "variants/engine/packs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dss {
+
+template <class T, int W>
+template <class Visit>
+void StateRows<T, W>::each_element(std::size_t first, std::size_t count, Visit&& visit) {
+  if (count == 0) return;
+  for (std::size_t r = row_of(packed_.lattice, first); r < packed_.rows.size(); ++r) {
+    const Row& lattice_row = packed_.lattice.rows[r];
+    if (lattice_row.first_element >= first + count) break;
+    T* const packs = row_(int(r));
+    each_cell(packed_.lattice, lattice_row, [&](std::size_t element, int x) {
+      if (element < first || element >= first + count) return;
+      visit(element, packs + std::ptrdiff_t(x / W - packed_.rows[r].first_pack) * stored_fields() * W + x % W);
+    });
+  }
+}
+
+template <class T, int W>
+template <class Visit>
+void StateRows<T, W>::each_velocity(Visit&& visit) const {
+  int half = packed_.fields();
+  for (int f = 0; f < packed_.fields(); ++f) {
+    const Field field = packed_.layout.fields[std::size_t(f)];
+    if ((field >= vx && field <= vz) || field >= wx) visit(f, is_predicted() ? half++ : f);
+  }
+}
+
+template <class T, int W>
+void StateRows<T, W>::write(std::size_t first, std::span<const double> fields) {
+  each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
+    const double* from = &fields[(element - first) * field_count];
+    for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
+  });
+}
+
+// The product and the sum are rounded once, as a fused multiply-add: in all variants alike.
+template <class T, int W>
+void StateRows<T, W>::read(std::size_t first, std::span<double> fields, const T* end_rates) {
+  std::fill(fields.begin(), fields.end(), 0.0);
+  each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
+    const std::span<double> out = fields.subspan((element - first) * field_count, field_count);
+    for (int f = 0; f < packed_.fields(); ++f)
+      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
+    if (end_rates == nullptr) return;
+    const Place place = place_of(packed_, element);
+    const std::size_t pack = packed_.rows[place.row].pack_offset + std::size_t(place.pack);
+    const T* const rates = end_rates + pack * std::size_t(packed_.fields() * W) + place.lane;
+    each_velocity([&](int f, int half) {
+      out[std::size_t(packed_.layout.fields[std::size_t(f)])] =
+          double(simd::fma(half_step_, rates[f * W], lane[half * W]));
+    });
+  });
+}
+
+template <class T, int W>
+void StateRows<T, W>::save(std::size_t first, std::span<double> kept, bool is_started) {
+  const std::size_t count = std::size_t(kept_fields());
+  std::fill(kept.begin(), kept.end(), 0.0);
+  each_element(first, kept.size() / count, [&](std::size_t element, const T* lane) {
+    const std::span<double> out = kept.subspan((element - first) * count, count);
+    for (int f = 0; f < packed_.fields(); ++f)
+      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
+    if (!is_leapfrog()) return;
+    each_velocity([&](int f, int half) {
+      out[std::size_t(kept_half_velocity(packed_.layout.fields[std::size_t(f)]))] = double(lane[half * W]);
+    });
+    out[kept_is_started] = is_started;
+  });
+}
+
+template <class T, int W>
+bool StateRows<T, W>::restore(std::size_t first, std::span<const double> kept) {
+  const std::size_t count = std::size_t(kept_fields());
+  bool is_started = false;
+  each_element(first, kept.size() / count, [&](std::size_t element, T* lane) {
+    const double* from = &kept[(element - first) * count];
+    for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
+    if (!is_leapfrog()) return;
+    each_velocity(
+        [&](int f, int half) { lane[half * W] = T(from[kept_half_velocity(packed_.layout.fields[std::size_t(f)])]); });
+    is_started = from[kept_is_started] != 0;
+  });
+  return is_started;
+}
+
+template <class T, int W>
+std::size_t StateRows<T, W>::plain_size() const {
+  const std::size_t packs = packed_.rows.back().pack_offset + std::size_t(packed_.rows.back().packs) + 1;
+  return packs * std::size_t(packed_.fields() * W);
+}
+
+template <class T, int W>
+void StateRows<T, W>::copy_plain(T* plain) {
+  const std::size_t pack_size = std::size_t(packed_.fields() * W), stored_size = std::size_t(stored_fields() * W);
+  for (int r = 0; r < int(packed_.rows.size()); ++r)
+    for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
+      std::copy_n(row_(r) + std::size_t(p) * stored_size, pack_size,
+                  plain + plain_offset(r) + std::size_t(p) * pack_size);
+}
+
+template <class T, int W>
+void StateRows<T, W>::rates_out(const T* rates, std::span<double> out) const {
+  std::fill(out.begin(), out.end(), 0.0);
+  for (std::size_t r = 0; r < packed_.rows.size(); ++r)
+    each_cell(packed_.lattice, packed_.lattice.rows[r], [&](std::size_t element, int x) {
+      const T* const lane = plain_lane(rates, r, x);
+      for (int f = 0; f < packed_.fields(); ++f)
+        out[element * field_count + std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
+    });
+}
+
+template <class T, int W>
+void StateRows<T, W>::start(const T* rates) {
+  for (int r = 0; r < int(packed_.rows.size()); ++r)
+    for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
+      for (int l = 0; l < W; ++l) {
+        T* const lane = row_(r) + std::ptrdiff_t(p) * stored_fields() * W + l;
+        const T* const rate = rates + plain_offset(r) + std::size_t(p) * std::size_t(packed_.fields() * W) + l;
+        each_velocity([&](int f, int half) { lane[half * W] = simd::fma(-half_step_, rate[f * W], lane[f * W]); });
+      }
+}
+
+#define DSS_INSTANTIATE(T, W) template class StateRows<T, W>;
+DSS_EACH_PACK(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
+
+} // namespace dss

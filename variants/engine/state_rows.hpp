@@ -1,0 +1,107 @@
+#pragma once
+/// The state of an executor, held as rows of packs, in and out: as fields, as what a method keeps, as messages.
+#include "solver/numerics/method.hpp"
+#include "variants/engine/packed_rows.hpp"
+#include "variants/halo.hpp"
+#include "variants/kept_state.hpp"
+
+#include <functional>
+#include <span>
+
+namespace dss {
+
+template <class T, int W = simd::lanes<T>>
+class StateRows {
+public:
+  using RowAddress = std::function<T*(int)>;
+  /// @param row  address of any row's present state  @param packed, method  outlive it
+  StateRows(const PackedRows<T, W>& packed, const Method& method, double dt, RowAddress row)
+      : packed_(packed), method_(method), half_step_(T(dt / 2)), row_(std::move(row)) {}
+
+  bool is_leapfrog() const { return method_.family == Method::Family::leapfrog; }
+  /// Leapfrog rows of velocity-dependent problems hold half-step velocities behind the model's fields.
+  bool is_predicted() const { return is_leapfrog() && packed_.leapfrog_fields > packed_.fields(); }
+  /// Fields that a pack of the state holds.
+  int stored_fields() const { return is_leapfrog() ? packed_.leapfrog_fields : packed_.fields(); }
+
+  /// As Executor::write and read. `end_rates`: null, or rates at the end of a leapfrog's last step, whose velocities are those of the
+  /// half step before: v_n = v_{n-1/2} + (h / 2) a(x_n, p_n).
+  void write(std::size_t first, std::span<const double> fields);
+  void read(std::size_t first, std::span<double> fields, const T* end_rates);
+  /// As Executor::save and restore; `is_started`: the leapfrog has its half-step velocities.
+  int kept_fields() const { return kept_field_count(method_); }
+  void save(std::size_t first, std::span<double> kept, bool is_started);
+  bool restore(std::size_t first, std::span<const double> kept);
+
+  /// Numbers of a buffer of plain packs, the model's fields alone, row after row, with one pack behind the last.
+  std::size_t plain_size() const;
+  std::size_t plain_offset(int r) const {
+    return packed_.rows[std::size_t(r)].pack_offset * std::size_t(packed_.fields() * W);
+  }
+  void copy_plain(T* plain);
+  /// Of plain rates: all fields of all elements.
+  void rates_out(const T* rates, std::span<double> out) const;
+  /// Leapfrog's first half step back: v_{-1/2} = v_0 - (h / 2) a_0, and p_0 = v_0, which the rows hold already.
+  void start(const T* rates);
+
+  /// Where elements lie in rows, as whole packs lie in memory: pack after pack, field after field, the elements' lanes.
+  /// @param copy_row  (row) -> address of the row, and of its twin or null  @param is_own  (element)
+  template <class CopyRow, class IsOwn>
+  HaloLayout layout(std::span<const std::size_t> elements, CopyRow&& copy_row, IsOwn&& is_own) const;
+
+private:
+  /// Calls visit(element, lane pointer to the first field) for elements [first, first + count).
+  template <class Visit>
+  void each_element(std::size_t first, std::size_t count, Visit&& visit);
+  /// Place of velocity and spin components: (index in the model's fields, index of their half-step velocities).
+  template <class Visit>
+  void each_velocity(Visit&& visit) const;
+  const T* plain_lane(const T* plain, std::size_t r, int x) const {
+    const std::size_t pack = packed_.rows[r].pack_offset + std::size_t(x / W - packed_.rows[r].first_pack);
+    return plain + pack * std::size_t(packed_.fields() * W) + x % W;
+  }
+
+  const PackedRows<T, W>& packed_;
+  const Method& method_;
+  const T half_step_;
+  const RowAddress row_;
+};
+
+template <class T, int W>
+template <class CopyRow, class IsOwn>
+HaloLayout StateRows<T, W>::layout(std::span<const std::size_t> elements, CopyRow&& copy_row, IsOwn&& is_own) const {
+  const std::size_t number = sizeof(T), fields = std::size_t(stored_fields());
+  HaloLayout layout;
+  const auto add = [&](T* at, std::size_t offset, std::size_t count) {
+    auto& pieces = layout.pieces;
+    auto* const bytes = reinterpret_cast<std::byte*>(at);
+    if (!pieces.empty() && pieces.back().at + pieces.back().count == bytes &&
+        pieces.back().offset + pieces.back().count == offset)
+      pieces.back().count += count;
+    else
+      pieces.push_back({bytes, offset, count});
+  };
+  for (std::size_t from = 0, to = 0; from < elements.size(); from = to) {
+    const Place place = place_of(packed_, elements[from]);
+    std::vector<int> lanes;
+    for (; to < elements.size(); ++to) {
+      const Place other = place_of(packed_, elements[to]);
+      if (other.row != place.row || other.pack != place.pack) break;
+      lanes.push_back(other.lane);
+    }
+    const std::pair<T*, T*> rows = copy_row(int(place.row));
+    T *const first = rows.first, *const twin = rows.second;
+    const bool own = is_own(elements[from]);
+    for (T* const target : {own && twin != nullptr ? twin : first, own ? nullptr : twin}) {
+      if (target == nullptr) continue;
+      T* const pack = target + std::size_t(place.pack) * fields * W;
+      for (std::size_t f = 0; f < fields; ++f)
+        for (std::size_t l = 0; l < lanes.size(); ++l)
+          add(pack + f * W + lanes[l], layout.size + (f * lanes.size() + l) * number, number);
+    }
+    layout.size += fields * lanes.size() * number;
+  }
+  return layout;
+}
+
+} // namespace dss

@@ -1,0 +1,211 @@
+#include "variants/opencl/device_problem.hpp"
+
+#include "variants/engine/packs.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+namespace dss::opencl {
+
+Layout layout_on(const Device& device, Precision precision, int threads) {
+  const char* const forced = std::getenv("DSSBENCH_OPENCL_AS");
+  const bool is_cpu = device.is_cpu && !(forced != nullptr && std::string_view(forced) == "gpu");
+  if (!is_cpu) return {true, 16, 2 * device.compute_units}; // one group computes while another waits for memory
+  const int narrow = precision == Precision::f64 ? 4 : 8;
+  return {false, device.vector_width(precision) > narrow ? 2 * narrow : narrow, threads};
+}
+
+template <class T, int W>
+DeviceProblem<T, W>::DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device,
+                                   const Layout& where)
+    : packed(problem, model, part, memory), layout(where), queue(device), problem_(problem), model_(model),
+      part_(part) {}
+
+template <class T, int W>
+int DeviceProblem<T, W>::shape_of(const Terms& terms) {
+  const auto found = std::find(terms_.begin(), terms_.end(), terms);
+  if (found != terms_.end()) return int(found - terms_.begin());
+  terms_.push_back(terms);
+  return int(terms_.size()) - 1;
+}
+
+template <class T, int W>
+int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, int action, int fields, const T* published) {
+  const PackedRow<T>& packed_row = packed.rows[std::size_t(r)];
+  Row row{};
+  row.in = offset(task.in);
+  row.upper_y = offset(task.upper_y), row.upper_z = offset(task.upper_z);
+  row.carry_y = offset(task.carry_y), row.carry_z = offset(task.carry_z);
+  row.from_y = offset(task.from_y), row.from_z = offset(task.from_z);
+  row.base = offset(task.base), row.out = offset(task.out);
+  for (std::size_t m = 0; m < 3; ++m) row.increment[m] = offset(task.increment[m]), row.alpha[m] = task.alpha[m];
+  row.published = offset(published);
+  row.action = action;
+  row.shape = shape_of(packed_row.shape.terms);
+  row.body = packed.lattice.rows[std::size_t(r)].body;
+  row.applied = packed_row.applied == nullptr ? -1 : r;
+  row.packs = packed_row.packs, row.first_pack = packed_row.first_pack;
+  row.masks = int(packed_row.pack_offset);
+  row.fields = fields;
+  row.row = r;
+  row.beta = task.beta;
+  rows_.push_back(row);
+  return int(rows_.size()) - 1;
+}
+
+template <class T, int W>
+template <class Item>
+Buffer DeviceProblem<T, W>::table(const std::vector<Item>& items) const {
+  static const Item none{};
+  const Item* const data = items.empty() ? &none : items.data(); // a buffer cannot be empty
+  return queue.make_buffer(std::max<std::size_t>(1, items.size()) * sizeof(Item),
+                           CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, const_cast<Item*>(data));
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::make_constant_tables() {
+  using K = Tables<T>;
+  std::vector<typename K::body_constants> bodies(problem_.bodies.size());
+  std::vector<typename K::pack_masks> masks;
+  std::vector<typename K::applied_row> applied(packed.rows.size());
+  std::vector<typename K::pattern> patterns;
+  std::vector<ushort> free_lanes;
+  for (std::size_t r = 0; r < packed.rows.size(); ++r) {
+    const PackedRow<T>& row = packed.rows[r];
+    static_assert(sizeof(typename K::body_constants) == sizeof(BodyConstants<T>)); // members of one header
+    std::memcpy(&bodies[std::size_t(packed.lattice.rows[r].body)], row.body, sizeof(BodyConstants<T>));
+    for (int p = 0; p < row.packs; ++p) {
+      const PackMasks& m = row.masks[p];
+      masks.push_back({m.link_x, m.link_y, m.link_z, m.below_y, m.below_z, 0});
+    }
+    each_cell(packed.lattice, packed.lattice.rows[r], [&](std::size_t element, int x) {
+      if (part_ == nullptr || part_->layer[element] == 0)
+        masks[row.pack_offset + std::size_t(x / W - row.first_pack)].own |= ushort(1u << (x % W));
+    });
+    if (row.applied == nullptr) continue;
+    const Applied<T>& a = *row.applied;
+    applied[r] = {a.first, a.packs, int(patterns.size()), a.pattern_count,
+                  a.free_lanes == nullptr ? -1 : int(free_lanes.size())};
+    for (int n = 0; n < a.pattern_count; ++n)
+      patterns.push_back({offset(a.patterns[n].values), a.patterns[n].signal, a.patterns[n].first, a.patterns[n].packs});
+    if (a.free_lanes != nullptr)
+      free_lanes.insert(free_lanes.end(), a.free_lanes, a.free_lanes + std::size_t(a.packs) * packed.layout.wrench.size());
+  }
+  bodies_ = table(bodies), masks_ = table(masks), applied_ = table(applied), patterns_ = table(patterns);
+  free_lanes_ = table(free_lanes);
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::finish(int leapfrog_fields, bool has_rates) {
+  const Device& device = queue.device();
+  ProgramKind kind{model_, sizeof(T) == 8 ? Precision::f64 : Precision::f32,
+                   W,      layout.has_items,
+                   false,  has_rates,
+                   packed.fields(), terms_};
+  kind.has_leapfrog = leapfrog_fields > 0;
+  if (kind.has_leapfrog) kind.leapfrog_fields = leapfrog_fields;
+  program_ = build_program(device, row_program(kind));
+  build_s_ += program_.build_s, is_cached_ &= program_.is_cached;
+  if (has_extra_links()) {
+    extra_program_ = build_program(device, extra_link_program(kind));
+    build_s_ += extra_program_.build_s, is_cached_ &= extra_program_.is_cached;
+    extra_table_ = table(extra_);
+    extra_kernel_ = queue.make_kernel(extra_program_, "evaluate_extra_links");
+  }
+  make_constant_tables();
+  row_table_ = table(rows_);
+  arena_ = device.is_unified ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.start())
+                             : queue.make_buffer(memory.bytes());
+  if (!device.is_unified) queue.write(arena_, 0, {memory.start(), memory.bytes()});
+  if (layout.has_items) {
+    const std::size_t packs = std::size_t(packed.packs_across), most = 256;
+    group_size_ = std::min(packs * W, std::min(most, kernel("run_pass").handle().template getWorkGroupInfo<
+                                                         CL_KERNEL_WORK_GROUP_SIZE>(device.handle) / W * W));
+  }
+}
+
+template <class T, int W>
+Kernel DeviceProblem<T, W>::kernel(const char* name) const {
+  Kernel kernel = queue.make_kernel(program_, name);
+  kernel.set(arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_);
+  return kernel;
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::launch(const Kernel& kernel, int bands) {
+  queue.launch(kernel, cl::NDRange(std::size_t(bands) * group_size_), cl::NDRange(group_size_));
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::to_host(std::span<const Range> ranges) {
+  if (queue.device().is_unified) {
+    if (mapping_ == nullptr)
+      mapping_.reset(new Mapping(queue.map(arena_, 0, arena_.bytes(), CL_MAP_READ | CL_MAP_WRITE)));
+    return;
+  }
+  for (const Range& range : ranges) {
+    auto* const from = reinterpret_cast<std::byte*>(const_cast<T*>(range.from));
+    const std::size_t bytes = std::size_t(range.to - range.from) * sizeof(T);
+    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes}, &range == &ranges.back() ? Wait::yes : Wait::no);
+  }
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::to_device(std::span<const Range> ranges) {
+  mapping_.reset();
+  if (queue.device().is_unified) return;
+  for (const Range& range : ranges) {
+    const auto* const from = reinterpret_cast<const std::byte*>(range.from);
+    queue.write(arena_, std::size_t(from - memory.start()), {from, std::size_t(range.to - range.from) * sizeof(T)},
+                &range == &ranges.back() ? Wait::yes : Wait::no);
+  }
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::set_signals(std::span<const double> rows, std::size_t width) {
+  signal_values_.clear();
+  for (std::size_t at = 0; at < rows.size(); at += width) {
+    for (std::size_t n = 0; n < width; ++n) signal_values_.push_back(T(rows[at + n]));
+    signal_values_.push_back(T(1));
+  }
+  const std::size_t bytes = signal_values_.size() * sizeof(T);
+  if (signals_.bytes() < bytes) signals_ = queue.make_buffer(bytes, CL_MEM_READ_ONLY);
+  queue.write(signals_, 0, std::as_bytes(std::span(signal_values_)));
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::add_extra_links(const Problem& problem, int fields) {
+  const int components = int(packed.layout.wrench.size());
+  for (const ExtraLink& link : problem.extra_links) {
+    const ExtraLinkConstants<T> c = extra_link_constants<T>(problem, link);
+    const Place i = place_of(packed, link.i), j = place_of(packed, link.j);
+    const auto lane = [](const Place& place, int numbers) { return place.pack * numbers * W + place.lane; };
+    typename Tables<T>::extra_link entry{};
+    entry.is_material = c.is_material, entry.axis = c.axis;
+    entry.row_i = int(i.row), entry.row_j = int(j.row);
+    entry.lane_i = lane(i, fields), entry.lane_j = lane(j, fields);
+    entry.wrench_i = offset(packed.extra_wrench(i.row)) + lane(i, components);
+    entry.wrench_j = offset(packed.extra_wrench(j.row)) + lane(j, components);
+    entry.edge_i = c.edge_i, entry.edge_j = c.edge_j, entry.unit = c.unit;
+    std::memcpy(&entry.body, &c.body, sizeof entry.body);
+    extra_.push_back(entry);
+  }
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::evaluate_extra_links(const Buffer& row_starts) {
+  extra_kernel_.set(arena_, extra_table_, cl_int(extra_.size()), row_starts);
+  queue.launch(extra_kernel_, cl::NDRange(1), cl::NDRange(1));
+}
+
+#define DSS_INSTANTIATE(T, W)                                                                                          \
+  template class DeviceProblem<T, W>;                                                                                  \
+  template Buffer DeviceProblem<T, W>::table(const std::vector<cl_int2>&) const;                                       \
+  template Buffer DeviceProblem<T, W>::table(const std::vector<cl_long>&) const;                                       \
+  template Buffer DeviceProblem<T, W>::table(const std::vector<Tables<T>::sweep>&) const;
+DSS_EACH_PACK(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
+
+} // namespace dss::opencl

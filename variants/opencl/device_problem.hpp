@@ -1,0 +1,126 @@
+#pragma once
+/// A problem on a device: rows of packs in an arena, tables of what to do with them, and the program that does it.
+#include "variants/engine/packed_rows.hpp"
+#include "variants/engine/staged.hpp"
+#include "variants/opencl/arena.hpp"
+#include "variants/opencl/queue.hpp"
+#include "variants/opencl/source.hpp"
+
+#include <climits>
+#include <memory>
+#include <span>
+
+namespace dss::opencl {
+
+using uint = unsigned;
+using ushort = unsigned short;
+
+/// The tables of device/tables.h.
+template <class T>
+struct Tables {
+#define NUMBER T
+#include "variants/opencl/device/tables.h"
+#undef NUMBER
+};
+
+/// Where bands of rows are computed. A GPU gets work-groups, a CPU work-items.
+struct Layout {
+  bool has_items = false;
+  int lanes = 1;
+  int bands = 1; ///< at most: there may be fewer rows
+};
+/// For a device. With DSSBENCH_OPENCL_AS=gpu in the environment a CPU is treated as a GPU: to test that path.
+Layout layout_on(const Device& device, Precision precision, int threads);
+
+template <class T, int W>
+class DeviceProblem {
+public:
+  using Row = typename Tables<T>::row_stage;
+  DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device, const Layout& layout);
+  DeviceProblem(const DeviceProblem&) = delete;
+  DeviceProblem& operator=(const DeviceProblem&) = delete;
+
+  Arena memory; ///< of all buffers that rows and tasks name
+  PackedRows<T, W> packed;
+  const Layout layout;
+  mutable Queue queue;
+
+  long offset(const T* at) const {
+    return at == nullptr ? -1 : at - reinterpret_cast<const T*>(memory.start());
+  }
+  /// Adds to the table of row stages. @return its place there
+  int add(const RowTask<T>& task, int row, int action, int fields, const T* published = nullptr);
+  int next_place() const { return int(rows_.size()); }
+  /// Action of a whole row of a stage.
+  static int action_of(const RowTask<T>& task, const Method& method) {
+    if (method.family == Method::Family::leapfrog) return Tables<T>::leapfrog_step;
+    return task.has_increments ? Tables<T>::later_stage : Tables<T>::first_stage;
+  }
+
+  /// Everything is in the arena and the tables: makes the program, gives the device its memory.
+  /// @param leapfrog_fields  0: no leapfrog  @param has_rates  rows with the action `rates` are in the table
+  void finish(int leapfrog_fields, bool has_rates);
+  /// A kernel with the tables as its first arguments.
+  Kernel kernel(const char* name) const;
+  static constexpr cl_uint table_arguments = 7;
+
+  /// Launches a kernel over bands.
+  void launch(const Kernel& kernel, int bands);
+  /// The host may use the arena until to_device(). Discrete devices copy [from, to) of these ranges.
+  struct Range {
+    const T *from, *to;
+  };
+  void to_host(std::span<const Range> ranges);
+  void to_device(std::span<const Range> ranges);
+  const opencl::Buffer& arena() const { return arena_; }
+
+  /// Signals of some stages, with a constant 1 behind each (StepSignals).
+  void set_signals(std::span<const double> rows, std::size_t width);
+  const opencl::Buffer& signals() const { return signals_; }
+  /// Links outside the grid, with the rows of a copy as they are at their place in `row_starts`; then kernel(...)s add them.
+  void add_extra_links(const Problem& problem, int fields);
+  bool has_extra_links() const { return !extra_.empty(); }
+  void evaluate_extra_links(const opencl::Buffer& row_starts);
+  template <class Item>
+  opencl::Buffer table(const std::vector<Item>& items) const;
+
+  double build_s() const { return build_s_; }
+  bool is_cached() const { return is_cached_; }
+  std::size_t bytes() const { return memory.bytes() + rows_.size() * sizeof(Row); }
+
+private:
+  int shape_of(const Terms& terms);
+  void make_constant_tables();
+  const Problem& problem_;
+  const Model model_;
+  const Part* part_;
+  std::vector<Terms> terms_;
+  std::vector<Row> rows_;
+  std::vector<typename Tables<T>::extra_link> extra_;
+  opencl::Buffer arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_, extra_table_, signals_;
+  Program program_, extra_program_;
+  Kernel extra_kernel_;
+  std::unique_ptr<Mapping> mapping_; ///< while the host has the arena of a device that shares the host's memory
+  std::vector<T> signal_values_;
+  std::size_t group_size_ = 1;
+  double build_s_ = 0;
+  bool is_cached_ = true;
+};
+
+template <class T, int W>
+DeviceUse use_of(const DeviceProblem<T, W>& problem) {
+  const Counts& counts = problem.queue.counts();
+  return {problem.queue.device().entry, problem.build_s(),       problem.is_cached(), counts.launches,
+          counts.to_device_bytes,       counts.from_device_bytes, counts.transfer_s,   problem.queue.empty_launch_s()};
+}
+
+/// Calls visit(std::integral_constant<int, W>) for the lanes of a layout.
+template <class T, class Visit>
+auto with_lanes(int lanes, Visit&& visit) {
+  if constexpr (sizeof(T) == 8)
+    if (lanes == 4) return visit(std::integral_constant<int, 4>{});
+  if (lanes == 8) return visit(std::integral_constant<int, 8>{});
+  return visit(std::integral_constant<int, 16>{});
+}
+
+} // namespace dss::opencl

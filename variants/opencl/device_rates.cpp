@@ -1,0 +1,72 @@
+#include "variants/opencl/device_rates.hpp"
+
+#include "variants/engine/packs.hpp"
+
+namespace dss::opencl {
+
+template <class T, int W>
+DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* part, const Device& device,
+                               const Layout& layout, bool is_scaled)
+    : device_(problem, model, part, device, layout) {
+  PackedRows<T, W>& packed = device_.packed;
+  packed.own_begin = 0, packed.own_end = int(packed.rows.size()); // of the halo too: whoever asks knows what counts
+  const int fields = packed.fields();
+  const std::size_t packs = packed.rows.back().pack_offset + std::size_t(packed.rows.back().packs) + 1;
+  const std::size_t pack_size = std::size_t(fields * W);
+  plain_ = dss::Buffer<T>(packs * pack_size, packed.memory);
+  rates_ = dss::Buffer<T>(packs * pack_size, packed.memory);
+  zero_ = dss::Buffer<T>(std::size_t(packed.max_packs + 1) * pack_size, packed.memory);
+  const auto row_of = [&](dss::Buffer<T>& rows, int r) {
+    return rows.data() + packed.rows[std::size_t(r)].pack_offset * pack_size;
+  };
+  const auto in = [&](int r) { return row_of(plain_, r); };
+  const std::vector<int> cuts = cut_rows(packed, layout.bands);
+  for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
+    CarryRings<T>& carry = carry_.emplace_back(packed);
+    const int begin = device_.next_place();
+    if (cuts[b] > 0)
+      each_prime(packed, cuts[b], fields, carry, in, [&](int r, const RowTask<T>& task, int axis) {
+        device_.add(task, r, axis == 1 ? Tables<T>::prime_y : Tables<T>::prime_z, fields);
+      });
+    for (int r = cuts[b]; r < cuts[b + 1]; ++r) {
+      RowTask<T> task;
+      set_row(task, packed, r, fields, carry, in);
+      task.base = zero_.data(); // out = 0 + 1 f
+      task.out = row_of(rates_, r);
+      task.beta = 1;
+      device_.add(task, r, is_scaled ? Tables<T>::first_stage : Tables<T>::rates, fields);
+    }
+    lists_.push_back({{begin, device_.next_place()}});
+  }
+  device_.add_extra_links(problem, fields);
+  device_.finish(0, !is_scaled);
+  list_table_ = device_.table(lists_);
+  std::vector<cl_long> starts;
+  for (int r = 0; r < int(packed.rows.size()); ++r) starts.push_back(device_.offset(in(r)));
+  row_starts_ = device_.table(starts);
+  failed_ = device_.table(std::vector<cl_int2>(lists_.size() + 1, cl_int2{{INT_MAX, INT_MAX}}));
+  kernel_ = device_.kernel("run_rows");
+}
+
+template <class T, int W>
+void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals, T* rates) {
+  Queue& queue = device_.queue;
+  const auto place = [&](const dss::Buffer<T>& buffer) { return std::size_t(device_.offset(buffer.data())) * sizeof(T); };
+  const std::size_t bytes = plain_.bytes();
+  device_.set_signals(signals, signals.size());
+  queue.write(device_.arena(), place(plain_), {reinterpret_cast<const std::byte*>(plain), bytes});
+  if (device_.has_extra_links()) device_.evaluate_extra_links(row_starts_);
+  cl_uint n = DeviceProblem<T, W>::table_arguments;
+  kernel_.set_one(n++, list_table_);
+  kernel_.set_one(n++, device_.signals());
+  kernel_.set_one(n++, failed_);
+  for (const cl_int value : {0, 0, 0}) kernel_.set_one(n++, value); // first list, step, is_last_stage
+  device_.launch(kernel_, bands());
+  queue.read(device_.arena(), place(rates_), {reinterpret_cast<std::byte*>(rates), bytes});
+}
+
+#define DSS_INSTANTIATE(T, W) template class DeviceRates<T, W>;
+DSS_EACH_PACK(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
+
+} // namespace dss::opencl

@@ -1,0 +1,382 @@
+#include "variants/opencl/resident_executor.hpp"
+
+#include "variants/engine/packs.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace dss::opencl {
+
+static const PartSetup* part_with_neighbours(const PartSetup* setup) {
+  return setup == nullptr || setup->part.neighbours.empty() ? nullptr : setup;
+}
+
+template <class T, int W>
+ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout)
+    : setup_(setup), part_(part_with_neighbours(setup.part)),
+      problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout),
+      rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }) {
+  // Work-items of a group read what others update in place: leapfrog takes turns between two states there.
+  const bool is_staged = !setup_.problem.extra_links.empty() || (is_part() && part_->is_every_stage) ||
+                         (layout.has_items && rows_.is_leapfrog());
+  if (is_staged)
+    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, stored_fields(), layout.bands, part_);
+  else
+    make_blocks();
+  if (staged_) add_stages();
+  problem_.add_extra_links(setup_.problem, stored_fields());
+  problem_.finish(rows_.is_leapfrog() ? stored_fields() : 0, false);
+  make_kernels();
+  sent_.resize(std::size_t(halo_copies())), received_ = sent_;
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::make_blocks() {
+  const Method& method = setup_.method;
+  const int rows = int(packed_.rows.size()), halo = method.stages * packed_.reach;
+  const std::vector<int> cuts = cut_rows(packed_, problem_.layout.bands);
+  bands_ = int(cuts.size()) - 1;
+  const bool is_alone = bands_ == 1 && !is_part();
+  steps_a_pass_ = WavefrontStep<T, W>::steps_a_pass(packed_, method, is_alone);
+  if (packed_.own_begin > 0) blocks_.emplace_back(packed_, 0, packed_.own_begin, stored_fields(), halo);
+  for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
+    blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), halo, !rows_.is_leapfrog(),
+                         WavefrontStep<T, W>::sweeps(packed_, method, is_alone));
+  if (packed_.own_end < rows) blocks_.emplace_back(packed_, packed_.own_end, rows, stored_fields(), halo);
+  most_sweeps_ = WavefrontStep<T, W>::sweeps(packed_, method, is_alone);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (blocks_[b].is_remote()) continue;
+    WavefrontStep<T, W> step(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks_, b);
+    for (const int parity : {0, 1}) {
+      int n = 0;
+      const auto is_last = [&] { return n % method.stages == 0; }; // n counts from 1 here
+      step.describe(
+          parity,
+          [&](int begin, int end) {
+            sweeps_.push_back({begin, end, -1, problem_.next_place(), 0});
+            ++n;
+          },
+          [&](int r, const RowTask<T>& task, int axis) {
+            problem_.add(task, r, axis == 1 ? Tables<T>::prime_y : Tables<T>::prime_z, stored_fields());
+            ++sweeps_.back().prime_count;
+          },
+          [&](int r, bool is_whole, const RowTask<T>& task) {
+            const bool is_published = is_last() && blocks_[b].is_published(r) && blocks_[b].owns(r);
+            const int place = problem_.add(
+                task, r, is_whole ? problem_.action_of(task, method) : Tables<T>::prime_upper, stored_fields(),
+                is_published ? blocks_[b].published(r, parity ^ 1) : nullptr);
+            if (sweeps_.back().rows < 0) sweeps_.back().rows = place;
+          });
+    }
+  }
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::add_stages() {
+  bands_ = staged_->threads();
+  const int stages = setup_.method.stages, parities = staged_->is_swapped() ? 2 : 1;
+  for (int parity = 0; parity < parities; ++parity) {
+    for (int stage = 0; stage < stages; ++stage) {
+      std::vector<cl_int2>& lists = lists_.emplace_back();
+      for (int band = 0; band < bands_; ++band) {
+        const int begin = problem_.next_place();
+        staged_->each_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& task) {
+          problem_.add(task, r, is_whole ? problem_.action_of(task, setup_.method) : Tables<T>::prime_upper,
+                       stored_fields());
+        });
+        lists.push_back({{begin, problem_.next_place()}});
+      }
+    }
+    if (parities == 2) staged_->swap();
+  }
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::make_kernels() {
+  kernel_ = problem_.kernel(staged_ ? "run_rows" : "run_pass");
+  failed_ = problem_.queue.make_buffer(std::size_t(1 + 2 * bands_) * sizeof(cl_int));
+  if (!staged_) {
+    sweep_table_ = problem_.table(sweeps_);
+    kernel_.set_one(DeviceProblem<T, W>::table_arguments, sweep_table_);
+    return;
+  }
+  for (const auto& lists : lists_) list_tables_.push_back(problem_.table(lists));
+  for (int parity = 0; problem_.has_extra_links() && parity < (staged_->is_swapped() ? 2 : 1); ++parity) {
+    for (int stage = 0; stage < setup_.method.stages; ++stage) {
+      std::vector<cl_long> starts;
+      for (int r = 0; r < int(packed_.rows.size()); ++r) starts.push_back(problem_.offset(staged_->stage_row(stage, r)));
+      row_starts_.push_back(problem_.table(starts));
+    }
+    if (staged_->is_swapped()) staged_->swap();
+  }
+}
+
+template <class T, int W>
+Block<T, W>& ResidentExecutor<T, W>::block_of(int r) {
+  return *std::find_if(blocks_.begin(), blocks_.end(), [&](const Block<T, W>& block) { return block.owns(r); });
+}
+
+template <class T, int W>
+T* ResidentExecutor<T, W>::row(int r) {
+  if (staged_) return staged_->row(r);
+  Block<T, W>& block = block_of(r);
+  return block.is_remote() ? block.published(r, parity_) : block.row(r);
+}
+
+template <class T, int W>
+std::pair<T*, T*> ResidentExecutor<T, W>::copy_row(int copy, int r) {
+  if (staged_) return {staged_->copy_row(copy, r), nullptr};
+  Block<T, W>& block = block_of(r);
+  T* const published = block.is_published(r) ? block.published(r, copy) : nullptr;
+  return {block.is_remote() ? published : block.row(r), block.is_remote() ? nullptr : published};
+}
+
+/// Of whole rows; rows that follow one another in memory are one range.
+template <class T, int W>
+auto ResidentExecutor<T, W>::state_ranges() -> std::vector<Range> {
+  std::vector<Range> ranges;
+  const auto add = [&](const T* from, std::size_t count) {
+    if (!ranges.empty() && ranges.back().to == from)
+      ranges.back().to += count;
+    else
+      ranges.push_back({from, from + count});
+  };
+  const auto size = [&](int r) {
+    return std::size_t(packed_.rows[std::size_t(r)].packs) * std::size_t(stored_fields() * W);
+  };
+  for (int r = 0; r < int(packed_.rows.size()); ++r) add(row(r), size(r));
+  for (Block<T, W>& block : blocks_)
+    for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
+      if (block.is_published(r)) add(block.published(r, parity_), size(r));
+  return ranges;
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::to_host() {
+  if (is_on_host_) return;
+  problem_.queue.set_counting(false); // transfers of whole states are not the method's
+  problem_.to_host(state_ranges());
+  problem_.queue.set_counting(true);
+  is_on_host_ = true;
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::to_device() {
+  if (!is_on_host_) return;
+  problem_.queue.set_counting(false);
+  problem_.to_device(state_ranges());
+  problem_.queue.set_counting(true);
+  is_on_host_ = false;
+}
+
+template <class T, int W>
+HaloLayout ResidentExecutor<T, W>::halo_layout(std::span<const std::size_t> elements, int copy) {
+  const auto is_own = [&](std::size_t element) { return part_->part.layer[element] == 0; };
+  HaloLayout layout = rows_.layout(elements, [&](int r) { return copy_row(copy, r); }, is_own);
+  layout.is_stable = false; // the host has the arena only between computations
+  if (elements.empty()) return layout;
+  auto& ranges = (is_own(elements.front()) ? sent_ : received_)[std::size_t(copy)];
+  for (const auto& piece : layout.pieces) {
+    const auto* const from = reinterpret_cast<const T*>(piece.at);
+    const T* const to = from + piece.count / sizeof(T);
+    const auto covers = [&](const Range& known) { return known.from <= from && to <= known.to; };
+    if (std::none_of(ranges.begin(), ranges.end(), covers)) ranges.push_back({from, to});
+  }
+  return layout;
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::send(int copy) {
+  if (!is_on_host_) problem_.to_host(sent_[std::size_t(copy)]);
+  for (const Side side : all_sides) part_->halo.send(side, copy);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::receive(int copy) {
+  for (const Side side : all_sides) part_->halo.receive(side, copy);
+  if (!is_on_host_) problem_.to_device(received_[std::size_t(copy)]);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::publish_all() {
+  for (Block<T, W>& block : blocks_)
+    for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
+      if (block.is_published(r)) block.publish(r, parity_);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::write(std::size_t first, std::span<const double> fields) {
+  stop_leapfrog();
+  to_host();
+  parity_ = 0;
+  rows_.write(first, fields);
+  publish_all();
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::read(std::size_t first, std::span<double> fields) {
+  to_host();
+  if (is_started_ && end_rates_.empty()) end_rates_ = evaluate(end_signals_);
+  rows_.read(first, fields, is_started_ ? end_rates_.data() : nullptr);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::save(std::size_t first, std::span<double> kept) {
+  to_host();
+  rows_.save(first, kept, is_started_);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::restore(std::size_t first, std::span<const double> kept) {
+  to_host();
+  end_rates_.clear();
+  is_started_ = rows_.restore(first, kept);
+  publish_all();
+}
+
+/// Rates of plain rows, at the present state, which is on the host.
+template <class T, int W>
+std::vector<T> ResidentExecutor<T, W>::evaluate(std::span<const double> signals) {
+  if (is_part()) {
+    const int copy = staged_ ? staged_->current_copy() : parity_;
+    send(copy);
+    receive(copy);
+  }
+  if (rates_ == nullptr)
+    rates_ = std::make_unique<DeviceRates<T, W>>(setup_.problem, setup_.model, is_part() ? &part_->part : nullptr,
+                                                 problem_.queue.device(), problem_.layout, true);
+  std::vector<T> plain(rows_.plain_size()), rates(plain.size());
+  rows_.copy_plain(plain.data());
+  rates_->evaluate(plain.data(), signals, rates.data());
+  return rates;
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::derivative(std::span<const double> signals, std::span<double> rates) {
+  stop_leapfrog();
+  to_host();
+  rows_.rates_out(evaluate(signals).data(), rates);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::stop_leapfrog() {
+  if (!is_started_) return;
+  std::vector<double> state(packed_.lattice.element_count * field_count);
+  read(0, state);
+  is_started_ = false;
+  end_rates_.clear();
+  write(0, state);
+}
+
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::advance(long steps, std::span<const double> signals) {
+  if (steps <= 0) return {};
+  const std::size_t width = signal_count(setup_.problem);
+  if (rows_.is_leapfrog() && !is_started_) {
+    to_host();
+    rows_.start(evaluate(signals.first(width)).data());
+    publish_all();
+    is_started_ = true;
+  }
+  end_rates_.clear();
+  end_signals_.assign(signals.end() - std::ptrdiff_t(width), signals.end());
+  to_device();
+  problem_.set_signals(signals, width);
+  forget_failures();
+  return staged_ ? run_stages(steps) : run_passes(steps);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::forget_failures() {
+  const std::vector<cl_int> none(std::size_t(1 + 2 * bands_), INT_MAX);
+  problem_.queue.write(failed_, 0, std::as_bytes(std::span(none)));
+}
+
+/// Enqueued without waiting, but for parts, which exchange halos in between.
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::run_passes(long steps) {
+  const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
+  cl_uint n = DeviceProblem<T, W>::table_arguments + 1;
+  kernel_.set_one(n++, problem_.signals());
+  kernel_.set_one(n++, failed_);
+  const cl_uint first_signals = n, parity_place = n + 2, count_place = n + 3, step_place = n + 4;
+  for (const cl_int value : {0, most_sweeps_, 0, 0, 0, stages, packed_.reach, width}) kernel_.set_one(n++, cl_int(value));
+  if (is_part()) send(parity_);
+  for (long step = 0; step < steps; step += steps_a_pass_) {
+    if (is_part()) receive(parity_);
+    const long at_once = std::min(long(steps_a_pass_), steps - step);
+    kernel_.set_one(first_signals, cl_int(step * stages));
+    kernel_.set_one(parity_place, cl_int(parity_));
+    kernel_.set_one(count_place, cl_int(at_once * stages));
+    kernel_.set_one(step_place, cl_int(step));
+    problem_.launch(kernel_, bands_);
+    if (steps_a_pass_ == 1 || (at_once & 1) != 0) parity_ ^= 1; // passes of several steps publish nothing
+    if (is_part() && step + steps_a_pass_ < steps) send(parity_);
+  }
+  return outcome(steps);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::launch_stage(int stage, long step) {
+  const int stages = setup_.method.stages;
+  const std::size_t table = std::size_t((staged_->is_swapped() ? staged_->current_copy() : 0) * stages + stage);
+  if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_[table]);
+  cl_uint n = DeviceProblem<T, W>::table_arguments;
+  kernel_.set_one(n++, list_tables_[table]);
+  kernel_.set_one(n++, problem_.signals());
+  kernel_.set_one(n++, failed_);
+  const int signal_row = int(step) * stages + stage, width = int(signal_count(setup_.problem)) + 1;
+  for (const cl_int value : {signal_row * width, int(step), int(stage + 1 == stages)}) kernel_.set_one(n++, value);
+  problem_.launch(kernel_, bands_);
+}
+
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::run_stages(long steps) {
+  const int stages = setup_.method.stages;
+  const auto exchanged = [&](int stage) { return is_part() && staged_->is_exchanged(stage); };
+  if (is_part()) send(staged_->current_copy());
+  for (long step = 0; step < steps; ++step)
+    for (int stage = 0; stage < stages; ++stage) {
+      if (exchanged(stage)) receive(staged_->copy_of(stage));
+      launch_stage(stage, step);
+      const bool is_last = stage + 1 == stages;
+      if (is_last && staged_->is_swapped()) staged_->swap();
+      const int next = is_last ? 0 : stage + 1;
+      if (exchanged(next) && !(is_last && step + 1 == steps)) send(staged_->copy_of(next));
+    }
+  return outcome(steps);
+}
+
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::outcome(long steps) {
+  std::vector<cl_int> failed(std::size_t(1 + 2 * bands_));
+  problem_.queue.read(failed_, 0, std::as_writable_bytes(std::span(failed)));
+  if (failed[0] == INT_MAX) return {true, steps, 0};
+  to_host();
+  std::optional<std::size_t> first;
+  for (int band = 0; band < bands_; ++band) {
+    if (failed[std::size_t(1 + 2 * band)] != failed[0]) continue;
+    const int r = failed[std::size_t(2 + 2 * band)];
+    const auto element = packed_.first_failed(r, row(r), stored_fields());
+    if (element && (!first || *element < *first)) first = element;
+  }
+  return {false, failed[0], first.value_or(0)};
+}
+
+template <class T, int W>
+std::string ResidentExecutor<T, W>::schedule() const {
+  const char* const where = problem_.layout.has_items ? "work-groups" : "work-items";
+  return fmt::format("on {}: {} bands of rows, {} of {} lanes; {}", problem_.queue.device().entry.name, bands_, where, W,
+                     staged_ ? "stage by stage" : fmt::format("wavefront, reach {}, in place", packed_.reach));
+}
+
+template <class T, int W>
+DeviceUse ResidentExecutor<T, W>::device_use() const {
+  return use_of(problem_);
+}
+
+#define DSS_INSTANTIATE(T, W) template class ResidentExecutor<T, W>;
+DSS_EACH_PACK(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
+
+} // namespace dss::opencl

@@ -1,0 +1,81 @@
+#pragma once
+/// The variant `opencl`: the state stays on the device, which does whole steps. Schedules, blocks of rows and their memory are the engine's.
+#include "solver/numerics/signal_rows.hpp"
+#include "variants/api.hpp"
+#include "variants/engine/state_rows.hpp"
+#include "variants/engine/wavefront.hpp"
+#include "variants/opencl/device_rates.hpp"
+
+#include <optional>
+
+namespace dss::opencl {
+
+template <class T, int W>
+class ResidentExecutor final : public Executor {
+public:
+  ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout);
+  void write(std::size_t first, std::span<const double> fields) override;
+  void read(std::size_t first, std::span<double> fields) override;
+  void derivative(std::span<const double> signals, std::span<double> rates) override;
+  Outcome advance(long steps, std::span<const double> signals) override;
+  std::string schedule() const override;
+  int workers() const override { return bands_; }
+  std::size_t bytes() const override { return problem_.bytes(); }
+  int halo_copies() const override { return staged_ ? staged_->copies() : 2; }
+  int halo_lanes() const override { return W; }
+  HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) override;
+  int kept_fields() const override { return rows_.kept_fields(); }
+  void save(std::size_t first, std::span<double> kept) override;
+  void restore(std::size_t first, std::span<const double> kept) override;
+  DeviceUse device_use() const override;
+
+private:
+  using Range = typename DeviceProblem<T, W>::Range;
+  bool is_part() const { return part_ != nullptr; }
+  int stored_fields() const { return rows_.stored_fields(); }
+  void make_blocks();
+  void add_passes(std::vector<WavefrontStep<T, W>>& steps);
+  void add_stages();
+  void make_kernels();
+  Block<T, W>& block_of(int r);
+  T* row(int r);
+  std::pair<T*, T*> copy_row(int copy, int r);
+  void publish_all();
+  std::vector<Range> state_ranges();
+  /// The state, halo included, is in the arena for the host, until to_device().
+  void to_host();
+  void to_device();
+  /// Part: sends or receives on all sides, and moves what is exchanged between device and arena.
+  void send(int copy);
+  void receive(int copy);
+  std::vector<T> evaluate(std::span<const double> signals);
+  void stop_leapfrog();
+  Outcome run_passes(long steps);
+  Outcome run_stages(long steps);
+  void launch_stage(int stage, long step);
+  void forget_failures();
+  Outcome outcome(long steps);
+
+  const Setup setup_;
+  const PartSetup* part_; ///< null for a whole problem, or a part that has no neighbours
+  DeviceProblem<T, W> problem_;
+  PackedRows<T, W>& packed_ = problem_.packed;
+  StateRows<T, W> rows_;
+  std::vector<Block<T, W>> blocks_;        ///< wavefront; of a part: remote blocks first and last where it has a halo there
+  std::optional<StagedRows<T, W>> staged_; ///< or stage by stage
+  int bands_ = 1, steps_a_pass_ = 1, most_sweeps_ = 0;
+  int parity_ = 0;
+  bool is_on_host_ = false;
+  std::vector<typename Tables<T>::sweep> sweeps_;
+  std::vector<std::vector<cl_int2>> lists_; ///< parity * stages + stage: of each band
+  opencl::Buffer sweep_table_, failed_;
+  std::vector<opencl::Buffer> list_tables_, row_starts_;
+  Kernel kernel_;
+  std::vector<std::vector<Range>> sent_, received_; ///< by copy
+  bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before
+  std::vector<double> end_signals_;
+  std::vector<T> end_rates_; ///< leapfrog: rates at the end of the last advance, made when first read
+  std::unique_ptr<DeviceRates<T, W>> rates_;
+};
+
+} // namespace dss::opencl

@@ -1,0 +1,90 @@
+#include "variants/opencl/source.hpp"
+
+#include "variants/opencl/embedded.hpp"
+
+#include <fmt/format.h>
+
+namespace dss::opencl {
+namespace {
+
+constexpr std::string_view device_folder = "variants/opencl/device/";
+
+/// A file with what it includes put in its place.
+std::string text_of(std::string_view path) {
+  constexpr std::string_view include = "#include \"";
+  std::string text(embedded(path));
+  for (std::size_t at = text.find(include); at != std::string::npos; at = text.find(include)) {
+    const std::size_t name = at + include.size(), quote = text.find('"', name);
+    text.replace(at, quote + 1 - at, text_of(text.substr(name, quote - name)));
+  }
+  return text;
+}
+std::string device_text(std::string_view name) { return text_of(fmt::format("{}{}", device_folder, name)); }
+
+std::string numbered(std::string_view format, int first, int last) {
+  std::string list;
+  for (int n = first; n <= last; ++n)
+    list += fmt::format(fmt::runtime(format), n < 10 ? char('0' + n) : char('a' + n - 10));
+  return list;
+}
+
+/// A REAL of several lanes, and how lanes move to the next.
+std::string vector_words(const ProgramKind& kind) {
+  const int w = kind.lanes;
+  const char* const bits = kind.precision == Precision::f64 ? "long" : "int";
+  std::string lane_bits;
+  for (int n = 0; n < w; ++n) lane_bits += fmt::format("{}{}", n == 0 ? "" : ", ", 1 << n);
+  const char last = numbered("{}", w - 1, w - 1).front();
+  return fmt::format("#define REAL {0}{1}\n#define BITS {2}{1}\n#define LANE_BITS ((BITS)({3}))\n"
+                     "#define SPLAT(a) ((REAL)((NUMBER)(a)))\n"
+                     "#define SHIFT_UP(below, a) ((REAL)((below).s{4}{5}))\n"
+                     "#define SHIFT_DOWN(a, above) ((REAL)({6}(above).s0))\n",
+                     kind.precision == Precision::f64 ? "double" : "float", w, bits, lane_bits, last,
+                     numbered(", (a).s{}", 0, w - 2), numbered("(a).s{}, ", 1, w - 1));
+}
+
+std::string head(const ProgramKind& kind, bool has_items) {
+  const bool is_f64 = kind.precision == Precision::f64;
+  std::string text = is_f64 ? "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n" : "";
+  text += fmt::format("#pragma OPENCL FP_CONTRACT OFF\n#define NUMBER {}\n#define W {}\n#define ALL_LANES {}u\n"
+                      "#define FMA(a, b, c) fma(a, b, c)\n",
+                      is_f64 ? "double" : "float", kind.lanes, (1u << kind.lanes) - 1);
+  if (has_items)
+    text += "#define REAL NUMBER\n#define SPLAT(a) ((NUMBER)(a))\n" + device_text("words_of_items.h");
+  else
+    text += vector_words(kind) + device_text("words_of_vectors.h");
+  const bool is_planar = kind.model == Model::planar;
+  if (is_planar) text += "#define PLANAR\n";
+  for (const char* file : {is_planar ? "kernels/algebra/planar.h" : "kernels/algebra/spatial.h",
+                           "kernels/link_force/link_force.h", "kernels/motion/motion.h", "kernels/wrench/wrench.h",
+                           "kernels/rk_update/rk_update.h"})
+    text += text_of(file);
+  for (const char* file : {"tables.h", "tables_of_device.h", "tuples.cl"}) text += device_text(file);
+  return text;
+}
+
+} // namespace
+
+std::string row_program(const ProgramKind& kind) {
+  std::string text = head(kind, kind.has_items);
+  text += fmt::format("#define HAS_LEAPFROG {}\n#define HAS_RATES {}\n#define LEAPFROG_FIELDS {}\n",
+                      int(kind.has_leapfrog), int(kind.has_rates), kind.leapfrog_fields);
+  std::string cases;
+  for (std::size_t n = 0; n < kind.terms.size(); ++n) {
+    const Terms& t = kind.terms[n];
+    text += fmt::format("#define FLAGS ((term_flags){{{}, {}, {}, {}, {}, {}}})\n#define NAME(f) f##_{}\n",
+                        int(t.is_material), int(t.is_damped), int(t.is_bending), int(t.is_gyroscopic), int(t.is_tied),
+                        int(t.is_oblong), n);
+    text += device_text("row.cl") + device_text(kind.has_items ? "row_of_items.cl" : "row_of_vectors.cl") +
+            device_text("run.cl") + "#undef FLAGS\n#undef NAME\n";
+    cases += fmt::format("  if (task->shape == {0}) return run_{0}(d, task, signals);\n", n);
+  }
+  text += fmt::format("static int run_task(device d, global const row_stage* task, global const NUMBER* signals) {{\n"
+                      "{}  return 1;\n}}\n",
+                      cases);
+  return text + device_text("passes.cl");
+}
+
+std::string extra_link_program(const ProgramKind& kind) { return head(kind, true) + device_text("extra_links.cl"); }
+
+} // namespace dss::opencl
