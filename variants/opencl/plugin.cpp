@@ -1,5 +1,6 @@
 #include "solver/error.hpp"
 #include "variants/api.hpp"
+#include "variants/opencl/ceilings.hpp"
 #include "variants/opencl/device.hpp"
 
 namespace dss {
@@ -19,7 +20,8 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .create = create,
                            .kernels = nullptr,
                            .why_unusable = opencl::why_unusable,
-                           .devices = opencl::devices};
+                           .devices = opencl::devices,
+                           .ceilings = opencl::measure_ceilings};
 
 } // namespace
 } // namespace dss
