@@ -40,24 +40,33 @@ VariantName asked_variant(const RunRequest& request) {
                                  request.device));
   if (request.hybrid == "auto" && request.ranks > 1)
     throw InputError("--hybrid auto: chooses members within one process; with --ranks list them: avx512,opencl");
-  if (request.hybrid != "auto") parse_members(request.hybrid);
   return request.ranks > 1 ? VariantName{"mpi", "auto"} : VariantName{"hybrid", ""};
 }
 
-/// What computes, alone or each part on ranks.
-const Plugin& computing_plugin(const RunPlan& plan) {
-  return plan.plugin->is_distributed ? load_variant(plan.distribution.variant) : *plan.plugin;
-}
-
-void require_device(const RunRequest& request, const RunPlan& plan) {
-  const Plugin& plugin = computing_plugin(plan);
+/// Refuses a variant that cannot run here, or not on this device in this precision.
+void require_device(const Plugin& plugin, const std::string& device, Precision precision) {
   if (const std::string why = plugin.why_unusable == nullptr ? "" : plugin.why_unusable(); !why.empty())
     throw InputError(fmt::format("variant {} cannot run here: {}", plugin.name, why));
   if (plugin.devices != nullptr)
-    require_precision(choose_device(plugin.devices(), request.device), plan.precision);
-  else if (!request.device.empty())
+    require_precision(choose_device(plugin.devices(), device), precision);
+  else if (!device.empty())
     throw InputError(
-        fmt::format("--device {}: variant {} runs on this CPU; give --variant opencl", request.device, plugin.name));
+        fmt::format("--device {}: variant {} runs on this CPU; give --variant opencl", device, plugin.name));
+}
+
+/// Of everything that computes: the variant itself, that of the parts on ranks, or each member.
+void require_devices(const RunRequest& request, const RunPlan& plan) {
+  if (request.hybrid.empty() || request.hybrid == "auto") {
+    const Plugin& plugin = plan.plugin->is_distributed ? load_variant(plan.distribution.variant) : *plan.plugin;
+    return require_device(plugin, request.device, plan.precision);
+  }
+  for (const Member& member : parse_members(request.hybrid)) {
+    try {
+      require_device(load_variant(member.variant), member.device, plan.precision);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--hybrid: member {}: {}", name(member), error.what()));
+    }
+  }
 }
 
 void require_sensible(const RunRequest& request, const RunPlan& plan) {
@@ -144,7 +153,7 @@ RunPlan plan_run(const RunRequest& request) {
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
   plan.dt = request.dt.value_or(problem.dt);
   plan.steps = request.steps.value_or(problem.steps);
-  require_device(request, plan);
+  require_devices(request, plan);
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
     throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));
