@@ -7,7 +7,7 @@
 namespace dss::opencl {
 
 /// Memory bandwidth by a triad over buffers well beyond any cache, and fused multiply-adds in independent chains, on vectors where the
-/// device is a CPU. The best of several timings, about a second in all.
+/// device is a CPU. The best of several timings, a second or two in all.
 /// @param device  as for --device
 /// @throws InputError if there is no such device, it has too little memory, or its driver fails
 DeviceCeilings measure_ceilings(const std::string& device);
