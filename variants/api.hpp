@@ -98,6 +98,7 @@ struct Plugin {
   void (*end)(int exit_code, bool is_in_order) = nullptr; ///< null, or see end_variants
   std::string (*why_unusable)() = nullptr; ///< null, or empty if it can run here, else why not: "no OpenCL platform"
   std::vector<DeviceEntry> (*devices)() = nullptr; ///< null, or the devices that it can use, and those that it cannot
+  DeviceCeilings (*ceilings)(const std::string& device) = nullptr; ///< null, or measures a device named as for --device
 };
 
 constexpr int plugin_abi = 4;

@@ -16,6 +16,8 @@ std::string lower(std::string text) {
   return text;
 }
 
+bool is_kind(const std::string& text) { return std::find(std::begin(kinds), std::end(kinds), text) != std::end(kinds); }
+
 /// The first that may be used, else the first.
 template <class Matches>
 const DeviceEntry* first_of(const std::vector<DeviceEntry>& devices, Matches&& matches) {
@@ -37,7 +39,7 @@ const DeviceEntry* find(const std::vector<DeviceEntry>& devices, const std::stri
   const std::string asked = lower(text);
   const auto is_kind_or_id = [&](const DeviceEntry& device) { return device.kind == asked || device.id == asked; };
   if (const DeviceEntry* found = first_of(devices, is_kind_or_id)) return found;
-  if (std::find(std::begin(kinds), std::end(kinds), asked) != std::end(kinds)) return nullptr;
+  if (is_kind(asked)) return nullptr;
   return first_of(devices, [&](const DeviceEntry& device) {
     return lower(device.name).find(asked) != std::string::npos ||
            lower(device.platform).find(asked) != std::string::npos;
@@ -57,7 +59,9 @@ const DeviceEntry& choose_device(const std::vector<DeviceEntry>& devices, const 
       for (const std::string& name : {device.kind, device.name})
         if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
     }
-    throw InputError(fmt::format("{}no such device; {}", option, nearest_name(text, known)));
+    // A cpu is no misspelt gpu.
+    throw InputError(
+        fmt::format("{}no such device; {}", option, nearest_name(is_kind(lower(text)) ? "" : text, known)));
   }
   if (!found->unusable.empty())
     throw InputError(

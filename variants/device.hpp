@@ -25,6 +25,12 @@ const DeviceEntry& choose_device(const std::vector<DeviceEntry>& devices, const 
 /// @throws InputError if `precision` is f64 and the device has no double precision
 void require_precision(const DeviceEntry& device, Precision precision);
 
+/// What a device can do at best, as measured.
+struct DeviceCeilings {
+  double triad_bytes_per_s = 0;                    ///< memory bandwidth
+  double f64_flops_per_s = 0, f32_flops_per_s = 0; ///< fused multiply-adds, two each; 0: it lacks the precision
+};
+
 /// What an executor used of a device. Counts and times are of all calls of advance.
 struct DeviceUse {
   DeviceEntry device;

@@ -1,6 +1,7 @@
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
+#include "experiments/runner/device_listing.hpp"
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "solver/error.hpp"
@@ -15,11 +16,8 @@ namespace {
 
 struct ListArguments {
   std::string what;
-  bool is_json = false;
+  bool is_json = false, is_measured = false;
 };
-
-/// A listing: an array of objects that all have the same keys.
-using Listing = nlohmann::ordered_json;
 
 Listing variant_listing() {
   Listing list = Listing::array();
@@ -55,12 +53,6 @@ Listing study_listing() {
   return list;
 }
 
-Listing device_listing() {
-  const nlohmann::ordered_json context = measurement_context();
-  return Listing::array(
-      {{{"device", "cpu"}, {"name", context["cpu_model"]}, {"cores", fmt::format("{}", usable_cores())}}});
-}
-
 /// Kernel cases of the fastest variant that has some, with their declared flops (kernels/cases.hpp).
 Listing kernel_listing() {
   Listing list = Listing::array();
@@ -81,18 +73,21 @@ Listing kernel_listing() {
   return list;
 }
 
-Listing listing(const std::string& what) {
+Listing listing(const ListArguments& arguments) {
+  const std::string& what = arguments.what;
+  if (arguments.is_measured && what != "devices")
+    throw InputError(fmt::format("list {} --measure: only devices are measured; give list devices --measure", what));
   if (what == "variants") return variant_listing();
   if (what == "scenes") return scene_listing();
   if (what == "experiments") return study_listing();
   if (what == "kernels") return kernel_listing();
-  if (what == "devices") return device_listing();
+  if (what == "devices") return device_listing(arguments.is_measured);
   throw InputError(fmt::format("list {}: unknown; {}", what,
                                nearest_name(what, {"variants", "scenes", "experiments", "kernels", "devices"})));
 }
 
 int list(const ListArguments& arguments) {
-  const Listing items = listing(arguments.what);
+  const Listing items = listing(arguments);
   if (arguments.is_json) {
     write_json("-", items);
     return exit_success;
@@ -119,6 +114,8 @@ void add_list_command(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<ListArguments>();
   command->add_option("WHAT", arguments->what, "variants, scenes, experiments, kernels or devices")->required();
   command->add_flag("--json", arguments->is_json, "As JSON, with paths");
+  command->add_flag("--measure", arguments->is_measured,
+                    "Of OpenCL devices: memory bandwidth and peak arithmetic, some seconds each");
   command->footer("Example: dssbench list variants");
   command->callback([arguments, &chosen] { chosen = [arguments] { return list(*arguments); }; });
 }

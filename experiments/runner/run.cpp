@@ -1,5 +1,4 @@
 #include "experiments/runner/run.hpp"
-#include "experiments/runner/context.hpp"
 #include "experiments/runner/output.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/state_access.hpp"
@@ -10,12 +9,17 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <utility>
 
 namespace dss {
 namespace {
 
 constexpr long batch_steps = 256;                  ///< signals are made for so many steps at once
 constexpr std::size_t energy_elements = 2'000'000; ///< a second copy of a larger state would count in the memory
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// While one lives, this rank does what only one need do, and the others wait.
 class WorkAlone {
@@ -38,9 +42,7 @@ private:
 class TimedRun {
 public:
   TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result)
-      : plan_(plan), problem_(plan.scene.problem), result_(result),
-        executor_(plan.plugin->create({problem_, *plan.method, plan.model, plan.precision, plan.dt, request.threads,
-                                       nullptr, &plan.distribution})),
+      : plan_(plan), problem_(plan.scene.problem), result_(result), executor_(created(request)),
         series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1), is_root_(request.is_root) {}
 
   void run(long warmup_steps) {
@@ -60,6 +62,7 @@ public:
     }
     write_initial_state(*executor_, problem_);
     const Traffic before = executor_->traffic();
+    const DeviceUse used_before = executor_->device_use();
     long step = 0;
     look(step);
     for (const long stop : stops()) {
@@ -68,12 +71,31 @@ public:
       look(step);
     }
     sum_over_ranks(before);
+    result_.hybrid = executor_->hybrid_info();
+    result_.device_use = since(used_before, executor_->device_use());
     if (const std::string written = series_.finish(); !written.empty()) result_.files.push_back(written);
   }
 
   Executor& executor() { return *executor_; }
 
 private:
+  std::unique_ptr<Executor> created(const RunRequest& request) {
+    const auto start = Clock::now();
+    auto executor =
+        plan_.plugin->create({problem_, *plan_.method, plan_.model, plan_.precision, plan_.dt, request.threads, nullptr,
+                              &plan_.distribution, request.device, request.hybrid});
+    result_.first_step_s = seconds_since(start);
+    return executor;
+  }
+
+  static DeviceUse since(const DeviceUse& before, DeviceUse now) {
+    now.launches -= before.launches;
+    now.to_device_bytes -= before.to_device_bytes;
+    now.from_device_bytes -= before.from_device_bytes;
+    now.transfer_s -= before.transfer_s;
+    return now;
+  }
+
   /// Steps at which the run pauses, ascending, the last step among them.
   std::vector<long> stops() const {
     std::vector<long> steps = plan_.frame_steps;
@@ -96,14 +118,17 @@ private:
   bool advance_to(long step, long stop, RunResult& result) {
     bool is_finite = true;
     while (step < stop && is_finite) {
-      const long count = std::min(batch_steps, stop - step);
+      const bool is_very_first = !std::exchange(has_begun_, true);
+      const long count = std::min(is_very_first ? 1 : batch_steps, stop - step);
       const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
       if (plan_.plugin->is_distributed)
         executor_->gather(0); // all ranks begin together: what rank 0 did alone is not timed
       const UsageMeter usage; // over the same region as the clock: CPU / wall is judged
-      const auto start = std::chrono::steady_clock::now();
+      const auto start = Clock::now();
       const Outcome outcome = executor_->advance(count, signals);
-      result.wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double wall_s = seconds_since(start);
+      result.wall_s += wall_s;
+      if (is_very_first) result_.first_step_s += wall_s;
       result.usage += usage.read();
       is_finite = outcome.is_finite;
       if (!is_finite) report_breakdown(step + outcome.step, outcome.element, result);
@@ -173,6 +198,7 @@ private:
   std::unique_ptr<Executor> executor_;
   FrameSeries series_;
   bool is_root_;
+  bool has_begun_ = false;
   std::vector<double> tail_state_;
 };
 
@@ -227,61 +253,6 @@ RunResult run_scene(const RunRequest& request) {
   }
   judge(result.check, result);
   return result;
-}
-
-nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result) {
-  nlohmann::ordered_json json;
-  json["context"] = measurement_context();
-  json["scene"] = result.scene;
-  json["set"] = nlohmann::ordered_json::object();
-  for (const Override& item : request.overrides) json["set"][item.key] = item.value;
-  json["variant"] = result.variant;
-  json["isa"] = result.isa;
-  json["has_fma"] = result.has_fma;
-  json["model"] = result.model;
-  json["precision"] = result.precision;
-  json["integrator"] = result.integrator;
-  json["threads"] = result.threads;
-  json["workers"] = result.workers;
-  json["ranks"] = result.ranks.ranks;
-  json["decomposition"] = result.ranks.decomposition;
-  json["halo"] = result.ranks.halo;
-  json["halo_reason"] = result.ranks.halo_reason;
-  const Network& network = result.ranks.network;
-  json["network"] = {{"latency_s", network.latency_s},
-                     {"seconds_a_byte", network.seconds_a_byte},
-                     {"overhead_s", network.overhead_s},
-                     {"overhead_s_a_byte", network.overhead_s_a_byte}};
-  json["imbalance"] = result.ranks.imbalance;
-  json["messages_per_step"] = result.messages_per_step;
-  json["bytes_per_step"] = result.bytes_per_step;
-  json["communication_share"] = result.communication_share;
-  json["elements"] = result.elements;
-  json["links"] = result.links;
-  json["steps"] = result.steps;
-  json["warmup_steps"] = result.warmup_steps;
-  json["dt_s"] = result.dt_s;
-  json["stability_limit_s"] = result.stability_limit_s;
-  json["wall_s"] = result.wall_s;
-  json["cpu_s"] = result.usage.cpu_s;
-  json["wait_s"] = result.usage.wait_s;
-  json["involuntary_switches"] = result.usage.involuntary_switches;
-  json["is_contaminated"] = is_contaminated(result.usage, result.wall_s, result.workers);
-  json["element_steps_per_s"] = result.element_steps_per_s();
-  json["energy_j"] = result.energy_j ? nlohmann::ordered_json(*result.energy_j) : nullptr;
-  const bool has_state = result.status != "unstable";
-  json["max_displacement_m"] = has_state ? nlohmann::ordered_json(result.max_displacement_m) : nullptr;
-  json["state_digest"] = has_state ? nlohmann::ordered_json(fmt::format("{:016x}", result.digest)) : nullptr;
-  json["schedule"] = result.schedule;
-  json["bytes"] = result.bytes;
-  json["check"] = result.check.is_done ? (result.check.is_passed() ? "passed" : "failed") : "none";
-  json["check_how"] = result.check.how;
-  json["check_tolerance"] = result.check.is_done ? nlohmann::ordered_json(result.check.tolerance) : nullptr;
-  json["check_error"] = result.check.is_done ? nlohmann::ordered_json(result.check.error) : nullptr;
-  json["check_tail_error"] = result.check.tail_error ? nlohmann::ordered_json(*result.check.tail_error) : nullptr;
-  json["status"] = result.status;
-  json["reason"] = result.reason;
-  return json;
 }
 
 } // namespace dss

@@ -3,7 +3,9 @@
 #include "experiments/runner/usage.hpp"
 #include "solver/model/model.hpp"
 #include "solver/scene/scene.hpp"
+#include "variants/device.hpp"
 #include "variants/distribution.hpp"
+#include "variants/member.hpp"
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -20,6 +22,8 @@ struct RunRequest {
   int threads = 1;
   int ranks = 1;
   std::string decomposition = "strips", halo = "auto", shares = "equal"; ///< see Distribution
+  std::string device; ///< of a variant on devices, see choose_device; empty: its first
+  std::string hybrid; ///< members, see parse_members, or "auto"; empty: no hybrid
   std::optional<std::string> model, precision, integrator;
   std::optional<double> dt; ///< [s]
   std::optional<long> steps;
@@ -50,11 +54,14 @@ struct RunResult {
   int threads = 1;
   int workers = 1; ///< threads that compute, on all ranks: fewer than `threads` each where the scene has too few rows
   RankInfo ranks;
+  DeviceUse device_use; ///< in the timed steps; of rank 0
+  HybridInfo hybrid;
   double messages_per_step = 0, bytes_per_step = 0; ///< sent by all ranks
   double communication_share = 0;                   ///< of the wall time, mean over the ranks
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
+  double first_step_s = 0; ///< time to the first step: making the executor, and the very first step
   Usage usage;
   std::optional<double> energy_j; ///< absent for states too large to hold twice
   double max_displacement_m = 0;

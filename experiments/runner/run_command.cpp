@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace dss {
@@ -18,6 +19,24 @@ struct RunArguments {
   std::vector<std::string> set;
 };
 
+void print_device(const RunResult& result) {
+  const DeviceUse& use = result.device_use;
+  const double steps = double(result.steps);
+  if (!use.device.id.empty())
+    fmt::print("device {} ({}): built in {:.3g} s{}, a step {:.4g} launches of {:.3g} us, {:.4g} bytes to and {:.4g} "
+               "from it in {:.3g} us\n",
+               use.device.id, use.device.name, use.build_s, use.is_cached ? " from the cache" : "",
+               use.launches / steps, 1e6 * use.launch_s, use.to_device_bytes / steps, use.from_device_bytes / steps,
+               1e6 * use.transfer_s / steps);
+  if (result.hybrid.members.empty()) return;
+  std::vector<std::string> members;
+  for (const HybridInfo::Entry& entry : result.hybrid.members)
+    members.push_back(fmt::format("{} {:.1f} % of the elements, {:.4g} million element-steps/s", entry.member,
+                                  100 * entry.share, 1e-6 * entry.speed));
+  fmt::print("hybrid: {}; re-balanced {} times{}{}\n", fmt::join(members, "; "), result.hybrid.rebalances,
+             result.hybrid.reason.empty() ? "" : "; ", result.hybrid.reason);
+}
+
 void print_summary(const RunResult& result) {
   fmt::print("{}: {} elements, {} links, {} steps of {:g} s ({}, {}, {})\n", result.scene, result.elements,
              result.links, result.steps, result.dt_s, result.model, result.precision, result.integrator);
@@ -25,6 +44,8 @@ void print_summary(const RunResult& result) {
              result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "", result.schedule);
   fmt::print("wall {:.6g} s, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
              1e-6 * result.element_steps_per_s(), double(result.bytes) / double(result.elements));
+  fmt::print("time to the first step {:.3g} s\n", result.first_step_s);
+  print_device(result);
   fmt::print("largest displacement {:.6g} m, energy {}, state {:016x}\n", result.max_displacement_m,
              result.energy_j ? fmt::format("{:.6g} J", *result.energy_j) : "not computed (large state)", result.digest);
   if (result.check.is_done)
@@ -77,6 +98,12 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       ->allow_extra_args(false);
   command->add_option("--variant", request.variant, "A name from `dssbench list variants`; auto: the fastest here")
       ->capture_default_str();
+  command->add_option("--device", request.device,
+                      "For a variant on devices: P:D from `dssbench list devices`, cpu, gpu, or a part of a name "
+                      "(default: its first)");
+  command->add_option("--hybrid", request.hybrid,
+                      "Variants that compute the scene together, VARIANT[@DEVICE][:THREADS][=WEIGHT],...; auto: the "
+                      "best here, or the fastest one alone; with --ranks one member a rank");
   command->add_option("--threads", request.threads, "Threads of the variant")->capture_default_str();
   command->add_option("--ranks", request.ranks, "Processes: the variant on each, with a part of the scene")
       ->capture_default_str();

@@ -29,6 +29,46 @@ std::vector<std::string> halo_names() {
   return names;
 }
 
+/// The variant of the process, and that of parts on ranks.
+VariantName asked_variant(const RunRequest& request) {
+  if (request.hybrid.empty()) return parse_variant(request.variant, request.ranks);
+  if (request.variant != "auto" && request.variant != "hybrid")
+    throw InputError(fmt::format(
+        "--hybrid: its members are variants, and --variant {} another; give one of the two options", request.variant));
+  if (!request.device.empty())
+    throw InputError(fmt::format("--device {}: the members of --hybrid name their devices: opencl@{}", request.device,
+                                 request.device));
+  if (request.hybrid == "auto" && request.ranks > 1)
+    throw InputError("--hybrid auto: chooses members within one process; with --ranks list them: avx512,opencl");
+  return request.ranks > 1 ? VariantName{"mpi", "auto"} : VariantName{"hybrid", ""};
+}
+
+/// Refuses a variant that cannot run here, or not on this device in this precision.
+void require_device(const Plugin& plugin, const std::string& device, Precision precision) {
+  if (const std::string why = plugin.why_unusable == nullptr ? "" : plugin.why_unusable(); !why.empty())
+    throw InputError(fmt::format("variant {} cannot run here: {}", plugin.name, why));
+  if (plugin.devices != nullptr)
+    require_precision(choose_device(plugin.devices(), device), precision);
+  else if (!device.empty())
+    throw InputError(
+        fmt::format("--device {}: variant {} runs on this CPU; give --variant opencl", device, plugin.name));
+}
+
+/// Of everything that computes: the variant itself, that of the parts on ranks, or each member.
+void require_devices(const RunRequest& request, const RunPlan& plan) {
+  if (request.hybrid.empty() || request.hybrid == "auto") {
+    const Plugin& plugin = plan.plugin->is_distributed ? load_variant(plan.distribution.variant) : *plan.plugin;
+    return require_device(plugin, request.device, plan.precision);
+  }
+  for (const Member& member : parse_members(request.hybrid)) {
+    try {
+      require_device(load_variant(member.variant), member.device, plan.precision);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--hybrid: member {}: {}", name(member), error.what()));
+    }
+  }
+}
+
 void require_sensible(const RunRequest& request, const RunPlan& plan) {
   const auto refuse = [](const std::string& what) { throw InputError(what); };
   if (request.threads < 1 || request.threads > 1024)
@@ -105,7 +145,7 @@ RunPlan plan_run(const RunRequest& request) {
   RunPlan plan;
   plan.scene = load_scene(request.scene, request.overrides);
   const Problem& problem = plan.scene.problem;
-  const VariantName variant = parse_variant(request.variant, request.ranks);
+  const VariantName variant = asked_variant(request);
   plan.plugin = &load_variant(variant.name);
   plan.distribution = {request.ranks, variant.part, request.decomposition, request.halo, request.shares == "measured"};
   plan.model = chosen_model(request.model.value_or(plan.scene.model));
@@ -113,6 +153,7 @@ RunPlan plan_run(const RunRequest& request) {
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
   plan.dt = request.dt.value_or(problem.dt);
   plan.steps = request.steps.value_or(problem.steps);
+  require_devices(request, plan);
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
     throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));

@@ -25,7 +25,8 @@ struct ExpectedRun {
 
 class SceneVerification {
 public:
-  SceneVerification(const Scene& scene, long steps) : scene_(scene), problem_(scene.problem), steps_(steps) {
+  SceneVerification(const Scene& scene, long steps, const std::string& device)
+      : scene_(scene), problem_(scene.problem), steps_(steps), device_(device) {
     for (const Method& method : methods()) expected_runs_[&method] = expected_run(method);
   }
 
@@ -39,6 +40,10 @@ public:
     oracle.write(random_);
     oracle.derivative(first_signals(), expected_rates_);
     for (const Plugin* plugin : plugins) {
+      if (const std::string why = why_skipped(*plugin); !why.empty()) {
+        add(*plugin, "all", Verdict::skipped, why);
+        continue;
+      }
       guarded(*plugin, "evaluation", [&] { evaluation(*plugin); });
       for (const Method& method : methods())
         guarded(*plugin, fmt::format("run {}", method.name), [&] { run(*plugin, method); });
@@ -64,6 +69,17 @@ private:
     oracle.advance(steps_);
     oracle.read(run.state);
     return run;
+  }
+
+  std::string device_of(const Plugin& plugin) const { return plugin.devices == nullptr ? "" : device_; }
+
+  std::string why_skipped(const Plugin& plugin) const {
+    try {
+      if (plugin.devices != nullptr) require_precision(choose_device(plugin.devices(), device_), precision_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
   }
 
   const Tolerance& tolerance() const {
@@ -102,7 +118,8 @@ private:
   }
 
   void evaluation(const Plugin& plugin) {
-    const auto executor = plugin.create({problem_, methods().front(), model_, precision_, problem_.dt, 1});
+    const auto executor = plugin.create(
+        {problem_, methods().front(), model_, precision_, problem_.dt, 1, nullptr, nullptr, device_of(plugin)});
     executor->write(0, random_);
     std::vector<double> rates(random_.size(), std::numeric_limits<double>::quiet_NaN());
     executor->derivative(first_signals(), rates);
@@ -120,7 +137,8 @@ private:
     std::string unequal;
     for (const int threads : verified_threads) {
       if (threads > 1 && !plugin.is_threaded) continue;
-      const auto executor = plugin.create({problem_, method, model_, precision_, expected.dt, threads});
+      const auto executor = plugin.create(
+          {problem_, method, model_, precision_, expected.dt, threads, nullptr, nullptr, device_of(plugin)});
       write_initial_state(*executor, problem_);
       const Outcome outcome = executor->advance(steps_, signals);
       if (threads == 1)
@@ -143,6 +161,7 @@ private:
   const Scene& scene_;
   const Problem& problem_;
   long steps_;
+  std::string device_;
   Model model_ = Model::spatial;
   Precision precision_ = Precision::f64;
   std::map<const Method*, ExpectedRun> expected_runs_;
@@ -153,7 +172,7 @@ private:
 } // namespace
 
 std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin& distributed, const Plugin& part,
-                                    int ranks) {
+                                    int ranks, const std::string& device) {
   const Problem& problem = scene.problem;
   std::vector<VerifyRow> rows;
   for (const Model model : {Model::spatial, Model::planar}) {
@@ -162,7 +181,8 @@ std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin
       for (const Method& method : methods()) {
         const double dt = std::min(problem.dt, 0.9 * stable_step(problem, method).dt);
         const auto digest_of = [&](const Plugin& plugin, const Distribution* distribution) {
-          const auto executor = plugin.create({problem, method, model, precision, dt, 1, nullptr, distribution});
+          const auto executor =
+              plugin.create({problem, method, model, precision, dt, 1, nullptr, distribution, device});
           write_initial_state(*executor, problem);
           executor->advance(steps, signal_rows(problem, method, dt, 0, steps));
           return state_digest(*executor, problem.lattice.element_count, precision);
@@ -197,8 +217,9 @@ std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin
   return rows;
 }
 
-std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::vector<const Plugin*>& plugins) {
-  SceneVerification verification(scene, steps);
+std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::vector<const Plugin*>& plugins,
+                                    const std::string& device) {
+  SceneVerification verification(scene, steps, device);
   const std::string why = why_not_planar(scene.problem);
   for (const Model model : {Model::spatial, Model::planar}) {
     if (model == Model::planar && !why.empty()) {

@@ -20,7 +20,7 @@ namespace {
 
 struct VerifyArguments {
   std::vector<std::string> scenes, variants;
-  std::string json;
+  std::string json, device;
   std::vector<int> ranks;
   bool is_quiet = false;
 };
@@ -49,6 +49,19 @@ std::vector<const Plugin*> chosen_plugins(const std::vector<std::string>& asked,
       rows.push_back({"all", "", "", status.name, "all", {}, {}, VerifyRow::Verdict::skipped, status.unusable});
   }
   return plugins;
+}
+
+/// A device that is asked for must be there, and one of the variants must compute on it.
+void require_device(const std::string& device, const std::vector<const Plugin*>& plugins) {
+  if (device.empty()) return;
+  const auto is_on_devices = [](const Plugin* plugin) { return plugin->devices != nullptr; };
+  const auto found = std::find_if(plugins.begin(), plugins.end(), is_on_devices);
+  if (found == plugins.end())
+    throw InputError(
+        fmt::format("--device {}: none of the variants here computes on devices; give --variant opencl, and "
+                    "see `dssbench list variants`",
+                    device));
+  choose_device((*found)->devices(), device);
 }
 
 nlohmann::ordered_json rows_json(const std::vector<VerifyRow>& rows) {
@@ -114,11 +127,14 @@ void add_rows(std::vector<VerifyRow> of_scene, const std::string& set, std::vect
 }
 
 /// On the ranks of this job.
-std::vector<VerifyRow> rows_of_ranks(const std::vector<std::string>& names, const std::string& variant) {
+std::vector<VerifyRow> rows_of_ranks(const std::vector<std::string>& names, const std::string& variant,
+                                     const std::string& device) {
   const Plugin &distributed = load_variant("mpi"), &part = load_variant(variant);
+  require_device(device, {&part});
   std::vector<VerifyRow> rows;
   each_case(names, [&](const std::string& set, const Scene& scene, long steps) {
-    add_rows(verify_ranks(scene, std::min(steps, most_steps_on_ranks), distributed, part, job_rank().ranks), set, rows);
+    add_rows(verify_ranks(scene, std::min(steps, most_steps_on_ranks), distributed, part, job_rank().ranks, device),
+             set, rows);
   });
   return rows;
 }
@@ -133,6 +149,7 @@ std::vector<VerifyRow> rows_of_jobs(const VerifyArguments& arguments, const std:
     }
     std::vector<std::string> line = {"verify", "--json", "-", "--ranks", fmt::format("{}", ranks)};
     if (!arguments.variants.empty()) line.insert(line.end(), {"--variant", arguments.variants.front()});
+    if (!arguments.device.empty()) line.insert(line.end(), {"--device", arguments.device});
     line.insert(line.end(), names.begin(), names.end());
     const JobResult job = run_job(ranks, 1, line);
     const auto json = nlohmann::json::parse(job.output, nullptr, false);
@@ -155,8 +172,9 @@ std::vector<VerifyRow> rows_of_jobs(const VerifyArguments& arguments, const std:
 std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments, const std::vector<std::string>& names) {
   std::vector<VerifyRow> rows;
   const std::vector<const Plugin*> plugins = chosen_plugins(arguments.variants, rows);
+  require_device(arguments.device, plugins);
   each_case(names, [&](const std::string& set, const Scene& scene, long steps) {
-    add_rows(verify_scene(scene, steps, plugins), set, rows);
+    add_rows(verify_scene(scene, steps, plugins, arguments.device), set, rows);
   });
   return rows;
 }
@@ -175,7 +193,7 @@ int verify(VerifyArguments arguments) {
       arguments.ranks.empty() ? rows_of_variants(arguments, names)
       : arguments.ranks.size() > 1 || arguments.ranks.front() != job_rank().ranks
           ? rows_of_jobs(arguments, names)
-          : rows_of_ranks(names, arguments.variants.empty() ? "auto" : arguments.variants.front());
+          : rows_of_ranks(names, arguments.variants.empty() ? "auto" : arguments.variants.front(), arguments.device);
   const auto count = [&](VerifyRow::Verdict verdict) {
     return std::count_if(rows.begin(), rows.end(), [&](const VerifyRow& row) { return row.verdict == verdict; });
   };
@@ -210,6 +228,8 @@ void add_verify_command(CLI::App& app, Chosen& chosen) {
       ->delimiter(',')
       ->check(CLI::Range(1, 4096))
       ->allow_extra_args(false);
+  command->add_option("--device", arguments->device,
+                      "For variants on devices, as for `dssbench run` (default: their first)");
   command->add_option("--json", arguments->json, "File for the table, or - for standard output");
   command->add_flag("--quiet", arguments->is_quiet, "Print only what failed or was skipped");
   command->footer("Example: dssbench verify plate_paper tumbling_box --variant avx2,avx512\n"

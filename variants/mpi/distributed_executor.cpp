@@ -14,7 +14,7 @@ const Plugin& DistributedExecutor::find_plugin(const std::string& name) {
   if (plugin.is_distributed) throw InputError(fmt::format("variant mpi:{}: a part cannot be distributed again", name));
   info_.variant = plugin.name;
   info_.isa = plugin.isa;
-  info_.has_fma = plugin.has_fma;
+  info_.has_fma = world_.largest(info_.has_fma ? 0 : 1) == 0;
   return plugin;
 }
 
@@ -23,9 +23,21 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   static const Distribution alone;
   Setup setup = asked;
   if (setup.distribution == nullptr) setup.distribution = &alone;
-  const Plugin& plugin = find_plugin(setup.distribution->variant);
+  std::string variant = setup.distribution->variant;
+  if (!setup.members.empty()) {
+    const std::vector<Member> members = parse_members(setup.members);
+    const Member& own = members[std::size_t(world_.rank()) % members.size()];
+    variant = own.variant;
+    setup.device = own.device;
+    setup.threads = own.threads;
+  }
+  const Plugin& plugin = find_plugin(variant);
   const Spread found = spread(setup, plugin, world_, fault_);
   part_.emplace(setup, plugin, found.decomposition, *found.halo, world_, fault_);
+  if (!setup.members.empty()) {
+    info_.variant = setup.members;
+    info_.has_fma = world_.largest(info_.has_fma ? 0 : 1) == 0;
+  }
   info_.ranks = world_.ranks();
   info_.decomposition = found.decomposition.method;
   info_.halo = found.halo->name;

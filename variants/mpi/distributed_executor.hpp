@@ -21,6 +21,7 @@ public:
   std::size_t bytes() const override { return bytes_; }
   RankInfo rank_info() const override { return info_; }
   Traffic traffic() const override { return part_->traffic(); }
+  DeviceUse device_use() const override { return part_->executor().device_use(); }
   void work_alone(bool is_alone) override { world_.work_alone(is_alone); }
   std::vector<double> gather(double value) override { return world_.gather(value); }
 

@@ -1,5 +1,6 @@
 /// Entry point of both variants: DSS_OPENCL_EXECUTOR is the executor of each, from CMake.
 #include "variants/api.hpp"
+#include "variants/opencl/ceilings.hpp"
 #include "variants/opencl/resident_executor.hpp"
 #include "variants/opencl/rhs_executor.hpp"
 
@@ -29,7 +30,8 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .create = create,
                            .kernels = nullptr,
                            .why_unusable = opencl::why_unusable,
-                           .devices = opencl::devices};
+                           .devices = opencl::devices,
+                           .ceilings = opencl::measure_ceilings};
 
 } // namespace
 } // namespace dss

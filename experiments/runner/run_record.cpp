@@ -1,0 +1,102 @@
+/// The record of a run as JSON.
+#include "experiments/runner/context.hpp"
+#include "experiments/runner/run.hpp"
+
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Nulls for a run that used none.
+void add_device(const DeviceUse& use, Json& json) {
+  const bool is_used = !use.device.id.empty();
+  const auto if_used = [&](const auto& value) { return is_used ? Json(value) : Json(); };
+  json["device"] = if_used(Json{{"id", use.device.id},
+                                {"kind", use.device.kind},
+                                {"name", use.device.name},
+                                {"platform", use.device.platform},
+                                {"version", use.device.version},
+                                {"compute_units", use.device.compute_units}});
+  json["build_s"] = if_used(use.build_s);
+  json["build_is_cached"] = if_used(use.is_cached);
+  json["launches"] = if_used(use.launches);
+  json["to_device_bytes"] = if_used(use.to_device_bytes);
+  json["from_device_bytes"] = if_used(use.from_device_bytes);
+  json["transfer_s"] = if_used(use.transfer_s);
+  json["launch_s"] = if_used(use.launch_s);
+}
+
+Json hybrid_json(const HybridInfo& hybrid) {
+  if (hybrid.members.empty()) return nullptr;
+  Json members = Json::array();
+  for (const HybridInfo::Entry& entry : hybrid.members)
+    members.push_back({{"member", entry.member},
+                       {"element_steps_per_s", entry.speed},
+                       {"share", entry.share},
+                       {"step_s", entry.step_s}});
+  return {{"members", members}, {"rebalances", hybrid.rebalances}, {"reason", hybrid.reason}};
+}
+
+} // namespace
+
+nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result) {
+  Json json;
+  json["context"] = measurement_context();
+  json["scene"] = result.scene;
+  json["set"] = Json::object();
+  for (const Override& item : request.overrides) json["set"][item.key] = item.value;
+  json["variant"] = result.variant;
+  json["isa"] = result.isa;
+  json["has_fma"] = result.has_fma;
+  json["model"] = result.model;
+  json["precision"] = result.precision;
+  json["integrator"] = result.integrator;
+  json["threads"] = result.threads;
+  json["workers"] = result.workers;
+  json["ranks"] = result.ranks.ranks;
+  json["decomposition"] = result.ranks.decomposition;
+  json["halo"] = result.ranks.halo;
+  json["halo_reason"] = result.ranks.halo_reason;
+  const Network& network = result.ranks.network;
+  json["network"] = {{"latency_s", network.latency_s},
+                     {"seconds_a_byte", network.seconds_a_byte},
+                     {"overhead_s", network.overhead_s},
+                     {"overhead_s_a_byte", network.overhead_s_a_byte}};
+  json["imbalance"] = result.ranks.imbalance;
+  json["messages_per_step"] = result.messages_per_step;
+  json["bytes_per_step"] = result.bytes_per_step;
+  json["communication_share"] = result.communication_share;
+  json["elements"] = result.elements;
+  json["links"] = result.links;
+  json["steps"] = result.steps;
+  json["warmup_steps"] = result.warmup_steps;
+  json["dt_s"] = result.dt_s;
+  json["stability_limit_s"] = result.stability_limit_s;
+  json["wall_s"] = result.wall_s;
+  json["first_step_s"] = result.first_step_s;
+  json["cpu_s"] = result.usage.cpu_s;
+  json["wait_s"] = result.usage.wait_s;
+  json["involuntary_switches"] = result.usage.involuntary_switches;
+  json["is_contaminated"] = is_contaminated(result.usage, result.wall_s, result.workers);
+  json["element_steps_per_s"] = result.element_steps_per_s();
+  json["energy_j"] = result.energy_j ? Json(*result.energy_j) : nullptr;
+  const bool has_state = result.status != "unstable";
+  json["max_displacement_m"] = has_state ? Json(result.max_displacement_m) : nullptr;
+  json["state_digest"] = has_state ? Json(fmt::format("{:016x}", result.digest)) : nullptr;
+  json["schedule"] = result.schedule;
+  json["bytes"] = result.bytes;
+  add_device(result.device_use, json);
+  json["hybrid"] = hybrid_json(result.hybrid);
+  json["check"] = result.check.is_done ? (result.check.is_passed() ? "passed" : "failed") : "none";
+  json["check_how"] = result.check.how;
+  json["check_tolerance"] = result.check.is_done ? Json(result.check.tolerance) : nullptr;
+  json["check_error"] = result.check.is_done ? Json(result.check.error) : nullptr;
+  json["check_tail_error"] = result.check.tail_error ? Json(*result.check.tail_error) : nullptr;
+  json["status"] = result.status;
+  json["reason"] = result.reason;
+  return json;
+}
+
+} // namespace dss
