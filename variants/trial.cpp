@@ -27,7 +27,8 @@ public:
         const HaloStrategy& strategy)
       : part_(make_part(whole.problem, decomposition, index, halo_depth(strategy, whole.method))),
         part_setup_{part_, halo_, strategy.is_every_stage, strategy.is_overlapped},
-        setup_{part_.problem, whole.method, whole.model, whole.precision, whole.dt, whole.threads, &part_setup_},
+        setup_{part_.problem, whole.method, whole.model, whole.precision, whole.dt,
+               whole.threads, &part_setup_, nullptr,     whole.device},
         executor_(plugin.create(setup_)),
         work_(element_stages(part_size(whole.problem, decomposition, index, part_.depth), strategy,
                              whole.method.stages)) {
@@ -79,6 +80,14 @@ NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin, const Decompos
     best.at_once = std::max(best.at_once, at_once.speed());
     best.stage_by_stage = std::max(best.stage_by_stage, stage_by_stage.speed());
   }
+  return best;
+}
+
+double measure_speed_at_once(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part,
+                             int rounds) {
+  Trial trial(setup, plugin, decomposition, part, *find_halo_strategy("deep"));
+  double best = 0;
+  for (int round = 0; round < rounds; ++round) best = std::max(best, trial.speed());
   return best;
 }
 

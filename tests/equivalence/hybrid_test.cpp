@@ -385,5 +385,28 @@ TEST_F(Hybrid, refuses_members_that_compute_no_parts) {
     }
 }
 
+/// More ranks: tests/cli.
+TEST_F(Hybrid, gives_members_to_ranks) {
+  const auto found = std::ranges::find(asked_variants(), "mpi", &VariantStatus::name);
+  if (found == asked_variants().end() || !found->is_usable()) GTEST_SKIP() << "no mpi";
+  const Problem problem = fixture::make_plate(12);
+  const Method& method = methods().front();
+  dss::Setup setup{problem, method, Model::spatial, Precision::f64, problem.dt};
+  setup.members = "avx2:2,avx512:1";
+  const auto run = load_variant("mpi").create(setup);
+  EXPECT_EQ(run->rank_info().variant, "avx2");
+  EXPECT_EQ(run->rank_info().halo, "deep");
+  EXPECT_EQ(run->workers(), 2);
+  const State start = fixture::random_state(problem, 11, 1e-4, 0.02, 0.01);
+  run->write(0, start);
+  run->advance(30, signal_rows(problem, method, problem.dt, 0, 30));
+  State result = poisoned(problem);
+  run->read(0, result);
+  const State whole = VariantRun{load_variant("avx512"), problem, method}.after(start, 30);
+  EXPECT_EQ(differing_bits(whole, result, Precision::f64), 0u);
+  setup.members = "auto";
+  EXPECT_THROW(load_variant("mpi").create(setup), InputError);
+}
+
 } // namespace
 } // namespace dss::test

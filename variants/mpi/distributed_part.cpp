@@ -14,8 +14,8 @@ DistributedPart::DistributedPart(const Setup& setup, const Plugin& plugin, const
   if (fault.kind != Fault::Kind::none) faulty_halo_.emplace(halo_, fault);
   Halo& halo = faulty_halo_ ? static_cast<Halo&>(*faulty_halo_) : halo_;
   part_setup_.emplace(PartSetup{part_, halo, strategy.is_every_stage, strategy.is_overlapped});
-  executor_ = plugin.create(
-      {part_.problem, setup.method, setup.model, setup.precision, setup.dt, setup.threads, &*part_setup_});
+  executor_ = plugin.create({part_.problem, setup.method, setup.model, setup.precision, setup.dt, setup.threads,
+                             &*part_setup_, nullptr, setup.device});
   if (executor_->halo_copies() == 0 && world.ranks() > 1)
     throw InputError(
         fmt::format("variant mpi:{}: {} does not compute parts; give one that does", plugin.name, plugin.name));
