@@ -4,6 +4,7 @@
 #include "solver/numerics/stability.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
+#include "variants/hybrid/choice.hpp"
 #include "variants/hybrid/hybrid.hpp"
 #include "variants/hybrid/joint.hpp"
 
@@ -383,6 +384,34 @@ TEST_F(Hybrid, refuses_members_that_compute_no_parts) {
     if (variant.name == "reference") {
       EXPECT_NE(refusal("avx2:1,reference:1").find("reference does not compute parts"), std::string::npos);
     }
+}
+
+/// A run of what an automatic choice leaves, from a state that is written first.
+State after_choice(const Choice& choice, const dss::Setup& setup, const State& start) {
+  const auto made = choice.executor ? nullptr : make_executor(setup, choice.participants);
+  Executor& run = choice.executor ? *choice.executor : *made;
+  run.write(0, start);
+  run.advance(30, signal_rows(setup.problem, setup.method, setup.dt, 0, 30));
+  State result = poisoned(setup.problem);
+  run.read(0, result);
+  return result;
+}
+
+TEST_F(Hybrid, auto_tries_devices_that_may_pay_and_leaves_out_those_that_cannot) {
+  const Problem problem = fixture::make_plate(150);
+  const Method& method = methods().front();
+  const State start = fixture::random_state(problem, 12, 1e-4, 0.02, 0.01);
+  const State whole = VariantRun{load_variant("avx512"), problem, method}.after(start, 30);
+  const dss::Setup setup{problem, method, Model::spatial, Precision::f64, problem.dt, 1};
+  const Choice equals = choose_fastest(setup, {{{"avx2", "as fast", 1}, &load_variant("avx2")}});
+  EXPECT_NE(equals.reason.find("tried: "), std::string::npos) << equals.reason;
+  EXPECT_EQ(differing_bits(whole, after_choice(equals, setup, start), Precision::f64), 0u);
+  if (std::ranges::find(variants(), "reference", &VariantStatus::name) == variants().end()) return;
+  const Choice unlike = choose_fastest(setup, {{{"reference", "slow", 1}, &load_variant("reference")}});
+  EXPECT_NE(unlike.reason.find("joining does not pay"), std::string::npos) << unlike.reason;
+  ASSERT_EQ(unlike.participants.size(), 1u);
+  EXPECT_EQ(unlike.participants[0].member.device, "");
+  EXPECT_EQ(differing_bits(whole, after_choice(unlike, setup, start), Precision::f64), 0u);
 }
 
 /// More ranks: tests/cli.

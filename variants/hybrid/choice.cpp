@@ -42,19 +42,20 @@ std::vector<Participant> device_participants(int threads) {
   std::vector<Participant> participants;
   for (const DeviceEntry& device : plugin->devices())
     if (device.unusable.empty())
-      participants.push_back({{plugin->name, device.id, device.kind == "cpu" ? threads : 1}, plugin});
+      participants.push_back(
+          {{plugin->name, device.id, device.kind == "cpu" ? threads : 1}, plugin, device.kind == "cpu"});
   return participants;
 }
 
 std::unique_ptr<Executor> make_executor(const Setup& setup, const std::vector<Participant>& participants) {
   if (participants.size() > 1) return std::make_unique<JointExecutor>(setup, participants);
-  const auto& [member, plugin] = participants.front();
-  return plugin->create({setup.problem, setup.method, setup.model, setup.precision, setup.dt, member.threads, nullptr,
-                         nullptr, member.device});
+  const Member& member = participants.front().member;
+  return participants.front().plugin->create({setup.problem, setup.method, setup.model, setup.precision, setup.dt,
+                                              member.threads, nullptr, nullptr, member.device});
 }
 
 Choice choose(const Setup& setup) {
-  if (setup.members == "auto") return choose_fastest(setup);
+  if (setup.members == "auto") return choose_fastest(setup, device_participants(setup.threads));
   Choice choice;
   if (setup.members.empty())
     choice.participants = default_participants(setup.threads);

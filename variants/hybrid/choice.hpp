@@ -23,11 +23,12 @@ std::unique_ptr<Executor> make_executor(const Setup& setup, const std::vector<Pa
 /// @throws InputError for members that do not exist or cannot compute here
 Choice choose(const Setup& setup);
 
-/// Setup::members "auto": a single executor, unless a trial shows that several are faster by more than `margin`.
-Choice choose_fastest(const Setup& setup);
+/// Setup::members "auto": a single executor, the fastest CPU variant or a device, unless a trial shows that several are faster by more than
+/// `margin`.
+Choice choose_fastest(const Setup& setup, const std::vector<Participant>& devices);
 inline constexpr double margin = 0.03;
 
-/// Plug-ins of devices that can be used here, each with its usable devices.
+/// The devices that `opencl` can use here. @param threads  of those that are the processor
 std::vector<Participant> device_participants(int threads);
 
 } // namespace dss

@@ -86,13 +86,13 @@ private:
 
 /// Executors that could compute the scene alone: the fastest CPU variant, on one thread too where threads may cost more than they bring,
 /// and every device.
-std::vector<Candidate> single_candidates(const Setup& setup) {
+std::vector<Candidate> single_candidates(const Setup& setup, const std::vector<Participant>& devices) {
   const Plugin& cpu = load_variant("auto");
   std::vector<Candidate> candidates;
   const auto add = [&](const Participant& one) { candidates.emplace_back().participants = {one}; };
   add({{cpu.name, "", setup.threads}, &cpu});
   if (setup.threads > 1 && setup.problem.lattice.element_count < small_elements) add({{cpu.name, "", 1}, &cpu});
-  for (const Participant& device : device_participants(setup.threads)) add(device);
+  for (const Participant& device : devices) add(device);
   return candidates;
 }
 
@@ -118,25 +118,22 @@ double predicted_s(const Setup& setup, const std::vector<double>& speed, const N
   return predicted_step_s(planned, link);
 }
 
-/// The CPU, whole or without the thread that serves the device, joined with each device; their predicted steps as step_s.
+/// The CPU joined with each device, with all its threads or without one for the device; their predicted steps as step_s.
 std::vector<Candidate> joint_candidates(const Setup& setup, const std::vector<Candidate>& singles) {
   std::vector<Candidate> joint;
   if (setup.problem.lattice.rows.size() < 2) return joint;
   const double elements = double(setup.problem.lattice.element_count);
-  const Participant& cpu = singles.front().participants.front();
   for (const Candidate& single : singles) {
-    Participant device = single.participants.front();
-    if (device.plugin == cpu.plugin || !single.unusable.empty()) continue;
-    const bool is_cpu = device.member.threads > 1 || setup.threads == 1; // it takes the threads that it is given
-    double device_speed = elements / single.step_s;
-    if (device.member.threads > 1) device_speed /= device.member.threads, device.member.threads = 1;
+    Participant device = single.participants.front(), cpu = singles.front().participants.front();
+    if (device.member.device.empty() || !single.unusable.empty()) continue;
+    const double device_speed = elements / single.step_s / device.member.threads;
+    device.member.threads = 1;
     for (const int threads : {setup.threads - 1, setup.threads}) {
-      if (threads < 1 || (is_cpu && threads == setup.threads && setup.threads > 1)) continue;
-      Participant rest = cpu;
-      rest.member.threads = threads;
-      const double rest_speed = elements / singles.front().step_s * threads / setup.threads;
-      joint.emplace_back().participants = {rest, device};
-      joint.back().step_s = predicted_s(setup, {rest_speed, device_speed}, link_of(single));
+      if (threads < 1 || (device.is_processor && threads == setup.threads)) continue;
+      cpu.member.threads = threads;
+      const double cpu_speed = elements / singles.front().step_s * threads / setup.threads;
+      joint.emplace_back().participants = {cpu, device};
+      joint.back().step_s = predicted_s(setup, {cpu_speed, device_speed}, link_of(single));
     }
   }
   return joint;
@@ -157,8 +154,8 @@ Candidate& fastest(std::vector<Candidate>& candidates) {
 
 } // namespace
 
-Choice choose_fastest(const Setup& setup) {
-  std::vector<Candidate> singles = single_candidates(setup);
+Choice choose_fastest(const Setup& setup, const std::vector<Participant>& devices) {
+  std::vector<Candidate> singles = single_candidates(setup, devices);
   Choice choice;
   if (singles.size() == 1) {
     choice.participants = singles.front().participants;

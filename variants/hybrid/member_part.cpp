@@ -10,12 +10,12 @@ namespace {
 
 std::unique_ptr<Executor> make_executor(const Setup& whole, const Participant& participant,
                                         const PartSetup& part_setup) {
-  const auto& [member, plugin] = participant;
-  auto executor = plugin->create({part_setup.part.problem, whole.method, whole.model, whole.precision, whole.dt,
-                                  member.threads, &part_setup, nullptr, member.device});
+  const Member& member = participant.member;
+  auto executor = participant.plugin->create({part_setup.part.problem, whole.method, whole.model, whole.precision,
+                                              whole.dt, member.threads, &part_setup, nullptr, member.device});
   if (executor->halo_copies() == 0)
-    throw InputError(
-        fmt::format("hybrid: {}: {} does not compute parts; give one that does", name(member), plugin->name));
+    throw InputError(fmt::format("hybrid: {}: {} does not compute parts; give one that does", name(member),
+                                 participant.plugin->name));
   return executor;
 }
 

@@ -11,6 +11,7 @@ namespace dss {
 struct Participant {
   Member member;
   const Plugin* plugin = nullptr;
+  bool is_processor = false; ///< its device is the processor on which CPU variants compute
 };
 
 class MemberPart {
