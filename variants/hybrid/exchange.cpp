@@ -84,7 +84,7 @@ void MemberHalo::send(Side side, int copy) {
 }
 
 void MemberHalo::receive(Side side, int copy) {
-  if (is_stepping_ && side == all_sides[0]) begin_step();
+  if (is_stepping_ && side == faces_.front().side) begin_step();
   for (Face& face : faces_) {
     if (face.side != side) continue;
     const Channel::Slot& slot = face.in->slots[face.received & 1];
