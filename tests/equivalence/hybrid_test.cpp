@@ -378,7 +378,7 @@ TEST_F(Hybrid, has_no_more_members_than_rows) {
   EXPECT_EQ(members_on(row), 1u);
 }
 
-TEST_F(Hybrid, refuses_members_that_compute_no_parts) {
+TEST_F(Hybrid, refuses_members_that_compute_no_parts_or_round_otherwise) {
   const Problem problem = fixture::make_plate(12);
   const auto refusal = [&](const char* members) -> std::string {
     dss::Setup setup{problem, methods().front(), Model::spatial, Precision::f64, problem.dt};
@@ -393,7 +393,11 @@ TEST_F(Hybrid, refuses_members_that_compute_no_parts) {
   EXPECT_NE(refusal("avx2:1,hybrid:1").find("hybrid has parts of its own"), std::string::npos);
   EXPECT_NE(refusal("avx2:1,avx3:1").find("\"avx3\" does not exist"), std::string::npos);
   if (has("reference")) {
-    EXPECT_NE(refusal("avx2:1,reference:1").find("reference does not compute parts"), std::string::npos);
+    EXPECT_NE(refusal("avx2:1,reference:1").find("reference rounds otherwise"), std::string::npos);
+    const dss::Setup setup{problem, methods().front(), Model::spatial, Precision::f64, problem.dt};
+    const std::vector<Participant> members = {{{"avx2", "", 1}, &load_variant("avx2")},
+                                              {{"reference", "", 1}, &load_variant("reference")}};
+    EXPECT_THROW(make_executor(setup, members), InputError);
   }
 }
 

@@ -15,6 +15,10 @@ Participant participant_of(const Member& member) {
   if (plugin.is_distributed || std::string_view(plugin.name) == "hybrid")
     throw InputError(fmt::format("hybrid: member \"{}\": {} has parts of its own; give variants that compute one",
                                  name(member), plugin.name));
+  if (const Plugin& fastest = load_variant("auto"); plugin.has_fma != fastest.has_fma)
+    throw InputError(fmt::format("hybrid: member \"{}\": {} rounds otherwise than {} (one of them without fused "
+                                 "multiply-add), and the state would depend on shares",
+                                 name(member), plugin.name, fastest.name));
   Participant participant{member, &plugin};
   participant.member.variant = plugin.name;
   return participant;
