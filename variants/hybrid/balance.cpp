@@ -37,27 +37,28 @@ double slowest_step_s(std::span<const std::size_t> elements, std::span<const dou
 double Balance::block_s() const { return 20e-3 * double(1 << std::min(moves_, 6)); }
 
 void Balance::add(std::vector<double> step_s) {
-  before_ = std::move(last_);
-  last_ = std::move(step_s);
+  blocks_.push_back(std::move(step_s));
+  if (blocks_.size() > blocks_needed) blocks_.pop_front();
 }
 
 bool Balance::is_uneven() const {
-  const auto slowest = [](const std::vector<double>& block) {
+  const auto slowest = [](const std::vector<double>& block) { // -1: none
     const auto [least, most] = std::ranges::minmax_element(block);
     return *least < (1 - tolerated) * *most ? most - block.begin() : std::ptrdiff_t(-1);
   };
-  return !before_.empty() && slowest(last_) >= 0 && slowest(last_) == slowest(before_);
+  return blocks_.size() == blocks_needed && slowest(blocks_.front()) >= 0 &&
+         std::ranges::all_of(blocks_, [&](const auto& block) { return slowest(block) == slowest(blocks_.front()); });
 }
 
 std::vector<double> Balance::step_s() const {
-  std::vector<double> mean = last_;
-  for (std::size_t m = 0; m < before_.size(); ++m) mean[m] = (last_[m] + before_[m]) / 2;
+  std::vector<double> mean(blocks_.front().size(), 0);
+  for (const std::vector<double>& block : blocks_)
+    for (std::size_t m = 0; m < mean.size(); ++m) mean[m] += block[m] / double(blocks_.size());
   return mean;
 }
 
 void Balance::moved() {
-  last_.clear();
-  before_.clear();
+  blocks_.clear();
   ++moves_;
 }
 

@@ -3,6 +3,7 @@
 #include "solver/decomposition/decomposition.hpp"
 
 #include <cstddef>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -31,9 +32,9 @@ public:
   double block_s() const;
   /// Each member's median over a block [s].
   void add(std::vector<double> step_s);
-  /// Whether both of the last two blocks differ by more than is tolerated, with the same member the slowest.
+  /// Whether members differ by more than is tolerated in each of the last blocks_needed blocks, with the same one the slowest.
   bool is_uneven() const;
-  /// Mean of the last two blocks (of the last, while there is one) [s].
+  /// Each member's mean of these blocks [s].
   std::vector<double> step_s() const;
   /// Elements have moved.
   void moved();
@@ -41,7 +42,8 @@ public:
   static bool pays(double now_s, double gain_s, double steps, double moving_s);
 
 private:
-  std::vector<double> last_, before_;
+  static constexpr std::size_t blocks_needed = 3;
+  std::deque<std::vector<double>> blocks_; ///< the last ones
   int moves_ = 0;
 };
 

@@ -6,7 +6,7 @@
 
 namespace dss {
 
-constexpr int most_spins = 1000; ///< 10 to 50 us: longer than neighbours in step are apart, shorter than a nap costs
+constexpr int most_spins = 2000; ///< 20 to 100 us: neighbours in step are no longer apart, and a nap costs as much
 constexpr std::uint32_t stopped = std::uint32_t(-1); ///< fills a slot in place of a message
 
 Channel& Exchange::channel(int from, int to) {
