@@ -4,6 +4,7 @@
 #include "solver/decomposition/part.hpp"
 
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace dss {
@@ -20,6 +21,14 @@ struct HaloLayout {
   /// computed. Otherwise they are only good until the next computation.
   bool is_stable = false;
 };
+
+/// Copies between memory and a message.
+inline void gather(const HaloLayout& layout, std::byte* message) {
+  for (const auto& piece : layout.pieces) std::memcpy(message + piece.offset, piece.at, piece.count);
+}
+inline void scatter(const HaloLayout& layout, const std::byte* message) {
+  for (const auto& piece : layout.pieces) std::memcpy(piece.at, message + piece.offset, piece.count);
+}
 
 /// The halo of one part as its executor sees it. An executor may keep several copies of its elements (stages, parities
 /// of the step) and numbers them as it likes: messages between two parts are matched by their order. All calls come from

@@ -83,4 +83,12 @@ NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin, const Decompos
   return best;
 }
 
+double measure_speed_at_once(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part,
+                             int rounds) {
+  Trial trial(setup, plugin, decomposition, part, *find_halo_strategy("deep"));
+  double best = 0;
+  for (int round = 0; round < rounds; ++round) best = std::max(best, trial.speed());
+  return best;
+}
+
 } // namespace dss

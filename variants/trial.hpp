@@ -11,4 +11,8 @@ namespace dss {
 NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part,
                         int rounds = 8);
 
+/// The same of all stages at once alone, which every executor of parts can do.
+double measure_speed_at_once(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part,
+                             int rounds = 8);
+
 } // namespace dss

@@ -5,17 +5,46 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 
 namespace dss {
 
-const Plugin& DistributedExecutor::find_plugin(const std::string& name) {
-  const Plugin& plugin = load_variant(name);
-  if (plugin.is_distributed) throw InputError(fmt::format("variant mpi:{}: a part cannot be distributed again", name));
-  info_.variant = plugin.name;
-  info_.isa = plugin.isa;
-  info_.has_fma = world_.largest(info_.has_fma ? 0 : 1) == 0;
+/// Each text once, in the order of ranks.
+static std::string joined(const std::vector<std::string>& texts) {
+  std::vector<std::string> distinct;
+  for (const std::string& text : texts)
+    if (std::ranges::find(distinct, text) == distinct.end()) distinct.push_back(text);
+  return fmt::format("{}", fmt::join(distinct, ","));
+}
+
+const Plugin& DistributedExecutor::find_plugin(Setup& setup) {
+  std::string variant = setup.distribution->variant;
+  if (!setup.members.empty()) {
+    if (setup.members == "auto")
+      throw InputError("--hybrid auto chooses among executors of one process; name the members of ranks");
+    const std::vector<Member> members = parse_members(setup.members);
+    const Member& own = members[std::size_t(world_.rank()) % members.size()];
+    variant = own.variant;
+    setup.device = own.device;
+    setup.threads = own.threads;
+  }
+  const Plugin& plugin = load_variant(variant);
+  if (plugin.is_distributed)
+    throw InputError(fmt::format("variant mpi:{}: a part cannot be distributed again", variant));
+  info_.variant = joined(world_.gather(std::string(plugin.name)));
+  info_.isa = joined(world_.gather(std::string(plugin.isa)));
+  info_.has_fma = world_.least(plugin.has_fma) > 0;
   return plugin;
+}
+
+void DistributedExecutor::require_equal_lanes(const std::string& members) {
+  std::vector<std::string> lanes;
+  for (const double own : world_.gather(part_->executor().halo_lanes())) lanes.push_back(fmt::format("{:.0f}", own));
+  if (const std::string distinct = joined(lanes); distinct != lanes.front())
+    throw InputError(fmt::format("--hybrid {}: ranks hold {} elements in a pack and order messages differently; give "
+                                 "members that hold the same, or compute them in one process",
+                                 members, distinct));
 }
 
 DistributedExecutor::DistributedExecutor(const Setup& asked)
@@ -23,21 +52,10 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   static const Distribution alone;
   Setup setup = asked;
   if (setup.distribution == nullptr) setup.distribution = &alone;
-  std::string variant = setup.distribution->variant;
-  if (!setup.members.empty()) {
-    const std::vector<Member> members = parse_members(setup.members);
-    const Member& own = members[std::size_t(world_.rank()) % members.size()];
-    variant = own.variant;
-    setup.device = own.device;
-    setup.threads = own.threads;
-  }
-  const Plugin& plugin = find_plugin(variant);
+  const Plugin& plugin = find_plugin(setup);
   const Spread found = spread(setup, plugin, world_, fault_);
   part_.emplace(setup, plugin, found.decomposition, *found.halo, world_, fault_);
-  if (!setup.members.empty()) {
-    info_.variant = setup.members;
-    info_.has_fma = world_.largest(info_.has_fma ? 0 : 1) == 0;
-  }
+  if (!setup.members.empty()) require_equal_lanes(setup.members);
   info_.ranks = world_.ranks();
   info_.decomposition = found.decomposition.method;
   info_.halo = found.halo->name;

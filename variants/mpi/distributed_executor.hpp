@@ -21,7 +21,6 @@ public:
   std::size_t bytes() const override { return bytes_; }
   RankInfo rank_info() const override { return info_; }
   Traffic traffic() const override { return part_->traffic(); }
-  DeviceUse device_use() const override { return part_->executor().device_use(); }
   void work_alone(bool is_alone) override { world_.work_alone(is_alone); }
   std::vector<double> gather(double value) override { return world_.gather(value); }
 
@@ -30,7 +29,10 @@ private:
   template <class Visit>
   void each_own(std::size_t first, std::size_t count, Visit&& visit) const;
   std::size_t global_of(std::size_t local) const;
-  const Plugin& find_plugin(const std::string& name);
+  /// This rank's, of what the setup asks for; all ranks' in info_.
+  const Plugin& find_plugin(Setup& setup);
+  /// Members must order messages alike. @throws InputError on all ranks if they do not
+  void require_equal_lanes(const std::string& members);
 
   World& world_;
   const Fault fault_;

@@ -3,7 +3,6 @@
 #include "solver/error.hpp"
 #include "variants/mpi/transports.hpp"
 
-#include <cstring>
 #include <limits>
 
 namespace dss {
@@ -19,14 +18,6 @@ int count_of(std::size_t bytes) {
   if (bytes > std::size_t(std::numeric_limits<int>::max()))
     throw InputError("a message between two parts exceeds 2 GiB; take more ranks, or --decomposition blocks");
   return int(bytes);
-}
-
-void gather(const HaloLayout& layout, std::byte* message) {
-  for (const auto& piece : layout.pieces) std::memcpy(message + piece.offset, piece.at, piece.count);
-}
-
-void scatter(const HaloLayout& layout, const std::byte* message) {
-  for (const auto& piece : layout.pieces) std::memcpy(piece.at, message + piece.offset, piece.count);
 }
 
 TimedHalo::TimedHalo(HaloExchange& exchange) : exchange_(exchange) {

@@ -56,8 +56,4 @@ private:
 /// The exchange of a transport between the ranks of `comm`. Collective.
 std::unique_ptr<HaloExchange> make_exchange(HaloStrategy::Transport transport, std::vector<Face> faces, MPI_Comm comm);
 
-/// Copies between memory and a message.
-void gather(const HaloLayout& layout, std::byte* message);
-void scatter(const HaloLayout& layout, const std::byte* message);
-
 } // namespace dss

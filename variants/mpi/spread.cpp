@@ -30,9 +30,20 @@ Decomposition decomposition_of(const Setup& setup, const Distribution& asked, co
 /// Every rank's speed on an equal share.
 Weights measured_weights(const Setup& setup, const Plugin& plugin, const Decomposition& equal, World& world,
                          const Fault& fault) {
-  const std::vector<double> speed = world.gather(own_speed(setup, plugin, equal, world, fault).at_once);
+  world.meet(); // as above
+  const std::vector<double> speed =
+      world.gather(measure_speed_at_once(setup, plugin, equal, world.rank()) / fault.slowdown());
   const auto [least, most] = std::minmax_element(speed.begin(), speed.end());
   return {*most > resolution * *least ? speed : std::vector<double>{}, {}};
+}
+
+/// As the members of a hybrid say that ranks compute; empty: as measured.
+Weights member_weights(const std::string& text, int ranks) {
+  const std::vector<Member> members = parse_members(text);
+  if (members.front().weight == 0) return {};
+  Weights weights;
+  for (int rank = 0; rank < ranks; ++rank) weights.speed.push_back(members[std::size_t(rank) % members.size()].weight);
+  return weights;
 }
 
 } // namespace
@@ -43,11 +54,16 @@ Spread spread(const Setup& setup, const Plugin& plugin, World& world, const Faul
     throw InputError(fmt::format("--ranks {}: this job has {} ranks; give --ranks {}, or start it by dssbench alone",
                                  asked.ranks, world.ranks(), world.ranks()));
   Spread result;
-  result.decomposition = decomposition_of(setup, asked, {});
-  if (asked.is_measured && world.ranks() > 1)
+  const Weights given = setup.members.empty() ? Weights{} : member_weights(setup.members, asked.ranks);
+  const bool is_measured = given.speed.empty() && (asked.is_measured || !setup.members.empty());
+  result.decomposition = decomposition_of(setup, asked, given);
+  if (is_measured && world.ranks() > 1)
     result.decomposition =
         decomposition_of(setup, asked, measured_weights(setup, plugin, result.decomposition, world, fault));
-  if (asked.halo != "auto") {
+  if (asked.halo == "auto" && !setup.members.empty()) {
+    result.halo = find_halo_strategy("deep");
+    result.halo_reason = "members of a hybrid exchange once a step";
+  } else if (asked.halo != "auto") {
     result.halo = find_halo_strategy(asked.halo);
     std::vector<std::string> known{"auto"};
     for (const HaloStrategy& strategy : halo_strategies()) known.emplace_back(strategy.name);

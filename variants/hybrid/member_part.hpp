@@ -1,0 +1,46 @@
+#pragma once
+/// One member's part of the scene. Made, used and destroyed in the member's own thread.
+#include "variants/hybrid/exchange.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace dss {
+
+/// A member and what computes for it.
+struct Participant {
+  Member member;
+  const Plugin* plugin = nullptr;
+  bool is_processor = false; ///< its device is the processor on which CPU variants compute
+};
+
+class MemberPart {
+public:
+  /// @param whole  setup of the whole scene  @throws InputError if the variant computes no parts
+  MemberPart(const Setup& whole, const Participant& participant, const Decomposition& decomposition, int index,
+             Exchange& exchange);
+  MemberPart(const MemberPart&) = delete;
+  MemberPart& operator=(const MemberPart&) = delete;
+
+  const Part& part() const { return part_; }
+  MemberHalo& halo() { return halo_; }
+  Executor& executor() { return *executor_; }
+  const Executor& executor() const { return *executor_; }
+  /// Calls visit(local first, global first, count) for the own elements among [first, first + count).
+  template <class Visit>
+  void each_own(std::size_t first, std::size_t count, Visit&& visit) const {
+    for (const Run& run : part_.runs) {
+      const std::size_t begin = std::max(first, run.global), end = std::min(first + count, run.global + run.count);
+      if (begin < end) visit(run.local + (begin - run.global), begin, end - begin);
+    }
+  }
+  std::size_t global_of(std::size_t local) const;
+
+private:
+  const Part part_;
+  MemberHalo halo_;
+  const PartSetup part_setup_;
+  const std::unique_ptr<Executor> executor_;
+};
+
+} // namespace dss

@@ -1,0 +1,25 @@
+/// The variant `hybrid`: several members compute one scene at once, or the one that is fastest by itself.
+#include "solver/error.hpp"
+#include "variants/hybrid/hybrid.hpp"
+#include "variants/loader.hpp"
+
+namespace dss {
+namespace {
+
+/// Of the variant that all choices begin with.
+bool has_fma() {
+  try {
+    return load_variant("auto").has_fma;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+} // namespace
+} // namespace dss
+
+extern "C" const dss::Plugin* dss_plugin() {
+  static const dss::Plugin plugin{dss::plugin_abi, DSS_VARIANT,        DSS_ISA, dss::has_fma(), true,
+                                  false,           dss::create_hybrid, nullptr};
+  return &plugin;
+}
