@@ -97,7 +97,8 @@ template <class T>
 HaloLayout RowExecutor<T>::halo_layout(std::span<const std::size_t> elements, int copy) {
   bool is_stable = true;
   const auto is_own = [&](std::size_t element) { return part_->part.layer[element] == 0; };
-  HaloLayout layout = rows_.layout(elements, [&](int r) { return copy_row(copy, r); }, is_own);
+  HaloLayout layout = rows_.layout(
+      elements, [&](int r) { return copy_row(copy, r); }, is_own);
   for (const std::size_t element : elements) {
     const int r = int(row_of(packed_.lattice, element));
     const bool own = is_own(element), is_halo_row = !packed_.is_computed(r, 0);

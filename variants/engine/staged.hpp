@@ -52,8 +52,8 @@ public:
   /// Calls visit(row, is_whole, task) for all that a thread does in a stage, in its order.
   template <class Visit>
   void each_task(int thread, int stage, Visit&& visit) {
-    for (const RowActions* rows : {&plan_[std::size_t(thread)][std::size_t(stage)].inner,
-                                   &plan_[std::size_t(thread)][std::size_t(stage)].outer})
+    for (const RowActions* rows :
+         {&plan_[std::size_t(thread)][std::size_t(stage)].inner, &plan_[std::size_t(thread)][std::size_t(stage)].outer})
       for (const RowAction& action : *rows)
         visit(action.row, action.is_whole, task_of(thread, stage, action.row, action.is_whole));
   }

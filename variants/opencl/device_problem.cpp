@@ -89,9 +89,11 @@ void DeviceProblem<T, W>::make_constant_tables() {
     applied[r] = {a.first, a.packs, int(patterns.size()), a.pattern_count,
                   a.free_lanes == nullptr ? -1 : int(free_lanes.size())};
     for (int n = 0; n < a.pattern_count; ++n)
-      patterns.push_back({offset(a.patterns[n].values), a.patterns[n].signal, a.patterns[n].first, a.patterns[n].packs});
+      patterns.push_back(
+          {offset(a.patterns[n].values), a.patterns[n].signal, a.patterns[n].first, a.patterns[n].packs});
     if (a.free_lanes != nullptr)
-      free_lanes.insert(free_lanes.end(), a.free_lanes, a.free_lanes + std::size_t(a.packs) * packed.layout.wrench.size());
+      free_lanes.insert(free_lanes.end(), a.free_lanes,
+                        a.free_lanes + std::size_t(a.packs) * packed.layout.wrench.size());
   }
   bodies_ = table(bodies), masks_ = table(masks), applied_ = table(applied), patterns_ = table(patterns);
   free_lanes_ = table(free_lanes);
@@ -100,10 +102,9 @@ void DeviceProblem<T, W>::make_constant_tables() {
 template <class T, int W>
 void DeviceProblem<T, W>::finish(int leapfrog_fields, bool has_rates) {
   const Device& device = queue.device();
-  ProgramKind kind{model_, sizeof(T) == 8 ? Precision::f64 : Precision::f32,
-                   W,      layout.has_items,
-                   false,  has_rates,
-                   packed.fields(), terms_};
+  ProgramKind kind{
+      model_, sizeof(T) == 8 ? Precision::f64 : Precision::f32, W, layout.has_items, false, has_rates, packed.fields(),
+      terms_};
   kind.has_leapfrog = leapfrog_fields > 0;
   if (kind.has_leapfrog) kind.leapfrog_fields = leapfrog_fields;
   program_ = build_program(device, row_program(kind));
@@ -116,13 +117,17 @@ void DeviceProblem<T, W>::finish(int leapfrog_fields, bool has_rates) {
   }
   make_constant_tables();
   row_table_ = table(rows_);
-  arena_ = device.is_unified ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.start())
-                             : queue.make_buffer(memory.bytes());
+  arena_ = device.is_unified
+               ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.start())
+               : queue.make_buffer(memory.bytes());
   if (!device.is_unified) queue.write(arena_, 0, {memory.start(), memory.bytes()});
   if (layout.has_items) {
     const std::size_t packs = std::size_t(packed.packs_across), most = 256;
-    group_size_ = std::min(packs * W, std::min(most, kernel("run_pass").handle().template getWorkGroupInfo<
-                                                         CL_KERNEL_WORK_GROUP_SIZE>(device.handle) / W * W));
+    group_size_ = std::min(
+        packs * W,
+        std::min(most,
+                 kernel("run_passes").handle().template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device.handle) / W *
+                     W));
   }
 }
 
@@ -148,7 +153,8 @@ void DeviceProblem<T, W>::to_host(std::span<const Range> ranges) {
   for (const Range& range : ranges) {
     auto* const from = reinterpret_cast<std::byte*>(const_cast<T*>(range.from));
     const std::size_t bytes = std::size_t(range.to - range.from) * sizeof(T);
-    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes}, &range == &ranges.back() ? Wait::yes : Wait::no);
+    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes},
+               &range == &ranges.back() ? Wait::yes : Wait::no);
   }
 }
 

@@ -45,9 +45,7 @@ public:
   const Layout layout;
   mutable Queue queue;
 
-  long offset(const T* at) const {
-    return at == nullptr ? -1 : at - reinterpret_cast<const T*>(memory.start());
-  }
+  long offset(const T* at) const { return at == nullptr ? -1 : at - reinterpret_cast<const T*>(memory.start()); }
   /// Adds to the table of row stages. @return its place there
   int add(const RowTask<T>& task, int row, int action, int fields, const T* published = nullptr);
   int next_place() const { return int(rows_.size()); }
@@ -110,7 +108,7 @@ private:
 template <class T, int W>
 DeviceUse use_of(const DeviceProblem<T, W>& problem) {
   const Counts& counts = problem.queue.counts();
-  return {problem.queue.device().entry, problem.build_s(),       problem.is_cached(), counts.launches,
+  return {problem.queue.device().entry, problem.build_s(),        problem.is_cached(), counts.launches,
           counts.to_device_bytes,       counts.from_device_bytes, counts.transfer_s,   problem.queue.empty_launch_s()};
 }
 

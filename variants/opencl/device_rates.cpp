@@ -51,7 +51,9 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
 template <class T, int W>
 void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals, T* rates) {
   Queue& queue = device_.queue;
-  const auto place = [&](const dss::Buffer<T>& buffer) { return std::size_t(device_.offset(buffer.data())) * sizeof(T); };
+  const auto place = [&](const dss::Buffer<T>& buffer) {
+    return std::size_t(device_.offset(buffer.data())) * sizeof(T);
+  };
   const std::size_t bytes = plain_.bytes();
   device_.set_signals(signals, signals.size());
   queue.write(device_.arena(), place(plain_), {reinterpret_cast<const std::byte*>(plain), bytes});

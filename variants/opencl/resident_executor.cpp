@@ -44,8 +44,10 @@ void ResidentExecutor<T, W>::make_blocks() {
                          WavefrontStep<T, W>::sweeps(packed_, method, is_alone));
   if (packed_.own_end < rows) blocks_.emplace_back(packed_, packed_.own_end, rows, stored_fields(), halo);
   most_sweeps_ = WavefrontStep<T, W>::sweeps(packed_, method, is_alone);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+  if (!problem_.layout.has_items && !is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
+  for (std::size_t b = 0, band = 0; b < blocks_.size(); ++b) {
     if (blocks_[b].is_remote()) continue;
+    add_neighbours(cuts, int(band++), halo);
     WavefrontStep<T, W> step(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks_, b);
     for (const int parity : {0, 1}) {
       int n = 0;
@@ -62,13 +64,23 @@ void ResidentExecutor<T, W>::make_blocks() {
           },
           [&](int r, bool is_whole, const RowTask<T>& task) {
             const bool is_published = is_last() && blocks_[b].is_published(r) && blocks_[b].owns(r);
-            const int place = problem_.add(
-                task, r, is_whole ? problem_.action_of(task, method) : Tables<T>::prime_upper, stored_fields(),
-                is_published ? blocks_[b].published(r, parity ^ 1) : nullptr);
+            const int place =
+                problem_.add(task, r, is_whole ? problem_.action_of(task, method) : Tables<T>::prime_upper,
+                             stored_fields(), is_published ? blocks_[b].published(r, parity ^ 1) : nullptr);
             if (sweeps_.back().rows < 0) sweeps_.back().rows = place;
           });
     }
   }
+}
+
+/// Bands with rows in the halo of this one.
+template <class T, int W>
+void ResidentExecutor<T, W>::add_neighbours(const std::vector<int>& cuts, int band, int halo) {
+  const int begin = cuts[std::size_t(band)] - halo, end = cuts[std::size_t(band) + 1] + halo;
+  int first = band, last = band;
+  while (first > 0 && cuts[std::size_t(first)] > begin) --first;
+  while (last + 1 < bands_ && cuts[std::size_t(last) + 1] < end) ++last;
+  neighbours_.push_back({{first, last + 1}});
 }
 
 template <class T, int W>
@@ -93,18 +105,20 @@ void ResidentExecutor<T, W>::add_stages() {
 
 template <class T, int W>
 void ResidentExecutor<T, W>::make_kernels() {
-  kernel_ = problem_.kernel(staged_ ? "run_rows" : "run_pass");
+  kernel_ = problem_.kernel(staged_ ? "run_rows" : "run_passes");
   failed_ = problem_.queue.make_buffer(std::size_t(1 + 2 * bands_) * sizeof(cl_int));
   if (!staged_) {
     sweep_table_ = problem_.table(sweeps_);
-    kernel_.set_one(DeviceProblem<T, W>::table_arguments, sweep_table_);
+    neighbour_table_ = problem_.table(neighbours_);
+    progress_ = problem_.queue.make_buffer(std::size_t(bands_) * sizeof(cl_int));
     return;
   }
   for (const auto& lists : lists_) list_tables_.push_back(problem_.table(lists));
   for (int parity = 0; problem_.has_extra_links() && parity < (staged_->is_swapped() ? 2 : 1); ++parity) {
     for (int stage = 0; stage < setup_.method.stages; ++stage) {
       std::vector<cl_long> starts;
-      for (int r = 0; r < int(packed_.rows.size()); ++r) starts.push_back(problem_.offset(staged_->stage_row(stage, r)));
+      for (int r = 0; r < int(packed_.rows.size()); ++r)
+        starts.push_back(problem_.offset(staged_->stage_row(stage, r)));
       row_starts_.push_back(problem_.table(starts));
     }
     if (staged_->is_swapped()) staged_->swap();
@@ -172,7 +186,8 @@ void ResidentExecutor<T, W>::to_device() {
 template <class T, int W>
 HaloLayout ResidentExecutor<T, W>::halo_layout(std::span<const std::size_t> elements, int copy) {
   const auto is_own = [&](std::size_t element) { return part_->part.layer[element] == 0; };
-  HaloLayout layout = rows_.layout(elements, [&](int r) { return copy_row(copy, r); }, is_own);
+  HaloLayout layout = rows_.layout(
+      elements, [&](int r) { return copy_row(copy, r); }, is_own);
   layout.is_stable = false; // the host has the arena only between computations
   if (elements.empty()) return layout;
   auto& ranges = (is_own(elements.front()) ? sent_ : received_)[std::size_t(copy)];
@@ -292,28 +307,55 @@ void ResidentExecutor<T, W>::forget_failures() {
   problem_.queue.write(failed_, 0, std::as_bytes(std::span(none)));
 }
 
-/// Enqueued without waiting, but for parts, which exchange halos in between.
 template <class T, int W>
 Outcome ResidentExecutor<T, W>::run_passes(long steps) {
+  const long passes = (steps + steps_a_pass_ - 1) / steps_a_pass_;
+  const std::vector<cl_int> none(std::size_t(bands_), 0);
+  problem_.queue.write(progress_, 0, std::as_bytes(std::span(none)));
+  cl_uint n = DeviceProblem<T, W>::table_arguments;
+  for (const opencl::Buffer& table : {sweep_table_, neighbour_table_, problem_.signals(), failed_, progress_})
+    kernel_.set_one(n++, table);
   const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
-  cl_uint n = DeviceProblem<T, W>::table_arguments + 1;
-  kernel_.set_one(n++, problem_.signals());
-  kernel_.set_one(n++, failed_);
-  const cl_uint first_signals = n, parity_place = n + 2, count_place = n + 3, step_place = n + 4;
-  for (const cl_int value : {0, most_sweeps_, 0, 0, 0, stages, packed_.reach, width}) kernel_.set_one(n++, cl_int(value));
-  if (is_part()) send(parity_);
-  for (long step = 0; step < steps; step += steps_a_pass_) {
-    if (is_part()) receive(parity_);
-    const long at_once = std::min(long(steps_a_pass_), steps - step);
-    kernel_.set_one(first_signals, cl_int(step * stages));
-    kernel_.set_one(parity_place, cl_int(parity_));
-    kernel_.set_one(count_place, cl_int(at_once * stages));
-    kernel_.set_one(step_place, cl_int(step));
-    problem_.launch(kernel_, bands_);
-    if (steps_a_pass_ == 1 || (at_once & 1) != 0) parity_ ^= 1; // passes of several steps publish nothing
-    if (is_part() && step + steps_a_pass_ < steps) send(parity_);
+  for (const int value :
+       {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages, packed_.reach, width, 0}) // 0: see run_to
+    kernel_.set_one(n++, cl_int(value));
+  const int first_parity = parity_;
+  const auto parity_after = [&](long pass) { return (first_parity + int(pass & 1)) & 1; };
+  if (is_part()) {
+    send(parity_);
+    for (long pass = 0; pass < passes; ++pass) {
+      receive(parity_after(pass));
+      run_to(pass + 1, false);
+      parity_ = parity_after(pass + 1);
+      if (pass + 1 < passes) send(parity_);
+    }
+  } else {
+    long done = 0;
+    if (trials_left_ > 0) {
+      run_to(passes, true);
+      done = least_progress();
+      if (done < std::min(passes, 2L)) --trials_left_; // bands came one after the other
+    }
+    for (long pass = done; pass < passes; ++pass) run_to(pass + 1, false);
+    parity_ = parity_after(passes);
   }
   return outcome(steps);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::run_to(long last_pass, bool is_together) {
+  constexpr int patience = 1 << 24; // some 10 ms: what it may take a sleeping thread to come
+  constexpr cl_uint first_number = DeviceProblem<T, W>::table_arguments + 5;
+  kernel_.set_one(first_number + 2, cl_int(last_pass));
+  kernel_.set_one(first_number + 8, cl_int(is_together ? patience : 0));
+  problem_.launch(kernel_, bands_);
+}
+
+template <class T, int W>
+long ResidentExecutor<T, W>::least_progress() {
+  std::vector<cl_int> progress(std::size_t(bands_), 0);
+  problem_.queue.read(progress_, 0, std::as_writable_bytes(std::span(progress)));
+  return *std::min_element(progress.begin(), progress.end());
 }
 
 template <class T, int W>
@@ -366,8 +408,8 @@ Outcome ResidentExecutor<T, W>::outcome(long steps) {
 template <class T, int W>
 std::string ResidentExecutor<T, W>::schedule() const {
   const char* const where = problem_.layout.has_items ? "work-groups" : "work-items";
-  return fmt::format("on {}: {} bands of rows, {} of {} lanes; {}", problem_.queue.device().entry.name, bands_, where, W,
-                     staged_ ? "stage by stage" : fmt::format("wavefront, reach {}, in place", packed_.reach));
+  return fmt::format("on {}: {} bands of rows, {} of {} lanes; {}", problem_.queue.device().entry.name, bands_, where,
+                     W, staged_ ? "stage by stage" : fmt::format("wavefront, reach {}, in place", packed_.reach));
 }
 
 template <class T, int W>

@@ -34,7 +34,7 @@ private:
   bool is_part() const { return part_ != nullptr; }
   int stored_fields() const { return rows_.stored_fields(); }
   void make_blocks();
-  void add_passes(std::vector<WavefrontStep<T, W>>& steps);
+  void add_neighbours(const std::vector<int>& cuts, int band, int halo);
   void add_stages();
   void make_kernels();
   Block<T, W>& block_of(int r);
@@ -51,6 +51,9 @@ private:
   std::vector<T> evaluate(std::span<const double> signals);
   void stop_leapfrog();
   Outcome run_passes(long steps);
+  /// All bands to the end of this pass. Together: without a launch for each, if all bands are computed at the same time.
+  void run_to(long last_pass, bool is_together);
+  long least_progress();
   Outcome run_stages(long steps);
   void launch_stage(int stage, long step);
   void forget_failures();
@@ -61,18 +64,21 @@ private:
   DeviceProblem<T, W> problem_;
   PackedRows<T, W>& packed_ = problem_.packed;
   StateRows<T, W> rows_;
-  std::vector<Block<T, W>> blocks_;        ///< wavefront; of a part: remote blocks first and last where it has a halo there
+  std::vector<Block<T, W>> blocks_; ///< wavefront; of a part: remote blocks first and last where it has a halo there
   std::optional<StagedRows<T, W>> staged_; ///< or stage by stage
   int bands_ = 1, steps_a_pass_ = 1, most_sweeps_ = 0;
   int parity_ = 0;
   bool is_on_host_ = false;
+  int trials_left_ =
+      0; ///< of bands that wait for one another, until they are found not to be computed at the same time
   std::vector<typename Tables<T>::sweep> sweeps_;
   std::vector<std::vector<cl_int2>> lists_; ///< parity * stages + stage: of each band
-  opencl::Buffer sweep_table_, failed_;
+  std::vector<cl_int2> neighbours_;         ///< of each band: bands whose rows it reads
+  opencl::Buffer sweep_table_, neighbour_table_, failed_, progress_;
   std::vector<opencl::Buffer> list_tables_, row_starts_;
   Kernel kernel_;
   std::vector<std::vector<Range>> sent_, received_; ///< by copy
-  bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before
+  bool is_started_ = false;                         ///< leapfrog: stored velocities are those of the half step before
   std::vector<double> end_signals_;
   std::vector<T> end_rates_; ///< leapfrog: rates at the end of the last advance, made when first read
   std::unique_ptr<DeviceRates<T, W>> rates_;

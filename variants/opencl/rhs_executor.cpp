@@ -160,9 +160,8 @@ int RhsExecutor<T, W>::leapfrog() {
         each_component(v_half, [&](T& c) { c = y[W * at++]; });
         each_component(w_half, [&](T& c) { c = y[W * at++]; });
       }
-      const auto next =
-          Physics::leapfrog(e.u, e.q, v_half, w_half, Physics::vec_scale(scales.parts[1].factor, f.v),
-                            Physics::spin_scale(scales.parts[3].factor, f.w), h);
+      const auto next = Physics::leapfrog(e.u, e.q, v_half, w_half, Physics::vec_scale(scales.parts[1].factor, f.v),
+                                          Physics::spin_scale(scales.parts[3].factor, f.w), h);
       at = 0;
       const auto store = [&](const T& c) { y[W * at++] = c, check += c * T(0); };
       each_component(next.u, store);

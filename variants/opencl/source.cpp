@@ -46,19 +46,20 @@ std::string vector_words(const ProgramKind& kind) {
 std::string head(const ProgramKind& kind, bool has_items) {
   const bool is_f64 = kind.precision == Precision::f64;
   std::string text = is_f64 ? "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n" : "";
-  text += fmt::format("#pragma OPENCL FP_CONTRACT OFF\n#define NUMBER {}\n#define W {}\n#define ALL_LANES {}u\n"
-                      "#define FMA(a, b, c) fma(a, b, c)\n"
-                      "#define inline inline __attribute__((always_inline))\n", // structs of packs must stay in registers
-                      is_f64 ? "double" : "float", kind.lanes, (1u << kind.lanes) - 1);
+  text +=
+      fmt::format("#pragma OPENCL FP_CONTRACT OFF\n#define NUMBER {}\n#define W {}\n#define ALL_LANES {}u\n"
+                  "#define FMA(a, b, c) fma(a, b, c)\n"
+                  "#define inline inline __attribute__((always_inline))\n", // structs of packs must stay in registers
+                  is_f64 ? "double" : "float", kind.lanes, (1u << kind.lanes) - 1);
   if (has_items)
     text += "#define REAL NUMBER\n#define SPLAT(a) ((NUMBER)(a))\n" + device_text("words_of_items.h");
   else
     text += vector_words(kind) + device_text("words_of_vectors.h");
   const bool is_planar = kind.model == Model::planar;
   if (is_planar) text += "#define PLANAR\n";
-  for (const char* file : {is_planar ? "kernels/algebra/planar.h" : "kernels/algebra/spatial.h",
-                           "kernels/link_force/link_force.h", "kernels/motion/motion.h", "kernels/wrench/wrench.h",
-                           "kernels/rk_update/rk_update.h"})
+  for (const char* file :
+       {is_planar ? "kernels/algebra/planar.h" : "kernels/algebra/spatial.h", "kernels/link_force/link_force.h",
+        "kernels/motion/motion.h", "kernels/wrench/wrench.h", "kernels/rk_update/rk_update.h"})
     text += text_of(file);
   for (const char* file : {"tables.h", "tables_of_device.h", "tuples.cl"}) text += device_text(file);
   return text;

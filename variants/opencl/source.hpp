@@ -20,7 +20,7 @@ struct ProgramKind {
   std::vector<Terms> terms;  ///< the combinations that rows name by their place here
 };
 
-/// Kernels run_pass and run_rows.
+/// Kernels run_passes and run_rows.
 std::string row_program(const ProgramKind& kind);
 /// Kernel evaluate_extra_links.
 std::string extra_link_program(const ProgramKind& kind);

@@ -7,13 +7,13 @@ typedef struct {
 
 /* What to do with a row. */
 enum row_action {
-  prime_y,     /* its links to the upper rows across y, or z, or both: what a block needs of a row before it */
+  prime_y, /* its links to the upper rows across y, or z, or both: what a block needs of a row before it */
   prime_z,
   prime_upper,
   first_stage, /* as RowTask (kernels/stage_row/row.hpp) without increments, and with */
   later_stage,
   leapfrog_step,
-  rates        /* out = rates, forces and moments unscaled: for a host that updates */
+  rates /* out = rates, forces and moments unscaled: for a host that updates */
 };
 
 /* One row of one stage. */
@@ -21,7 +21,7 @@ typedef struct {
   long in, upper_y, upper_z;
   long carry_y, carry_z, from_y, from_z;
   long base, out, increment[3];
-  long published; /* where else the new state goes */
+  long published;                   /* where else the new state goes */
   int action, shape, body, applied; /* shape: of the compiled terms; applied: -1 for most rows */
   int packs, first_pack, masks, fields, row;
   NUMBER beta, alpha[3];

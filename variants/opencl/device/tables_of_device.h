@@ -8,8 +8,9 @@ typedef struct {
   global const pattern* patterns;
   global const ushort* free_lanes;
 } device;
-#define TABLES \
-  global NUMBER *arena, global const row_stage *tasks, global const body_constants *bodies, \
-      global const pack_masks *masks, global const applied_row *applied, global const pattern *patterns, \
+#define TABLES                                                                                                         \
+  global NUMBER *arena, global const row_stage *tasks, global const body_constants *bodies,                            \
+      global const pack_masks *masks, global const applied_row *applied, global const pattern *patterns,               \
       global const ushort *free_lanes
-#define DEVICE {arena, tasks, bodies, masks, applied, patterns, free_lanes}
+#define DEVICE                                                                                                         \
+  { arena, tasks, bodies, masks, applied, patterns, free_lanes }

@@ -5,8 +5,9 @@
 #define KEEP(c) c = (mask >> LANE & 1) ? c : 0;
 #define LANE ((int)get_local_id(0) % W)
 #define PACKS_AT_ONCE ((int)get_local_size(0) / W)
-#define FIRST_PACK(task) \
+#define FIRST_PACK(task)                                                                                               \
   ((((int)get_local_id(0) / W - (task)->first_pack) % PACKS_AT_ONCE + PACKS_AT_ONCE) % PACKS_AT_ONCE)
 #define BLOCK get_group_id(0)
 #define SYNCHRONISE barrier(CLK_GLOBAL_MEM_FENCE)
 #define STOP_AT(n) /* work-items meet at barriers: none stops before the others */
+#define IS_FIRST_ITEM (get_local_id(0) == 0)
