@@ -76,6 +76,9 @@ public:
   /// kept_fields: it cannot.
   virtual void save(std::size_t first, std::span<double> kept) { (void)first, (void)kept; }
   virtual void restore(std::size_t first, std::span<const double> kept) { (void)first, (void)kept; }
+  /// Time in which it computed, in all calls of advance, where it knows better than who waits for it: with halos that come and go behind the
+  /// computation. Negative: it does not [s].
+  virtual double computing_s() const { return -1; }
   /// What was used of a device, and what its use cost.
   virtual DeviceUse device_use() const { return {}; }
   /// What the members of a hybrid do.

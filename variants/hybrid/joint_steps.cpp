@@ -34,6 +34,7 @@ Outcome JointExecutor::run(long steps, std::span<const double> signals) {
     member.halo().start_steps();
     outcomes[m] = member.executor().advance(steps, signals);
     member.halo().end_steps();
+    member.count_steps(steps);
     if (!outcomes[m].is_finite) outcomes[m].element = member.global_of(outcomes[m].element);
   });
   Outcome first{true, steps, 0};
@@ -52,11 +53,11 @@ long JointExecutor::block_steps() const {
 void JointExecutor::take_times() {
   step_s_.clear();
   for (std::size_t m = 0; m < parts_.size(); ++m)
-    step_s_.push_back(step_time_ ? step_time_(m, elements_[m]) : median(parts_[m]->halo().step_s()));
+    step_s_.push_back(step_time_ ? step_time_(m, elements_[m]) : parts_[m]->step_s());
 }
 
 void JointExecutor::begin_block() {
-  for (const auto& part : parts_) part->halo().step_s().clear();
+  for (const auto& part : parts_) part->begin_block();
   block_done_ = 0;
 }
 

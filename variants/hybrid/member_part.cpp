@@ -1,6 +1,7 @@
 #include "variants/hybrid/member_part.hpp"
 
 #include "solver/error.hpp"
+#include "variants/hybrid/balance.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,7 +25,18 @@ std::unique_ptr<Executor> make_executor(const Setup& whole, const Participant& p
 MemberPart::MemberPart(const Setup& whole, const Participant& participant, const Decomposition& decomposition,
                        int index, Exchange& exchange)
     : part_(make_part(whole.problem, decomposition, index, whole.method.stages)),
-      halo_(part_, exchange), part_setup_{part_, halo_}, executor_(make_executor(whole, participant, part_setup_)) {}
+      halo_(part_, exchange), part_setup_{part_, halo_, false, true}, executor_(make_executor(whole, participant, part_setup_)) {}
+
+double MemberPart::step_s() {
+  const double now_s = executor_->computing_s();
+  return now_s < 0 ? median(halo_.step_s()) : (now_s - computed_s_) / double(std::max(1L, block_steps_));
+}
+
+void MemberPart::begin_block() {
+  halo_.step_s().clear();
+  computed_s_ = executor_->computing_s();
+  block_steps_ = 0;
+}
 
 std::size_t MemberPart::global_of(std::size_t local) const {
   const auto behind = std::ranges::upper_bound(part_.runs, local, {}, &Run::local);

@@ -36,11 +36,18 @@ public:
   }
   std::size_t global_of(std::size_t local) const;
 
+  /// Its own time of a step since the block began [s]: as the executor says, or the median between receptions.
+  double step_s();
+  void begin_block();
+  void count_steps(long steps) { block_steps_ += steps; }
+
 private:
   const Part part_;
   MemberHalo halo_;
   const PartSetup part_setup_;
   const std::unique_ptr<Executor> executor_;
+  double computed_s_ = 0; ///< before the block
+  long block_steps_ = 0;
 };
 
 } // namespace dss

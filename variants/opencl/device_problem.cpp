@@ -19,9 +19,9 @@ Layout layout_on(const Device& device, Precision precision, int threads) {
 
 template <class T, int W>
 DeviceProblem<T, W>::DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device,
-                                   const Layout& where)
+                                   const Layout& where, bool has_copy)
     : packed(problem, model, part, memory), layout(where), queue(device), problem_(problem), model_(model),
-      part_(part) {}
+      part_(part), is_shared_(device.is_unified && !has_copy) {}
 
 template <class T, int W>
 int DeviceProblem<T, W>::shape_of(const Terms& terms) {
@@ -117,10 +117,10 @@ void DeviceProblem<T, W>::finish(int leapfrog_fields, bool has_rates) {
   }
   make_constant_tables();
   row_table_ = table(rows_);
-  arena_ = device.is_unified
+  arena_ = is_shared_
                ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.start())
                : queue.make_buffer(memory.bytes());
-  if (!device.is_unified) queue.write(arena_, 0, {memory.start(), memory.bytes()});
+  if (!is_shared_) queue.write(arena_, 0, {memory.start(), memory.bytes()});
   if (layout.has_items) {
     const std::size_t packs = std::size_t(packed.packs_across), most = 256;
     group_size_ = std::min(
@@ -139,13 +139,13 @@ Kernel DeviceProblem<T, W>::kernel(const char* name) const {
 }
 
 template <class T, int W>
-void DeviceProblem<T, W>::launch(const Kernel& kernel, int bands) {
-  queue.launch(kernel, cl::NDRange(std::size_t(bands) * group_size_), cl::NDRange(group_size_));
+cl::Event DeviceProblem<T, W>::launch(const Kernel& kernel, int bands) {
+  return queue.launch(kernel, cl::NDRange(std::size_t(bands) * group_size_), cl::NDRange(group_size_));
 }
 
 template <class T, int W>
-void DeviceProblem<T, W>::to_host(std::span<const Range> ranges) {
-  if (queue.device().is_unified) {
+void DeviceProblem<T, W>::to_host(std::span<const Range> ranges, Wait wait) {
+  if (is_shared_) {
     if (mapping_ == nullptr)
       mapping_.reset(new Mapping(queue.map(arena_, 0, arena_.bytes(), CL_MAP_READ | CL_MAP_WRITE)));
     return;
@@ -154,18 +154,18 @@ void DeviceProblem<T, W>::to_host(std::span<const Range> ranges) {
     auto* const from = reinterpret_cast<std::byte*>(const_cast<T*>(range.from));
     const std::size_t bytes = std::size_t(range.to - range.from) * sizeof(T);
     queue.read(arena_, std::size_t(from - memory.start()), {from, bytes},
-               &range == &ranges.back() ? Wait::yes : Wait::no);
+               &range == &ranges.back() ? wait : Wait::no);
   }
 }
 
 template <class T, int W>
-void DeviceProblem<T, W>::to_device(std::span<const Range> ranges) {
+void DeviceProblem<T, W>::to_device(std::span<const Range> ranges, Wait wait) {
   mapping_.reset();
-  if (queue.device().is_unified) return;
+  if (is_shared_) return;
   for (const Range& range : ranges) {
     const auto* const from = reinterpret_cast<const std::byte*>(range.from);
     queue.write(arena_, std::size_t(from - memory.start()), {from, std::size_t(range.to - range.from) * sizeof(T)},
-                &range == &ranges.back() ? Wait::yes : Wait::no);
+                &range == &ranges.back() ? wait : Wait::no);
   }
 }
 

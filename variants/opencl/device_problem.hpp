@@ -36,7 +36,9 @@ template <class T, int W>
 class DeviceProblem {
 public:
   using Row = typename Tables<T>::row_stage;
-  DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device, const Layout& layout);
+  /// @param has_copy  the host has the arena in memory of its own, even if the device could share it
+  DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device, const Layout& layout,
+                bool has_copy = false);
   DeviceProblem(const DeviceProblem&) = delete;
   DeviceProblem& operator=(const DeviceProblem&) = delete;
 
@@ -62,14 +64,15 @@ public:
   Kernel kernel(const char* name) const;
   static constexpr cl_uint table_arguments = 7;
 
-  /// Launches a kernel over bands.
-  void launch(const Kernel& kernel, int bands);
-  /// The host may use the arena until to_device(). Discrete devices copy [from, to) of these ranges.
+  /// Launches a kernel over bands. @return its event
+  cl::Event launch(const Kernel& kernel, int bands);
+  /// The host may use the arena until to_device(). Without shared memory [from, to) of these ranges are copied; without waiting, they are
+  /// there when the queue has come so far, and must not change until then.
   struct Range {
     const T *from, *to;
   };
-  void to_host(std::span<const Range> ranges);
-  void to_device(std::span<const Range> ranges);
+  void to_host(std::span<const Range> ranges, Wait wait = Wait::yes);
+  void to_device(std::span<const Range> ranges, Wait wait = Wait::yes);
   const opencl::Buffer& arena() const { return arena_; }
 
   /// Signals of some stages, with a constant 1 behind each (StepSignals).
@@ -92,6 +95,7 @@ private:
   const Problem& problem_;
   const Model model_;
   const Part* part_;
+  const bool is_shared_; ///< arena and device are one memory
   std::vector<Terms> terms_;
   std::vector<Row> rows_;
   std::vector<typename Tables<T>::extra_link> extra_;

@@ -133,9 +133,20 @@ Mapping Queue::map(const Buffer& buffer, std::size_t offset, std::size_t bytes, 
   });
 }
 
-void Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local) {
-  guarded(kernel.device_, [&] { queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local); });
+cl::Event Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local) {
+  cl::Event end;
+  guarded(kernel.device_,
+          [&] { queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local, nullptr, &end); });
   if (is_counting_) ++counts_.launches;
+  return end;
+}
+
+cl::Event Queue::mark() {
+  return guarded(device_.entry.name, [&] {
+    cl::Event event;
+    queue_.enqueueMarkerWithWaitList(nullptr, &event);
+    return event;
+  });
 }
 
 void Queue::flush() {

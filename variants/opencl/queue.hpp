@@ -103,7 +103,9 @@ public:
   /// @param flags  CL_MAP_READ, CL_MAP_WRITE, both, or CL_MAP_WRITE_INVALIDATE_REGION
   Mapping map(const Buffer& buffer, std::size_t offset, std::size_t bytes, cl_map_flags flags);
 
-  void launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local = cl::NullRange);
+  cl::Event launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local = cl::NullRange);
+  /// An event that comes when all that is enqueued is done.
+  cl::Event mark();
   /// Begins what is enqueued, without waiting.
   void flush();
   /// Waits for all that is enqueued.

@@ -14,7 +14,8 @@ static const PartSetup* part_with_neighbours(const PartSetup* setup) {
 template <class T, int W>
 ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
-      problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout),
+      problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout,
+               part_ != nullptr && part_->is_overlapped),
       rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }) {
   // Work-items of a group read what others update in place: leapfrog takes turns between two states there.
   const bool is_staged = !setup_.problem.extra_links.empty() || (is_part() && part_->is_every_stage) ||
@@ -31,10 +32,25 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
 }
 
 template <class T, int W>
+std::vector<int> ResidentExecutor<T, W>::cut_blocks() {
+  const int begin = packed_.own_begin, end = packed_.own_end, halo = setup_.method.stages * packed_.reach;
+  is_split_ = is_part() && part_->is_overlapped && end - begin >= 4 * halo;
+  has_lower_edge_ = is_split_ && begin > 0;
+  has_upper_edge_ = is_split_ && end < int(packed_.rows.size());
+  packed_.own_begin += has_lower_edge_ ? halo : 0;
+  packed_.own_end -= has_upper_edge_ ? halo : 0;
+  std::vector<int> cuts = cut_rows(packed_, problem_.layout.bands);
+  packed_.own_begin = begin, packed_.own_end = end;
+  if (has_lower_edge_) cuts.insert(cuts.begin(), begin);
+  if (has_upper_edge_) cuts.push_back(end);
+  return cuts;
+}
+
+template <class T, int W>
 void ResidentExecutor<T, W>::make_blocks() {
   const Method& method = setup_.method;
   const int rows = int(packed_.rows.size()), halo = method.stages * packed_.reach;
-  const std::vector<int> cuts = cut_rows(packed_, problem_.layout.bands);
+  const std::vector<int> cuts = cut_blocks();
   bands_ = int(cuts.size()) - 1;
   const bool is_alone = bands_ == 1 && !is_part();
   steps_a_pass_ = WavefrontStep<T, W>::steps_a_pass(packed_, method, is_alone);
@@ -207,9 +223,9 @@ void ResidentExecutor<T, W>::send(int copy) {
 }
 
 template <class T, int W>
-void ResidentExecutor<T, W>::receive(int copy) {
+void ResidentExecutor<T, W>::receive(int copy, Wait wait) {
   for (const Side side : all_sides) part_->halo.receive(side, copy);
-  if (!is_on_host_) problem_.to_device(received_[std::size_t(copy)]);
+  if (!is_on_host_) problem_.to_device(received_[std::size_t(copy)], wait);
 }
 
 template <class T, int W>
@@ -317,16 +333,20 @@ Outcome ResidentExecutor<T, W>::run_passes(long steps) {
     kernel_.set_one(n++, table);
   const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
   for (const int value :
-       {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages, packed_.reach, width, 0}) // 0: see run_to
+       {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages, packed_.reach, width, 0, 0}) // 0: see run_to
     kernel_.set_one(n++, cl_int(value));
   const int first_parity = parity_;
   const auto parity_after = [&](long pass) { return (first_parity + int(pass & 1)) & 1; };
   if (is_part()) {
     send(parity_);
     for (long pass = 0; pass < passes; ++pass) {
-      receive(parity_after(pass));
-      run_to(pass + 1, false);
+      receive(parity_, is_split_ ? Wait::no : Wait::yes);
       parity_ = parity_after(pass + 1);
+      if (is_split_) {
+        step_overlapped(pass, pass + 1 == passes);
+        continue;
+      }
+      run_to(pass + 1, false);
       if (pass + 1 < passes) send(parity_);
     }
   } else {
@@ -348,7 +368,42 @@ void ResidentExecutor<T, W>::run_to(long last_pass, bool is_together) {
   constexpr cl_uint first_number = DeviceProblem<T, W>::table_arguments + 5;
   kernel_.set_one(first_number + 2, cl_int(last_pass));
   kernel_.set_one(first_number + 8, cl_int(is_together ? patience : 0));
-  problem_.launch(kernel_, bands_);
+  launch_blocks(0, bands_);
+}
+
+template <class T, int W>
+cl::Event ResidentExecutor<T, W>::launch_blocks(int first, int count) {
+  kernel_.set_one(DeviceProblem<T, W>::table_arguments + 5 + 9, cl_int(first));
+  return problem_.launch(kernel_, count);
+}
+
+static double duration_s(const cl::Event& event) {
+  return 1e-9 * double(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                       event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+}
+
+// The device always has the rest of a step to do while the host waits for neighbours.
+template <class T, int W>
+void ResidentExecutor<T, W>::step_overlapped(long pass, bool is_last) {
+  kernel_.set_one(DeviceProblem<T, W>::table_arguments + 5 + 2, cl_int(pass + 1));
+  const int edges = int(has_lower_edge_) + int(has_upper_edge_);
+  cl::Event done[2];
+  int n = 0;
+  if (has_lower_edge_) done[n++] = launch_blocks(0, 1);
+  if (has_upper_edge_) done[n++] = launch_blocks(bands_ - 1, 1);
+  Queue& queue = problem_.queue;
+  if (!is_last) problem_.to_host(sent_[std::size_t(parity_)], Wait::no);
+  const cl::Event edges_are_here = queue.mark();
+  const cl::Event rest = launch_blocks(int(has_lower_edge_), bands_ - edges);
+  queue.flush();
+  guarded(queue.device().entry.name, [&] {
+    edges_are_here.wait();
+    for (int e = 0; e < n; ++e) computing_s_ += duration_s(done[e]);
+    if (pass > 0) computing_s_ += duration_s(rest_);
+  });
+  rest_ = rest;
+  if (!is_last)
+    for (const Side side : all_sides) part_->halo.send(side, parity_);
 }
 
 template <class T, int W>
@@ -393,6 +448,7 @@ template <class T, int W>
 Outcome ResidentExecutor<T, W>::outcome(long steps) {
   std::vector<cl_int> failed(std::size_t(1 + 2 * bands_));
   problem_.queue.read(failed_, 0, std::as_writable_bytes(std::span(failed)));
+  if (is_split_) guarded(problem_.queue.device().entry.name, [&] { computing_s_ += duration_s(rest_); });
   if (failed[0] == INT_MAX) return {true, steps, 0};
   to_host();
   std::optional<std::size_t> first;

@@ -28,6 +28,7 @@ public:
   void save(std::size_t first, std::span<double> kept) override;
   void restore(std::size_t first, std::span<const double> kept) override;
   DeviceUse device_use() const override;
+  double computing_s() const override { return is_split_ ? computing_s_ : -1; }
 
 private:
   using Range = typename DeviceProblem<T, W>::Range;
@@ -47,12 +48,18 @@ private:
   void to_device();
   /// Part: sends or receives on all sides, and moves what is exchanged between device and arena.
   void send(int copy);
-  void receive(int copy);
+  void receive(int copy, Wait wait = Wait::yes);
   std::vector<T> evaluate(std::span<const double> signals);
   void stop_leapfrog();
   Outcome run_passes(long steps);
   /// All bands to the end of this pass. Together: without a launch for each, if all bands are computed at the same time.
   void run_to(long last_pass, bool is_together);
+  /// Of blocks that follow one another, counted without remote ones.
+  cl::Event launch_blocks(int first, int count);
+  /// One step whose halo has been received on this copy: edges, whose halo is sent while the rest is computed.
+  void step_overlapped(long pass, bool is_last);
+  /// Rows of each block, and whether edges that neighbours wait for are blocks of their own.
+  std::vector<int> cut_blocks();
   long least_progress();
   Outcome run_stages(long steps);
   void launch_stage(int stage, long step);
@@ -67,6 +74,10 @@ private:
   std::vector<Block<T, W>> blocks_; ///< wavefront; of a part: remote blocks first and last where it has a halo there
   std::optional<StagedRows<T, W>> staged_; ///< or stage by stage
   int bands_ = 1, steps_a_pass_ = 1, most_sweeps_ = 0;
+  bool is_split_ = false; ///< part: the edges that neighbours wait for are blocks of their own, first and last
+  bool has_lower_edge_ = false, has_upper_edge_ = false;
+  cl::Event rest_; ///< of the step before
+  double computing_s_ = 0;
   int parity_ = 0;
   bool is_on_host_ = false;
   int trials_left_ =

@@ -49,7 +49,7 @@ std::string head(const ProgramKind& kind, bool has_items) {
   text +=
       fmt::format("#pragma OPENCL FP_CONTRACT OFF\n#define NUMBER {}\n#define W {}\n#define ALL_LANES {}u\n"
                   "#define FMA(a, b, c) fma(a, b, c)\n"
-                  "#define inline inline __attribute__((always_inline))\n", // structs of packs must stay in registers
+                  "#undef inline\n#define inline inline __attribute__((always_inline))\n", // structs of packs must stay in registers
                   is_f64 ? "double" : "float", kind.lanes, (1u << kind.lanes) - 1);
   if (has_items)
     text += "#define REAL NUMBER\n#define SPLAT(a) ((NUMBER)(a))\n" + device_text("words_of_items.h");

@@ -51,8 +51,8 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, cons
     lower = NAME(vec_from_above)(i.lower_x, next.lower_x);
     upper = upper_face(i.pull, i.x);
   }
-  if (FLAGS.is_material || FLAGS.is_bending) j.q = NAME(rotor_from_above)(i.e.q, next.e.q);
-  if (FLAGS.is_material || FLAGS.is_damped) j.w = NAME(spin_from_above)(i.e.w, next.e.w);
+  if (FLAGS.is_material | FLAGS.is_bending) j.q = NAME(rotor_from_above)(i.e.q, next.e.q);
+  if (FLAGS.is_material | FLAGS.is_damped) j.w = NAME(spin_from_above)(i.e.w, next.e.w);
   const exchange up = NAME(masked)(link_exchange(i.e, upper, j, lower, 0, law, FLAGS), mask);
   const carried own = carried_by(up, FLAGS);
   carried low = nothing_carried();
