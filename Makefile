@@ -1,4 +1,4 @@
-# Clone, then `make reproduce` or `make test`: each installs what is missing, configures, builds and runs.
+# Clone, then `make reproduce`, `make reproduce-gpu` or `make test`: each installs what is missing, configures, builds and runs.
 PRESET ?= release
 BUILD := build/$(PRESET)
 SCALE ?= host
@@ -9,7 +9,7 @@ ifneq (,$(filter clang tsan,$(PRESET)))
 export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
-.PHONY: all build test reproduce bench clean dependencies
+.PHONY: all build test reproduce reproduce-gpu gpu-studies bench clean dependencies
 
 all: build
 
@@ -28,9 +28,21 @@ test: build
 reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(BUILD)/dssbench verify --quiet
-	@for study in table1_host table1 table2 table3_cpu cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
+	@for study in table1_host table1 table2 table3 balance cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 --output $(OUT)/fields/plate_paper.vtu >/dev/null
+	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
+
+# All that needs a GPU. Without one the results that are there stay as they are.
+reproduce-gpu: TARGETS := --target dssbench
+reproduce-gpu: build
+	@if $(BUILD)/dssbench list devices | awk '$$2 == "gpu" { found = 1 } END { exit !found }'; then $(MAKE) --no-print-directory gpu-studies; \
+	else echo "reproduce-gpu: there is no GPU here, nothing was measured (dssbench list devices shows what there is)"; fi
+
+gpu-studies:
+	@$(BUILD)/dssbench list devices --measure
+	@$(BUILD)/dssbench verify --quiet --variant opencl,opencl-rhs --device gpu
+	@for study in table3 table3_gpu; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
 
 bench: build

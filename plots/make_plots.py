@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""All figures of a directory of results: a bar chart for each table, lines over ranks where it has them, a picture for each .vtu in fields/.
+"""All figures of a directory of results: a bar chart for each table, lines over ranks and over sizes where it has them, a picture for each .vtu in fields/.
 
 Reads DIR/tables/*.csv and DIR/fields/*.vtu, writes DIR/figures/. No solver runs.
 Example: plots/make_plots.py --results results
@@ -8,7 +8,9 @@ import argparse
 import pathlib
 import sys
 
+import balance_lines
 import cluster_lines
+import figure9_lines
 import plate_picture
 import scaling_lines
 import speedup_bars
@@ -27,9 +29,15 @@ def main():
         if table.stem.endswith("_simulated"):
             print(cluster_lines.draw(table, output) or output)
             continue
+        if balance_lines.draw(table, output) is None:
+            print(output)
+            continue
         print(speedup_bars.draw(table, None, output) or output)
         output = results / "figures" / f"{table.stem}_scaling.png"
         if scaling_lines.draw(table, output) is None:  # most tables have no ranks
+            print(output)
+        output = results / "figures" / f"{table.stem}_figure9.png"
+        if figure9_lines.draw(table, output) is None:  # most tables have no plates of the paper's figure
             print(output)
     for field in fields:
         output = results / "figures" / f"{field.stem}.png"

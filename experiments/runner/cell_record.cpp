@@ -1,5 +1,6 @@
 #include "experiments/runner/cell_record.hpp"
 #include "experiments/runner/context.hpp"
+#include "experiments/runner/device_columns.hpp"
 #include "experiments/runner/samples.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +20,8 @@ Record identity(const RecordPlace& place) {
                 {"precision", cell.precision},
                 {"integrator", cell.integrator},
                 {"time_utc", measurement_time()}};
+  row["device"] = cell.device;
+  row["hybrid"] = cell.hybrid;
   row["twin"] = cell.is_twin ? "true" : "false";
   row["threads"] = fmt::format("{}", cell.threads);
   row["ranks"] = fmt::format("{}", cell.ranks);
@@ -34,7 +37,8 @@ Record identity(const RecordPlace& place) {
 
 } // namespace
 
-std::vector<std::string> run_arguments(const Study& study, const Cell& cell, const std::string& oracle_file) {
+std::vector<std::string> run_arguments(const Study& study, const Cell& cell, const std::string& oracle_file,
+                                       long repetition) {
   const auto text = [](auto number) { return fmt::format("{}", number); };
   std::vector<std::string> line = {"dssbench",
                                    "run",
@@ -59,6 +63,12 @@ std::vector<std::string> run_arguments(const Study& study, const Cell& cell, con
                                    "-"};
   if (cell.ranks > 1)
     line.insert(line.end(), {"--ranks", text(cell.ranks), "--decomposition", cell.decomposition, "--halo", cell.halo});
+  if (!cell.hybrid.empty())
+    line.insert(line.end(), {"--hybrid", cell.hybrid});
+  else if (!cell.device.empty())
+    line.insert(line.end(), {"--device", cell.device});
+  if (study.scale.tail_checks > 0 && repetition >= study.scale.tail_checks)
+    line.insert(line.end(), {"--check-tail", "0"});
   for (const Override& item : cell.set) line.insert(line.end(), {"--set", item.key + "=" + item.value});
   return line;
 }
@@ -82,6 +92,7 @@ Record result_record(const RecordPlace& place, const nlohmann::json& json, doubl
     else if (!value.is_null())
       row[column] = value.dump();
   }
+  put_device_record(json, row);
   row["halo_used"] = json.value("halo", "");
   row["contaminated"] = json.value("is_contaminated", false) ? "true" : "false";
   row["process_s"] = number_text(process_s);

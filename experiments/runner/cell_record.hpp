@@ -18,7 +18,8 @@ struct RecordPlace {
 };
 
 /// Command line of one repetition. @param oracle_file  expected state
-std::vector<std::string> run_arguments(const Study& study, const Cell& cell, const std::string& oracle_file);
+std::vector<std::string> run_arguments(const Study& study, const Cell& cell, const std::string& oracle_file,
+                                       long repetition = 0);
 
 /// A row for a repetition without a time: skipped, failed, past its time limit.
 Record failure_record(const RecordPlace& place, const std::string& status, const std::string& reason);

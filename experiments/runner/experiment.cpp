@@ -3,6 +3,7 @@
 #include "experiments/runner/child.hpp"
 #include "experiments/runner/circumstances.hpp"
 #include "experiments/runner/context.hpp"
+#include "experiments/runner/device_ceilings.hpp"
 #include "experiments/runner/oracle_state.hpp"
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/run_plan.hpp"
@@ -52,7 +53,11 @@ public:
   bool measure() {
     for (CellState& state : cells_)
       if (!state.cell->skipped.empty() && state.records.empty())
-        record(state, failure_record(place(*state.cell, 0, 0), "skipped", state.cell->skipped));
+        record(state, failure_record(place(*state.cell, 0, 0), state.cell->skipped_status(), state.cell->skipped));
+    if (uses_devices(study_)) {
+      progress_.note("devices: measuring their memory bandwidth and peak arithmetic");
+      ceilings_ = DeviceCeilingsHere(program_);
+    }
     for (long repetition = 0; repetition < study_.scale.max_repetitions && is_more_wanted(); ++repetition) {
       if (!round(repetition)) break;
       update_convergence();
@@ -172,7 +177,8 @@ private:
     } catch (const std::exception& error) {
       return failure_record(place(cell, repetition, attempt), "failed", error.what());
     }
-    const ChildResult child = run_child(program_, run_arguments(study_, cell, oracle_file), study_.scale.time_limit_s);
+    const ChildResult child =
+        run_child(program_, run_arguments(study_, cell, oracle_file, repetition), study_.scale.time_limit_s);
     state.process_s = child.wall_s;
     const nlohmann::json json = nlohmann::json::parse(child.output, nullptr, false);
     if (json.is_object() && json.contains("context")) context_ = json["context"];
@@ -183,7 +189,9 @@ private:
       return failure_record(place(cell, repetition, attempt), child.timed_out ? "time limit" : "failed", failure);
     if (!json.is_object())
       return failure_record(place(cell, repetition, attempt), "failed", "its result is no JSON object");
-    return result_record(place(cell, repetition, attempt), json, child.wall_s);
+    Record row = result_record(place(cell, repetition, attempt), json, child.wall_s);
+    ceilings_.put(json, row);
+    return row;
   }
 
   RecordPlace place(const Cell& cell, long repetition, long attempt) const {
@@ -215,7 +223,7 @@ private:
     write_csv(paths_.table, table);
     fmt::print("{}\nTable: {}\nRecords: {}\n", table_text(study_, table), paths_.table, paths_.raw);
     return std::all_of(table.rows.begin(), table.rows.end(), [](const Record& row) {
-      static const std::set<std::string> fine = {"", "ok", "skipped", "oversubscribed"};
+      static const std::set<std::string> fine = {"", "ok", "skipped", "unavailable", "oversubscribed"};
       return fine.contains(text_in(row, "status"));
     });
   }
@@ -228,6 +236,7 @@ private:
   RecordFile file_;
   std::chrono::steady_clock::time_point start_;
   int cores_;
+  DeviceCeilingsHere ceilings_;
   std::vector<CellState> cells_;
   std::vector<Record> all_records_;
   std::set<std::string> oracles_;

@@ -1,3 +1,4 @@
+#include "experiments/runner/balance_study.hpp"
 #include "experiments/runner/child.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
@@ -25,7 +26,8 @@ void print_plan(const Study& study, const std::string& out) {
   std::vector<std::vector<std::string>> rows;
   for (const Cell& cell : study.cells)
     rows.push_back({cell.scene, cell.set_text(), cell.label(), cell.model, cell.precision, cell.integrator,
-                    fmt::format("{}", cell.steps), cell.skipped.empty() ? "" : "skipped: " + cell.skipped});
+                    fmt::format("{}", cell.steps),
+                    cell.skipped.empty() ? "" : fmt::format("{}: {}", cell.skipped_status(), cell.skipped)});
   fmt::print("{} ({}, scale {})\n{}", study.title, study.name, study.scale.name,
              text_table({"scene", "set", "cell", "model", "precision", "integrator", "steps", "note"}, rows));
   const ExperimentPaths paths = experiment_paths(out, study.name);
@@ -50,7 +52,23 @@ int simulate(const std::string& name, const std::vector<SimulationBlock>& blocks
   return has_failed ? exit_check_failed : exit_success;
 }
 
+int model(const BalanceStudy& study, const ExperimentArguments& arguments) {
+  const Table table = balance_table(study);
+  if (arguments.is_dry) {
+    fmt::print("{}: {} rows of a model\n", study.name, table.rows.size());
+    return exit_success;
+  }
+  const std::string path = experiment_paths(arguments.out, study.name).table;
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+  require_writable(path);
+  write_csv(path, table);
+  fmt::print("{}\nTable: {}\n", balance_text(study, table), path);
+  return exit_success;
+}
+
 int experiment(const ExperimentArguments& arguments) {
+  if (const auto balance = load_balance(arguments.file)) return model(*balance, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
   const std::string simulated_only = name_if_simulated_only(arguments.file);
   if (!simulated_only.empty() && arguments.is_dry) {

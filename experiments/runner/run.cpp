@@ -111,9 +111,10 @@ private:
   /// A leapfrog cannot start anew from a state without its half-step velocities, so only Runge-Kutta runs have their
   /// ends checked.
   bool has_tail() const {
-    return plan_.expected && plan_.expected->steps < plan_.steps && plan_.method->family == Method::Family::runge_kutta;
+    return plan_.expected && plan_.tail_steps > 0 && plan_.expected->steps < plan_.steps &&
+           plan_.method->family == Method::Family::runge_kutta;
   }
-  long tail_start() const { return std::max(plan_.expected->steps, plan_.steps - tail_steps); }
+  long tail_start() const { return std::max(plan_.expected->steps, plan_.steps - plan_.tail_steps); }
 
   bool advance_to(long step, long stop, RunResult& result) {
     bool is_finite = true;

@@ -36,6 +36,7 @@ struct RunRequest {
   std::string json;        ///< file, "-" for standard output, or empty
   std::string check_state; ///< file of the oracle's state, or empty
   long check_step = 0;     ///< the step of that state
+  long check_tail = 2;     ///< steps at the end of a longer run that the oracle checks; 0: none
 };
 
 /// A comparison with the oracle.

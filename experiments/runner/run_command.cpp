@@ -146,6 +146,11 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--check-step", request.check_step, "Step of that state (0: as the file says)")
       ->capture_default_str()
       ->group("Checks");
+  command
+      ->add_option("--check-tail", request.check_tail,
+                   "Steps at the end of a longer run that the oracle does again; 0: none")
+      ->capture_default_str()
+      ->group("Checks");
   command->footer(
       "Example: dssbench run plate_paper --set n=100 --steps 500 --variant avx2 --threads 2 --output plate.vtu");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

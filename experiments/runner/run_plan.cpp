@@ -95,6 +95,7 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
     refuse(fmt::format("--dt {:g}: the step must be positive [s]", plan.dt));
   if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));
   if (request.warmup_steps < 0) refuse(fmt::format("--warmup {}: give 0 or more", request.warmup_steps));
+  if (request.check_tail < 0) refuse(fmt::format("--check-tail {}: give 0 or more", request.check_tail));
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
   if (request.frames > 0 && request.output.empty()) refuse("--frames: needs --output F.vtu, which names the series");
   if (!request.output.empty() && !request.output.ends_with(".vtu"))
@@ -153,6 +154,7 @@ RunPlan plan_run(const RunRequest& request) {
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
   plan.dt = request.dt.value_or(problem.dt);
   plan.steps = request.steps.value_or(problem.steps);
+  plan.tail_steps = request.check_tail;
   require_devices(request, plan);
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())

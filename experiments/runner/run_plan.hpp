@@ -8,9 +8,6 @@
 
 namespace dss {
 
-/// Steps over which the end of a long run is compared with the oracle.
-constexpr long tail_steps = 2;
-
 struct RunPlan {
   Scene scene;
   const Plugin* plugin = nullptr;
@@ -20,6 +17,7 @@ struct RunPlan {
   Precision precision = Precision::f64;
   double dt = 0;
   long steps = 0;
+  long tail_steps = 0; ///< over which the end of a longer run is compared with the oracle
   double stability_limit = 0;
   std::optional<OracleState> expected; ///< at step expected->steps
   std::vector<long> frame_steps;       ///< ascending, the last is `steps`

@@ -79,7 +79,9 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["cpu_s"] = result.usage.cpu_s;
   json["wait_s"] = result.usage.wait_s;
   json["involuntary_switches"] = result.usage.involuntary_switches;
-  json["is_contaminated"] = is_contaminated(result.usage, result.wall_s, result.workers);
+  const std::string& device_kind = result.device_use.device.kind;
+  const bool is_elsewhere = !device_kind.empty() && device_kind != "cpu"; // its time is no CPU time
+  json["is_contaminated"] = !is_elsewhere && is_contaminated(result.usage, result.wall_s, result.workers);
   json["element_steps_per_s"] = result.element_steps_per_s();
   json["energy_j"] = result.energy_j ? Json(*result.energy_j) : nullptr;
   const bool has_state = result.status != "unstable";

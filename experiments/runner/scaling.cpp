@@ -38,6 +38,7 @@ const Cell* one_rank_cell(const Study& study, const Cell& like, const std::strin
                           const std::string& set_text) {
   const auto found = std::find_if(study.cells.begin(), study.cells.end(), [&](const Cell& cell) {
     return cell.ranks == 1 && !cell.is_twin && cell.variant == variant && cell.threads == threads &&
+           (variant != like.variant || (cell.device == like.device && cell.hybrid == like.hybrid)) &&
            cell.scene == like.scene && cell.set_text() == set_text && cell.model == like.model &&
            cell.precision == like.precision && cell.integrator == like.integrator;
   });

@@ -20,21 +20,23 @@ Scale read_scale(const JsonPlace& scales, const std::string& name) {
   if (!scales.has(name))
     throw InputError(fmt::format("--scale {}: unknown scale; {}", name, nearest_name(name, known)));
   const JsonPlace place = scales[name];
-  place.require_keys({"set", "steps", "steps_by_set", "oracle_steps", "warmup_steps", "steps_for", "repetitions",
-                      "retries", "half_width", "budget_s", "time_limit_s"});
+  place.require_keys({"set", "steps", "steps_by_set", "full_steps", "oracle_steps", "tail_checks", "warmup_steps",
+                      "steps_for", "repetitions", "retries", "half_width", "budget_s", "time_limit_s"});
   Scale scale;
   scale.name = name;
   scale.steps = place["steps"].count(1);
   scale.oracle_steps = place.has("oracle_steps") ? place["oracle_steps"].count(1) : scale.steps;
+  if (place.has("full_steps")) scale.full_steps = place["full_steps"].count(1);
+  if (place.has("tail_checks")) scale.tail_checks = place["tail_checks"].count(1);
   if (place.has("warmup_steps")) scale.warmup_steps = place["warmup_steps"].count(0);
   if (place.has("retries")) scale.retries = place["retries"].count(0);
   if (place.has("half_width")) scale.half_width = place["half_width"].positive();
   if (place.has("budget_s")) scale.budget_s = place["budget_s"].positive();
   if (place.has("time_limit_s")) scale.time_limit_s = place["time_limit_s"].positive();
   if (place.has("steps_for"))
-    for (const auto& [variant, steps] : place["steps_for"].value().items()) {
-      known_variant(variant, place["steps_for"]);
-      scale.steps_for[variant] = place["steps_for"][variant].count(1);
+    for (const auto& [slow, steps] : place["steps_for"].value().items()) {
+      known_variant(slow.substr(0, slow.find(' ')), place["steps_for"]);
+      scale.steps_for[slow] = place["steps_for"][slow].count(1);
     }
   if (place.has("steps_by_set"))
     for (const auto& [set, steps] : place["steps_by_set"].value().items())
@@ -67,9 +69,10 @@ void read_paper(const JsonPlace& place, Study& study) {
   place.require_keys({"source", "rows"});
   study.paper_source = place["source"].text();
   for (const JsonPlace& row : place["rows"].items()) {
-    row.require_keys({"label", "wall_s", "speedup"});
-    study.paper.push_back(
-        {row["label"].text(), row["wall_s"].positive(), row.has("speedup") ? row["speedup"].positive() : 0});
+    row.require_keys({"label", "set", "wall_s", "speedup"});
+    study.paper.push_back({row["label"].text(), row["wall_s"].positive(),
+                           row.has("speedup") ? row["speedup"].positive() : 0,
+                           row.has("set") ? row["set"].text() : ""});
   }
 }
 
@@ -107,14 +110,18 @@ std::string Cell::problem_key() const {
 std::string Cell::key() const {
   // A cell on 1 rank is named as before there were ranks, so that results can still be compared with earlier ones.
   const std::string on_ranks = ranks == 1 ? "" : fmt::format("r{} {} {} ", ranks, decomposition, halo);
-  return fmt::format("{} {} {} {}t{} {} {} {} {} steps{}", scene, set_text(), variant, on_ranks, threads, model,
-                     precision, integrator, steps, is_twin ? " (A/A)" : "");
+  return fmt::format("{} {} {}{}{} {}t{} {} {} {} {} steps{}", scene, set_text(), variant,
+                     hybrid.empty() ? "" : "[" + hybrid + "]", device.empty() ? "" : "@" + device, on_ranks, threads,
+                     model, precision, integrator, steps, is_twin ? " (A/A)" : "");
 }
 
 std::string Cell::label() const {
   const std::string team = fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
   const std::string twin = is_twin ? " (A/A)" : "";
-  if (ranks == 1) return fmt::format("{}, {}{}", variant, team, twin);
+  const std::string on_device = device.empty() ? "" : " on " + device;
+  if (!hybrid.empty() && hybrid != "auto") return fmt::format("hybrid {}{}", hybrid, twin);
+  if (!hybrid.empty()) return fmt::format("hybrid auto, {}{}{}", team, device.empty() ? "" : ", with " + device, twin);
+  if (ranks == 1) return fmt::format("{}{}, {}{}", variant, on_device, team, twin);
   return fmt::format("{}, {} ranks x {}, halo {}{}{}", variant, ranks, team, halo,
                      decomposition == "strips" ? "" : ", " + decomposition, twin);
 }

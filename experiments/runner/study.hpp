@@ -16,11 +16,14 @@ struct Cell {
   int threads = 1; ///< of each rank
   int ranks = 1;
   std::string decomposition = "strips", halo = "auto"; ///< as asked for; without meaning on 1 rank
+  std::string device; ///< that computes, as choose_device takes it; of a hybrid: that must be there; empty: any
+  std::string hybrid; ///< members, see parse_members, or "auto"; empty: no hybrid
   std::string model, precision, integrator;
   long steps = 0;
-  long full_steps = 0;  ///< of the study; `steps` is less where the variant is too slow for them
-  bool is_twin = false; ///< the second of an A/A pair
-  std::string skipped;  ///< why it cannot run here, or empty
+  long full_steps = 0;         ///< of the study; `steps` is less where the variant is too slow for them
+  bool is_twin = false;        ///< the second of an A/A pair
+  std::string skipped;         ///< why it cannot run here, or empty
+  bool is_unavailable = false; ///< skipped for want of a device
   /// Of a weak scaling: overrides of its cell on 1 rank, "n=100"; else empty.
   std::string weak_base_set;
 
@@ -36,6 +39,8 @@ struct Cell {
   std::string label() const;
   /// More workers than cores: shown, but no measure of speed.
   bool is_oversubscribed(int cores) const { return ranks * threads > cores; }
+  /// Status of one that is skipped.
+  const char* skipped_status() const { return is_unavailable ? "unavailable" : "skipped"; }
 };
 
 /// How much is measured: seconds, minutes or the paper's size.
@@ -44,8 +49,10 @@ struct Scale {
   long steps = 0;
   long oracle_steps = 0; ///< the oracle is compared with after min(steps, oracle_steps) steps
   long warmup_steps = 2;
+  long full_steps = 0;                      ///< that times are scaled to in columns of their own; 0: those of the cell
   std::map<std::string, long> steps_by_set; ///< other `steps` for the cells of an override text, "n=50"
-  std::map<std::string, long> steps_for;    ///< fewer steps for slow variants
+  std::map<std::string, long> steps_for;    ///< fewer steps for slow variants, "scalar", or "scalar n=50" for one set
+  long tail_checks = 0; ///< repetitions whose ends the oracle checks, the others must have their bits; 0: all
   long min_repetitions = 6, max_repetitions = 30;
   long retries = 3;          ///< of a contaminated repetition
   double half_width = 0.02;  ///< a cell is converged at this relative half-width of its interval
@@ -57,6 +64,7 @@ struct Scale {
 struct PaperRow {
   std::string label;
   double wall_s = 0, speedup = 0; ///< speedup 0: none is published
+  std::string set{};              ///< overrides of the problem as a cell's text, "n=50"; may be empty
 };
 
 struct Study {

@@ -1,5 +1,6 @@
 #include "experiments/runner/study_block.hpp"
 #include "experiments/runner/job.hpp"
+#include "experiments/runner/study_devices.hpp"
 #include "solver/decomposition/decomposition.hpp"
 #include "solver/model/model.hpp"
 #include "solver/nearest_name.hpp"
@@ -59,6 +60,8 @@ struct WeakScaling {
 struct Block {
   Sets sets;
   std::vector<std::string> variants, models, precisions, integrators, decompositions, halos;
+  std::vector<std::string> hybrids = {""};
+  std::string device;
   std::vector<int> threads, ranks;
   std::optional<WeakScaling> weak;
 };
@@ -104,17 +107,34 @@ void read_ranks(const JsonPlace& place, int cores, Block& block) {
     weak.fail("compares problems on several ranks with one on 1 rank; give \"ranks\" such as [1, 2, 4]");
 }
 
+/// Variants, or members of a hybrid, in which "cores" is the number of cores.
+void read_variants(const JsonPlace& place, int cores, Block& block) {
+  if (place.has("device")) block.device = place["device"].text();
+  if (place.has("hybrid") && place.has("variants"))
+    place["variants"].fail("a block has variants, or the members of a hybrid; give the other a block of its own");
+  if (!place.has("hybrid")) {
+    block.variants = place["variants"].texts();
+    for (const std::string& name : block.variants) require_device_variant(name, block.device, place["variants"]);
+    return;
+  }
+  block.variants = {known_variant("hybrid", place["hybrid"]).name};
+  block.hybrids.clear();
+  for (const JsonPlace& item : place["hybrid"].items()) block.hybrids.push_back(members_text(item, cores));
+  if (place.has("ranks")) place["ranks"].fail("a hybrid is one process");
+  if (place.has("threads") && block.hybrids != std::vector<std::string>{"auto"})
+    place["threads"].fail("the members of a hybrid name their threads: \"avx512:2,opencl@cpu:1\"");
+}
+
 Block read_block(const JsonPlace& place, const Sets& scale_sets, int cores) {
-  place.require_keys({"scene", "set", "variants", "threads", "ranks", "decompositions", "halos", "weak", "models",
-                      "precisions", "integrators"});
+  place.require_keys({"scene", "set", "variants", "device", "hybrid", "threads", "ranks", "decompositions", "halos",
+                      "weak", "models", "precisions", "integrators"});
   Block block;
   for (const auto& own : place.has("set") ? combinations(place["set"]) : Sets(1))
     for (const auto& of_scale : scale_sets) {
       block.sets.push_back(own);
       block.sets.back().insert(block.sets.back().end(), of_scale.begin(), of_scale.end());
     }
-  block.variants = place["variants"].texts();
-  for (const std::string& name : block.variants) known_variant(name, place["variants"]);
+  read_variants(place, cores, block);
   block.threads = place.has("threads") ? counts(place["threads"], cores, "threads") : std::vector<int>{1};
   block.models = known_names(place, "models", "spatial", "model", {"spatial", "planar"});
   block.precisions = known_names(place, "precisions", "f64", "precision", {"f64", "f32"});
@@ -157,6 +177,7 @@ std::vector<Cell> combined(const std::string& scene, const Block& block) {
   multiply(cells, block.precisions, &Cell::precision);
   multiply(cells, block.integrators, &Cell::integrator);
   multiply(cells, block.variants, &Cell::variant);
+  multiply(cells, block.hybrids, &Cell::hybrid);
   multiply(cells, block.threads, &Cell::threads);
   multiply(cells, block.ranks, &Cell::ranks);
   multiply(cells, block.decompositions, &Cell::decomposition);
@@ -167,9 +188,11 @@ std::vector<Cell> combined(const std::string& scene, const Block& block) {
   return cells;
 }
 
-/// Why a cell cannot run here, or empty.
+/// Why a cell cannot run here, or empty; for want of a device comes before.
 std::string why_skipped(const Cell& cell, const VariantStatus& status) {
-  if (!status.is_usable() || cell.ranks == 1) return status.unusable;
+  if (!status.is_usable()) return status.unusable;
+  if (const std::string why = why_no_members(cell.hybrid); !why.empty()) return why;
+  if (cell.ranks == 1) return "";
   const std::string why = why_no_ranks();
   return why.empty() ? why_no_decomposition(cell.decomposition) : why;
 }
@@ -180,20 +203,31 @@ long steps_of(const Scale& scale, const Cell& cell) {
   return own == scale.steps_by_set.end() ? scale.steps : own->second;
 }
 
+/// The least of what is said of the variant, of it with this set, and of the set.
+long steps_of_variant(const Scale& scale, const Cell& cell) {
+  long steps = steps_of(scale, cell);
+  for (const std::string& key : {cell.variant, cell.variant + " " + cell.set_text()})
+    if (const auto fewer = scale.steps_for.find(key); fewer != scale.steps_for.end())
+      steps = std::min(steps, fewer->second);
+  return steps;
+}
+
 std::vector<Cell> cells_of(const JsonPlace& place, const Block& block, const Scale& scale) {
   std::vector<Cell> cells = combined(place["scene"].text(), block);
-  std::erase_if(cells, [&](const Cell& cell) {
-    return cell.threads > 1 && !is_threaded(known_variant(cell.variant, place["variants"]));
-  });
+  std::erase_if(cells,
+                [&](const Cell& cell) { return cell.threads > 1 && !is_threaded(known_variant(cell.variant, place)); });
   for (Cell& cell : cells) {
+    cell.device = block.device;
+    if (!cell.hybrid.empty() && cell.hybrid != "auto") cell.threads = threads_of_members(cell.hybrid);
     if (block.weak) {
       cell.weak_base_set = cell.set_text();
       cell.set = grown(cell.set, *block.weak, cell.ranks, place["weak"]);
     }
-    cell.skipped = why_skipped(cell, known_variant(cell.variant, place["variants"]));
-    cell.full_steps = steps_of(scale, cell);
-    const auto fewer = scale.steps_for.find(cell.variant);
-    cell.steps = fewer == scale.steps_for.end() ? cell.full_steps : std::min(fewer->second, cell.full_steps);
+    cell.skipped = why_no_device(cell);
+    cell.is_unavailable = !cell.skipped.empty();
+    if (!cell.is_unavailable) cell.skipped = why_skipped(cell, known_variant(cell.variant, place));
+    cell.full_steps = scale.full_steps > 0 ? scale.full_steps : steps_of(scale, cell);
+    cell.steps = steps_of_variant(scale, cell);
   }
   return cells;
 }

@@ -12,6 +12,12 @@ std::string shown(const Record& row, const std::string& column, const char* form
   return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), scale * value);
 }
 
+/// Overrides, and the precision where it is not the usual one.
+std::string shown_set(const Record& row) {
+  const std::string precision = text_in(row, "precision");
+  return text_in(row, "set") + (precision.empty() || precision == "f64" ? "" : " " + precision);
+}
+
 /// A median with its interval.
 std::string shown_interval(const Record& row, const std::string& column) {
   if (text_in(row, column + "_low").empty()) return shown(row, column, "{:.2f}");
@@ -47,7 +53,7 @@ std::string scaling_text(const Table& table) {
   std::vector<std::vector<std::string>> rows;
   for (const Record& row : table.rows)
     if (text_in(row, "source") == "measured" && number_in(row, "ranks") > 1)
-      rows.push_back({text_in(row, "label"), text_in(row, "set"), text_in(row, "halo_used"),
+      rows.push_back({text_in(row, "label"), shown_set(row), text_in(row, "halo_used"),
                       shown_interval(row, "speedup_vs_1_rank"), shown(row, "parallel_efficiency", "{:.2f}"),
                       shown(row, "karp_flatt", "{:.3f}"), shown_interval(row, "speedup_vs_threads"),
                       shown_interval(row, "weak_efficiency"), shown(row, "communication_share", "{:.1f} %", 100),
@@ -63,6 +69,36 @@ std::string scaling_text(const Table& table) {
                  rows));
 }
 
+/// Transfers, launches and what they cost; members of hybrids and what joining gains; empty if no cell has a device or members.
+std::string device_text(const Table& table) {
+  std::vector<std::vector<std::string>> devices, hybrids;
+  for (const Record& row : table.rows) {
+    if (text_in(row, "measured_wall_s").empty() || text_in(row, "label").ends_with("(A/A)")) continue;
+    if (!text_in(row, "hybrid").empty())
+      hybrids.push_back({text_in(row, "label"), shown_set(row), text_in(row, "members"),
+                         shown(row, "rebalances", "{:g}"), shown(row, "of_sum_of_members", "{:.3f}"),
+                         text_in(row, "fastest_alone"), shown_interval(row, "speedup_vs_fastest_alone")});
+    else if (!text_in(row, "device_used").empty())
+      devices.push_back({text_in(row, "label"), shown_set(row), shown(row, "launches_per_step", "{:.3g}"),
+                         shown(row, "launch_us", "{:.3g}"), shown(row, "to_device_bytes_per_step", "{:.4g}", 1e-3),
+                         shown(row, "from_device_bytes_per_step", "{:.4g}", 1e-3),
+                         shown(row, "transfer_us_per_step", "{:.3g}"), shown(row, "first_step_s", "{:.3g}"),
+                         shown(row, "build_s", "{:.3g}"), shown_interval(row, "speedup_vs_resident"),
+                         shown(row, "bandwidth_share", "{:.1f} %", 100), shown(row, "peak_share", "{:.1f} %", 100)});
+  }
+  std::string text;
+  if (!devices.empty())
+    text += "\nOn devices:\n" +
+            text_table({"cell", "set", "launches/step", "launch [us]", "kB/step to", "kB/step from",
+                        "transfers [us/step]", "first step [s]", "build [s]", "vs resident", "of bandwidth", "of peak"},
+                       devices);
+  if (!hybrids.empty())
+    text += "\nHybrids:\n" + text_table({"cell", "set", "members and shares", "re-balanced", "of members' sum",
+                                         "fastest alone", "vs fastest alone"},
+                                        hybrids);
+  return text;
+}
+
 } // namespace
 
 std::string table_text(const Study& study, const Table& table) {
@@ -73,11 +109,11 @@ std::string table_text(const Study& study, const Table& table) {
   std::string resolution;
   for (const Record& row : table.rows) {
     if (text_in(row, "source") == "paper") {
-      paper.push_back(
-          {text_in(row, "label"), shown(row, "paper_wall_s", "{:.2f}"), shown(row, "paper_speedup", "{:.2f}")});
+      paper.push_back({text_in(row, "label"), shown_set(row), shown(row, "paper_wall_s", "{:.2f}"),
+                       shown(row, "paper_speedup", "{:.2f}")});
       continue;
     }
-    rows.push_back({text_in(row, "label"), text_in(row, "set"), text_in(row, "steps"), text_in(row, "repetitions"),
+    rows.push_back({text_in(row, "label"), shown_set(row), text_in(row, "steps"), text_in(row, "repetitions"),
                     shown_time(row), shown(row, "extrapolated_wall_s", "{:.4g}"),
                     shown(row, "element_steps_per_s", "{:.2f}", 1e-6)});
     for (const std::string& base : study.bases) rows.back().push_back(shown_speedup(row, base));
@@ -90,10 +126,10 @@ std::string table_text(const Study& study, const Table& table) {
   text += "Medians with the half-width of their 95 % interval; speed-ups are medians of ratios of interleaved pairs "
           "[95 % interval]; ~ scaled from fewer steps.\n";
   if (!resolution.empty()) text += fmt::format("Resolution by the A/A pair: {}. No claim below it.\n", resolution);
-  text += scaling_text(table);
+  text += scaling_text(table) + device_text(table);
   if (!paper.empty())
     text += fmt::format("\nPublished ({}):\n{}", study.paper_source,
-                        text_table({"configuration", "wall [s]", "speed-up"}, paper));
+                        text_table({"configuration", "set", "wall [s]", "speed-up"}, paper));
   return text;
 }
 

@@ -1,4 +1,5 @@
 #include "experiments/runner/tables.hpp"
+#include "experiments/runner/device_columns.hpp"
 #include "experiments/runner/scaling.hpp"
 #include "experiments/runner/study_samples.hpp"
 
@@ -49,6 +50,7 @@ std::vector<std::string> table_columns(const Study& study) {
                              "extrapolated_speedup_vs_{}_low", "extrapolated_speedup_vs_{}_high"})
       columns.push_back(fmt::format(fmt::runtime(form), base));
   columns.insert(columns.end(), scaling_columns().begin(), scaling_columns().end());
+  columns.insert(columns.end(), device_columns().begin(), device_columns().end());
   for (const char* column :
        {"imbalance", "messages_per_step", "bytes_per_step", "communication_share", "resolution", "check", "check_error",
         "check_tolerance", "state_digest", "status", "reason", "paper_wall_s", "paper_speedup", "paper_source"})
@@ -61,6 +63,8 @@ void put_identity(const Study& study, const Cell& cell, const CellSample& sample
   row["scale"] = study.scale.name;
   row["source"] = "measured";
   row["label"] = cell.label();
+  row["device"] = cell.device;
+  row["hybrid"] = cell.hybrid;
   row["scene"] = cell.scene;
   row["set"] = cell.set_text();
   row["weak_base_set"] = cell.weak_base_set;
@@ -143,6 +147,7 @@ Record measured_row(const Study& study, const StudySamples& samples, const Cell&
   if (row["status"] == "ok" && sample->is_oversubscribed()) row["status"] = "oversubscribed";
   put_speedups(study, samples, cell, row);
   put_scaling(study, samples, cell, row);
+  put_devices(study, samples, cell, row);
   return row;
 }
 
@@ -150,6 +155,7 @@ Record published_row(const Study& study, const PaperRow& paper) {
   Record row = {{"experiment", study.name},
                 {"source", "paper"},
                 {"label", paper.label},
+                {"set", paper.set},
                 {"paper_wall_s", number_text(paper.wall_s)},
                 {"paper_source", study.paper_source}};
   if (paper.speedup > 0) row["paper_speedup"] = number_text(paper.speedup);

@@ -54,19 +54,6 @@ class AskedFor(ProgramTest):
         self.assert_refused(2, ["--device cpu", "--variant opencl"], *SMALL, "--device", "cpu")
         self.assert_refused(2, ["--device cpu", "--variant opencl"], "verify", "two_elements", "--variant", "reference", "--device", "cpu")
 
-    def test_a_hybrid_names_its_devices_and_variants_itself(self):
-        self.assert_refused(2, ["--hybrid", "--variant"], *SMALL, "--hybrid", "auto", "--variant", "reference")
-        self.assert_refused(2, ["--device cpu", "opencl@cpu"], *SMALL, "--hybrid", "auto", "--device", "cpu")
-        self.assert_refused(2, ["--hybrid auto", "--ranks"], *SMALL, "--hybrid", "auto", "--ranks", "2")
-
-
-    def test_a_member_that_cannot_run_here_is_named_before_anything_starts(self):
-        for variant, ranks in (("hybrid", ()), ("mpi", ("--ranks", "2"))):
-            if why_no_variant(variant):
-                continue
-            self.assert_refused(2, ["member nonsense", "does not exist"], *SMALL, "--hybrid", "reference,nonsense", *ranks)
-            self.assert_refused(2, ["member reference@gpu", "--variant opencl"], *SMALL, "--hybrid", "reference@gpu", *ranks)
-
 
 @unittest.skipIf(why_no_variant("opencl"), why_no_variant("opencl"))
 class OnDevices(ProgramTest):

@@ -13,6 +13,12 @@ namespace dss::test {
 
 using State = std::vector<double>;
 
+/// Whether this build and CPU have a variant.
+inline bool has(std::string_view name) {
+  const auto found = std::ranges::find(asked_variants(), name, &VariantStatus::name);
+  return found != asked_variants().end() && found->is_usable();
+}
+
 inline State poisoned(const Problem& problem) {
   return State(problem.lattice.element_count * field_count, std::numeric_limits<double>::quiet_NaN());
 }

@@ -69,6 +69,7 @@ TEST_F(Hybrid, refuses_members_that_compute_no_parts_or_round_otherwise) {
   }
 }
 
+/// A run of what an automatic choice leaves, from a state that is written first.
 State after_choice(const Choice& choice, const dss::Setup& setup, const State& start) {
   const auto made = choice.executor ? nullptr : make_executor(setup, choice.participants);
   Executor& run = choice.executor ? *choice.executor : *made;
@@ -95,6 +96,7 @@ TEST_F(Hybrid, auto_tries_devices_that_may_pay_and_leaves_out_those_that_cannot)
   EXPECT_EQ(differing_bits(whole, after_choice(unlike, setup, start), Precision::f64), 0u);
 }
 
+/// More ranks: tests/cli.
 TEST_F(Hybrid, gives_members_to_ranks) {
   if (!has("mpi")) GTEST_SKIP() << "no mpi";
   const Problem problem = fixture::make_plate(12);

@@ -8,12 +8,6 @@
 
 namespace dss::test {
 
-/// Whether this build and CPU have a variant.
-inline bool has(std::string_view name) {
-  const auto found = std::ranges::find(asked_variants(), name, &VariantStatus::name);
-  return found != asked_variants().end() && found->is_usable();
-}
-
 /// Members where avx512 stands for the widest packs there are.
 inline std::string here(std::string members) {
   constexpr std::string_view widest = "avx512";
@@ -56,6 +50,14 @@ struct JointRun {
     return result;
   }
 };
+
+/// Seconds a step as if each member were so many times slower than the first, for as many calls; then the other way round.
+inline StepTime swinging(int members, double slowness) {
+  return [members, slowness, calls = 0](std::size_t member, std::size_t elements) mutable {
+    const bool is_slow = (calls++ / (4 * members)) % 2 == 0 ? member == 0 : member != 0;
+    return 1.0 * double(elements) * (is_slow ? slowness : 1);
+  };
+}
 
 class Hybrid : public testing::Test {
 protected:

@@ -84,6 +84,7 @@ TEST_F(Hybrid, reports_the_first_failure_of_a_single_executor) {
   }
 }
 
+/// Gives up in the middle of its steps, while others wait for its halo.
 class QuittingExecutor final : public Executor {
 public:
   explicit QuittingExecutor(const dss::Setup& setup)
@@ -144,6 +145,7 @@ TEST_F(Hybrid, ends_by_the_exception_of_one_member_and_does_not_wait_for_it) {
   }
 }
 
+/// Executors of unknown pack width order messages by what their layouts say.
 TEST_F(Hybrid, members_of_unknown_order_of_messages_understand_one_another) {
   const Problem problem = fixture::make_plate(31);
   const Method& method = methods().front();

@@ -19,14 +19,6 @@ std::vector<Case> cases() {
           {"undamped_block", fixture::make_block(6, 11, 13, LinkLaw::material, 0)}};
 }
 
-/// Seconds a step as if each member were so many times slower than the first, for as many calls; then the other way round.
-StepTime swinging(int members, double slowness) {
-  return [members, slowness, calls = 0](std::size_t member, std::size_t elements) mutable {
-    const bool is_slow = (calls++ / (4 * members)) % 2 == 0 ? member == 0 : member != 0;
-    return 1.0 * double(elements) * (is_slow ? slowness : 1);
-  };
-}
-
 TEST_F(Hybrid, members_make_up_the_whole_to_the_last_bit) {
   for (const Case& c : cases())
     for (const Precision precision : {Precision::f64, Precision::f32})
@@ -97,8 +89,6 @@ TEST_F(Hybrid, is_read_and_written_piece_by_piece) {
   EXPECT_EQ(back, state);
 }
 
-/// Gives up in the middle of its steps, while others wait for its halo.
-/// Executors of unknown pack width order messages by what their layouts say.
 /// What one executor keeps, another goes on with.
 TEST_F(Hybrid, what_a_method_keeps_moves_from_executor_to_executor) {
   for (const Case& c : cases())
@@ -143,9 +133,6 @@ TEST_F(Hybrid, messages_are_copied_in_few_pieces) {
   EXPECT_LE(pieces("avx2", "avx512"), numbers / 4);
   EXPECT_LE(pieces("avx512", "avx2"), numbers / 4);
 }
-
-/// A run of what an automatic choice leaves, from a state that is written first.
-/// More ranks: tests/cli.
 
 } // namespace
 } // namespace dss::test

@@ -34,7 +34,7 @@ double slowest_step_s(std::span<const std::size_t> elements, std::span<const dou
   return slowest;
 }
 
-double Balance::block_s() const { return 20e-3 * double(1 << std::min(moves_, 6)); }
+double Balance::block_s() const { return 40e-3 * double(1 << std::min(moves_, 6)); }
 
 void Balance::add(std::vector<double> step_s) {
   blocks_.push_back(std::move(step_s));

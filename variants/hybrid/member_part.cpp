@@ -25,7 +25,8 @@ std::unique_ptr<Executor> make_executor(const Setup& whole, const Participant& p
 MemberPart::MemberPart(const Setup& whole, const Participant& participant, const Decomposition& decomposition,
                        int index, Exchange& exchange)
     : part_(make_part(whole.problem, decomposition, index, whole.method.stages)),
-      halo_(part_, exchange), part_setup_{part_, halo_, false, true}, executor_(make_executor(whole, participant, part_setup_)) {}
+      halo_(part_, exchange), part_setup_{part_, halo_, false, true},
+      executor_(make_executor(whole, participant, part_setup_)) {}
 
 double MemberPart::step_s() {
   const double now_s = executor_->computing_s();

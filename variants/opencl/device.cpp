@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <map>
+#include <mutex>
+#include <utility>
 
 namespace dss::opencl {
 namespace {
@@ -120,6 +123,31 @@ Device find_device(const std::string& text, Precision precision) {
     device.width_f32 = std::max(1, int(handle.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>()));
     return device;
   });
+}
+
+Device narrowed(const Device& device, int compute_units) {
+  if (!device.is_cpu || compute_units >= device.compute_units) return device;
+  static std::mutex mutex;
+  static auto& known = *new std::map<std::pair<cl_device_id, int>, cl::Device>; // drivers may end before statics do
+  const std::lock_guard lock(mutex);
+  Device part = device;
+  part.compute_units = compute_units;
+  if (const auto found = known.find({device.handle(), compute_units}); found != known.end()) {
+    part.handle = found->second;
+    return part;
+  }
+  try {
+    const cl_device_partition_property counts[] = {CL_DEVICE_PARTITION_BY_COUNTS, compute_units,
+                                                   CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    std::vector<cl::Device> parts;
+    cl::Device handle = device.handle;
+    handle.createSubDevices(counts, &parts);
+    part.handle = parts.front();
+  } catch (const cl::Error&) { // then its runtime spreads over all
+    part.handle = device.handle;
+  }
+  known.emplace(std::pair{device.handle(), compute_units}, part.handle);
+  return part;
 }
 
 } // namespace dss::opencl

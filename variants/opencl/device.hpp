@@ -32,4 +32,8 @@ std::string why_unusable();
 /// @throws InputError if there is none, it cannot be used, or it lacks double precision where `precision` is f64
 Device find_device(const std::string& text, Precision precision);
 
+/// The first compute units of a CPU device, so that its runtime leaves the other processors to whoever computes beside it; the whole device
+/// where it cannot be divided, and GPUs always.
+Device narrowed(const Device& device, int compute_units);
+
 } // namespace dss::opencl

@@ -19,9 +19,9 @@ Layout layout_on(const Device& device, Precision precision, int threads) {
 
 template <class T, int W>
 DeviceProblem<T, W>::DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device,
-                                   const Layout& where, bool has_copy)
-    : packed(problem, model, part, memory), layout(where), queue(device), problem_(problem), model_(model),
-      part_(part), is_shared_(device.is_unified && !has_copy) {}
+                                   const Layout& where)
+    : packed(problem, model, part, memory), layout(where), queue(device), problem_(problem), model_(model), part_(part),
+      is_shared_(device.is_unified && !where.has_items) {}
 
 template <class T, int W>
 int DeviceProblem<T, W>::shape_of(const Terms& terms) {
@@ -117,9 +117,8 @@ void DeviceProblem<T, W>::finish(int leapfrog_fields, bool has_rates) {
   }
   make_constant_tables();
   row_table_ = table(rows_);
-  arena_ = is_shared_
-               ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.start())
-               : queue.make_buffer(memory.bytes());
+  arena_ = is_shared_ ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.start())
+                      : queue.make_buffer(memory.bytes());
   if (!is_shared_) queue.write(arena_, 0, {memory.start(), memory.bytes()});
   if (layout.has_items) {
     const std::size_t packs = std::size_t(packed.packs_across), most = 256;
@@ -153,8 +152,7 @@ void DeviceProblem<T, W>::to_host(std::span<const Range> ranges, Wait wait) {
   for (const Range& range : ranges) {
     auto* const from = reinterpret_cast<std::byte*>(const_cast<T*>(range.from));
     const std::size_t bytes = std::size_t(range.to - range.from) * sizeof(T);
-    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes},
-               &range == &ranges.back() ? wait : Wait::no);
+    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes}, &range == &ranges.back() ? wait : Wait::no);
   }
 }
 

@@ -36,9 +36,7 @@ template <class T, int W>
 class DeviceProblem {
 public:
   using Row = typename Tables<T>::row_stage;
-  /// @param has_copy  the host has the arena in memory of its own, even if the device could share it
-  DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device, const Layout& layout,
-                bool has_copy = false);
+  DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device, const Layout& layout);
   DeviceProblem(const DeviceProblem&) = delete;
   DeviceProblem& operator=(const DeviceProblem&) = delete;
 
@@ -71,6 +69,7 @@ public:
   struct Range {
     const T *from, *to;
   };
+  bool is_shared() const { return is_shared_; }
   void to_host(std::span<const Range> ranges, Wait wait = Wait::yes);
   void to_device(std::span<const Range> ranges, Wait wait = Wait::yes);
   const opencl::Buffer& arena() const { return arena_; }

@@ -14,8 +14,7 @@ static const PartSetup* part_with_neighbours(const PartSetup* setup) {
 template <class T, int W>
 ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
-      problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout,
-               part_ != nullptr && part_->is_overlapped),
+      problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout),
       rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }) {
   // Work-items of a group read what others update in place: leapfrog takes turns between two states there.
   const bool is_staged = !setup_.problem.extra_links.empty() || (is_part() && part_->is_every_stage) ||
@@ -34,7 +33,8 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
 template <class T, int W>
 std::vector<int> ResidentExecutor<T, W>::cut_blocks() {
   const int begin = packed_.own_begin, end = packed_.own_end, halo = setup_.method.stages * packed_.reach;
-  is_split_ = is_part() && part_->is_overlapped && end - begin >= 4 * halo;
+  // With shared memory there is nothing to hide, and PoCL takes 20 us for each command.
+  is_split_ = is_part() && part_->is_overlapped && !problem_.is_shared() && end - begin >= 4 * halo;
   has_lower_edge_ = is_split_ && begin > 0;
   has_upper_edge_ = is_split_ && end < int(packed_.rows.size());
   packed_.own_begin += has_lower_edge_ ? halo : 0;

@@ -163,7 +163,9 @@ int RhsExecutor<T, W>::leapfrog() {
       const auto next = Physics::leapfrog(e.u, e.q, v_half, w_half, Physics::vec_scale(scales.parts[1].factor, f.v),
                                           Physics::spin_scale(scales.parts[3].factor, f.w), h);
       at = 0;
-      const auto store = [&](const T& c) { y[W * at++] = c, check += c * T(0); };
+      const auto store = [&](const T& c) { y[W * at++] = c; };
+      const auto look = [&](const T& c) { check += c * T(0); }; // at what packs look at
+      each_component(next.v_half, look), each_component(next.w_half, look);
       each_component(next.u, store);
       each_component(rows_.is_predicted() ? next.v_next : next.v_half, store);
       each_component(next.q, store);

@@ -46,11 +46,11 @@ std::string vector_words(const ProgramKind& kind) {
 std::string head(const ProgramKind& kind, bool has_items) {
   const bool is_f64 = kind.precision == Precision::f64;
   std::string text = is_f64 ? "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n" : "";
-  text +=
-      fmt::format("#pragma OPENCL FP_CONTRACT OFF\n#define NUMBER {}\n#define W {}\n#define ALL_LANES {}u\n"
-                  "#define FMA(a, b, c) fma(a, b, c)\n"
-                  "#undef inline\n#define inline inline __attribute__((always_inline))\n", // structs of packs must stay in registers
-                  is_f64 ? "double" : "float", kind.lanes, (1u << kind.lanes) - 1);
+  text += fmt::format(
+      "#pragma OPENCL FP_CONTRACT OFF\n#define NUMBER {}\n#define W {}\n#define ALL_LANES {}u\n"
+      "#define FMA(a, b, c) fma(a, b, c)\n"
+      "#undef inline\n#define inline inline __attribute__((always_inline))\n", // structs of packs must stay in registers
+      is_f64 ? "double" : "float", kind.lanes, (1u << kind.lanes) - 1);
   if (has_items)
     text += "#define REAL NUMBER\n#define SPLAT(a) ((NUMBER)(a))\n" + device_text("words_of_items.h");
   else

@@ -1,0 +1,63 @@
+#pragma once
+/// Tests of the OpenCL variants: skipped where there is no device, and what a device may be taken for.
+#include "tests/equivalence/comparison.hpp"
+#include "tests/fixtures/problems.hpp"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace dss::test {
+
+/// While it lives, executors take the device for one of another kind.
+class DeviceAs {
+public:
+  explicit DeviceAs(const char* kind) { ::setenv(variable, kind, 1); }
+  DeviceAs(const DeviceAs&) = delete;
+  DeviceAs& operator=(const DeviceAs&) = delete;
+  ~DeviceAs() { ::unsetenv(variable); }
+
+private:
+  static constexpr const char* variable = "DSSBENCH_OPENCL_AS";
+};
+
+class OpenCl : public testing::Test {
+protected:
+  void SetUp() override {
+    if (!has("opencl")) GTEST_SKIP() << "opencl is not here";
+    if (!packs().has_fma) GTEST_SKIP() << packs().name << " has no FMA";
+  }
+  /// The fastest variant of the CPU: the model of all bits.
+  static const Plugin& packs() { return load_variant("auto"); }
+};
+
+struct NamedProblem {
+  std::string name;
+  Problem problem;
+  bool is_planar = false;
+};
+inline std::vector<NamedProblem> problems_of_all_terms() {
+  return {{"plate", fixture::make_plate(19), true},
+          {"everything", fixture::make_everything()},
+          {"sponge", fixture::make_sponge(21, 6, 5, LinkLaw::paper, 1)},
+          {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::material, 3), true},
+          {"block", fixture::make_block(5, 4, 3, LinkLaw::material, 0)},
+          {"damped_joint", fixture::make_damped_joint()}};
+}
+
+/// Calls visit(problem, run of `plugin`, start of the run) for every problem, model, precision and method.
+template <class Visit>
+void each_run(const Plugin& plugin, Visit&& visit) {
+  for (const NamedProblem& c : problems_of_all_terms())
+    for (const Model model : {Model::spatial, Model::planar})
+      for (const Precision precision : {Precision::f64, Precision::f32})
+        for (const Method& method : methods()) {
+          if (model == Model::planar && !c.is_planar) continue;
+          const State start = fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01);
+          SCOPED_TRACE(c.name + ' ' + std::string(name(model)) + ' ' + std::string(name(precision)) + ' ' +
+                       std::string(method.name));
+          visit(VariantRun{plugin, c.problem, method, model, precision},
+                rounded(model == Model::planar ? flattened(start) : start, precision));
+        }
+}
+
+} // namespace dss::test
