@@ -86,13 +86,14 @@ function(dss_native_needs out)
   set(${out} ${needs} PARENT_SCOPE)
 endfunction()
 
-# Environment of tests: compiled OpenCL programs are kept in the build tree, for all tests together. Under the thread sanitizer, LLVM's OpenMP runtime
-# loads Archer, which tells it of barriers; without, every barrier is a race.
-set(dss_test_environment "DSSBENCH_CACHE_DIR=${PROJECT_BINARY_DIR}/opencl_cache" "POCL_CACHE_DIR=${PROJECT_BINARY_DIR}/pocl_cache")
+# Environment of tests, one variable, since gtest_discover_tests takes lists apart. Compiled OpenCL programs, ours and PoCL's, are kept in the build tree
+# for all tests together. Under the thread sanitizer, without OpenCL, LLVM's OpenMP runtime loads Archer, which tells it of barriers; without, every barrier
+# is a race.
+set(dss_test_environment "XDG_CACHE_HOME=${PROJECT_BINARY_DIR}/cache")
 if(DSS_SANITIZE MATCHES "thread")
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-resource-dir OUTPUT_VARIABLE clang_resources OUTPUT_STRIP_TRAILING_WHITESPACE)
   find_library(DSS_ARCHER archer HINTS ${clang_resources}/../.. REQUIRED)
-  list(APPEND dss_test_environment "OMP_TOOL_LIBRARIES=${DSS_ARCHER}")
+  set(dss_test_environment "OMP_TOOL_LIBRARIES=${DSS_ARCHER}")
 endif()
 
 # dss_test(name source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself, labelled with its folder.

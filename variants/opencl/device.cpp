@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <map>
 #include <mutex>
@@ -88,6 +89,11 @@ void each_device(Visit&& visit) {
 
 } // namespace
 
+bool is_taken_for(std::string_view kind) {
+  const char* const asked = std::getenv("DSSBENCH_OPENCL_AS");
+  return asked != nullptr && kind == asked;
+}
+
 std::vector<DeviceEntry> devices() {
   std::vector<DeviceEntry> list;
   each_device([&](DeviceEntry entry, const cl::Device&) { list.push_back(std::move(entry)); });
@@ -115,7 +121,7 @@ Device find_device(const std::string& text, Precision precision) {
   return guarded(device.entry.name, [&] {
     const cl::Device& handle = device.handle;
     device.is_cpu = device.entry.kind == "cpu";
-    device.is_unified = handle.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != 0;
+    device.is_unified = handle.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != 0 && !is_taken_for("discrete");
     device.compute_units = std::max(1, device.entry.compute_units);
     device.is_correctly_rounded_f32 =
         (handle.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;

@@ -5,6 +5,7 @@
 #include "variants/opencl/opencl.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dss::opencl {
@@ -21,6 +22,10 @@ struct Device {
 
   int vector_width(Precision precision) const { return precision == Precision::f64 ? width_f64 : width_f32; }
 };
+
+/// Whether DSSBENCH_OPENCL_AS asks that a CPU device be taken for something else, to test that path: "gpu" (work-groups of lanes, memory of
+/// its own) or "discrete" (memory of its own).
+bool is_taken_for(std::string_view kind);
 
 /// Every device of every platform; empty without a platform. Those that cannot be used say why. No errors.
 std::vector<DeviceEntry> devices();

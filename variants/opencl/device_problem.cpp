@@ -3,15 +3,12 @@
 #include "variants/engine/packs.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
-#include <string_view>
 
 namespace dss::opencl {
 
 Layout layout_on(const Device& device, Precision precision, int threads) {
-  const char* const forced = std::getenv("DSSBENCH_OPENCL_AS");
-  const bool is_cpu = device.is_cpu && !(forced != nullptr && std::string_view(forced) == "gpu");
+  const bool is_cpu = device.is_cpu && !is_taken_for("gpu");
   if (!is_cpu) return {true, 16, 2 * device.compute_units}; // one group computes while another waits for memory
   const int narrow = precision == Precision::f64 ? 4 : 8;
   return {false, device.vector_width(precision) > narrow ? 2 * narrow : narrow, threads};

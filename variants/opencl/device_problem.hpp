@@ -29,7 +29,7 @@ struct Layout {
   int lanes = 1;
   int bands = 1; ///< at most: there may be fewer rows
 };
-/// For a device. With DSSBENCH_OPENCL_AS=gpu in the environment a CPU is treated as a GPU: to test that path.
+/// For a device.
 Layout layout_on(const Device& device, Precision precision, int threads);
 
 template <class T, int W>

@@ -1,0 +1,177 @@
+/// Steps of the resident executor: launches, halos between them, and what became of them.
+#include "variants/engine/packs.hpp"
+#include "variants/opencl/resident_executor.hpp"
+
+#include <algorithm>
+
+namespace dss::opencl {
+
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::advance(long steps, std::span<const double> signals) {
+  if (steps <= 0) return {};
+  const std::size_t width = signal_count(setup_.problem);
+  if (rows_.is_leapfrog() && !is_started_) {
+    to_host();
+    rows_.start(evaluate(signals.first(width)).data());
+    publish_all();
+    is_started_ = true;
+  }
+  end_rates_.clear();
+  end_signals_.assign(signals.end() - std::ptrdiff_t(width), signals.end());
+  to_device();
+  problem_.set_signals(signals, width);
+  forget_failures();
+  return staged_ ? run_stages(steps) : run_passes(steps);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::forget_failures() {
+  const std::vector<cl_int> none(std::size_t(1 + 2 * bands_), INT_MAX);
+  problem_.queue.write(failed_, 0, std::as_bytes(std::span(none)));
+}
+
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::run_passes(long steps) {
+  const long passes = (steps + steps_a_pass_ - 1) / steps_a_pass_;
+  const std::vector<cl_int> none(std::size_t(bands_), 0);
+  problem_.queue.write(progress_, 0, std::as_bytes(std::span(none)));
+  cl_uint n = DeviceProblem<T, W>::table_arguments;
+  for (const opencl::Buffer& table : {sweep_table_, neighbour_table_, problem_.signals(), failed_, progress_})
+    kernel_.set_one(n++, table);
+  const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
+  for (const int value :
+       {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages, packed_.reach, width, 0, 0}) // 0: see run_to
+    kernel_.set_one(n++, cl_int(value));
+  const int first_parity = parity_;
+  const auto parity_after = [&](long pass) { return (first_parity + int(pass & 1)) & 1; };
+  if (is_part()) {
+    send(parity_);
+    for (long pass = 0; pass < passes; ++pass) {
+      receive(parity_, is_split_ ? Wait::no : Wait::yes);
+      parity_ = parity_after(pass + 1);
+      if (is_split_) {
+        step_overlapped(pass, pass + 1 == passes);
+        continue;
+      }
+      run_to(pass + 1, false);
+      if (pass + 1 < passes) send(parity_);
+    }
+  } else {
+    long done = 0;
+    if (trials_left_ > 0) {
+      run_to(passes, true);
+      done = least_progress();
+      if (done < std::min(passes, 2L)) --trials_left_; // bands came one after the other
+    }
+    for (long pass = done; pass < passes; ++pass) run_to(pass + 1, false);
+    parity_ = parity_after(passes);
+  }
+  return outcome(steps);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::run_to(long last_pass, bool is_together) {
+  constexpr int patience = 1 << 24; // some 10 ms: what it may take a sleeping thread to come
+  constexpr cl_uint first_number = DeviceProblem<T, W>::table_arguments + 5;
+  kernel_.set_one(first_number + 2, cl_int(last_pass));
+  kernel_.set_one(first_number + 8, cl_int(is_together ? patience : 0));
+  launch_blocks(0, bands_);
+}
+
+template <class T, int W>
+cl::Event ResidentExecutor<T, W>::launch_blocks(int first, int count) {
+  kernel_.set_one(DeviceProblem<T, W>::table_arguments + 5 + 9, cl_int(first));
+  return problem_.launch(kernel_, count);
+}
+
+static double duration_s(const cl::Event& event) {
+  return 1e-9 * double(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                       event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+}
+
+// The device always has the rest of a step to do while the host waits for neighbours.
+template <class T, int W>
+void ResidentExecutor<T, W>::step_overlapped(long pass, bool is_last) {
+  kernel_.set_one(DeviceProblem<T, W>::table_arguments + 5 + 2, cl_int(pass + 1));
+  const int edges = int(has_lower_edge_) + int(has_upper_edge_);
+  cl::Event done[2];
+  int n = 0;
+  if (has_lower_edge_) done[n++] = launch_blocks(0, 1);
+  if (has_upper_edge_) done[n++] = launch_blocks(bands_ - 1, 1);
+  Queue& queue = problem_.queue;
+  if (!is_last) problem_.to_host(sent_[std::size_t(parity_)], Wait::no);
+  const cl::Event edges_are_here = queue.mark();
+  const cl::Event rest = launch_blocks(int(has_lower_edge_), bands_ - edges);
+  queue.flush();
+  guarded(queue.device().entry.name, [&] {
+    edges_are_here.wait();
+    for (int e = 0; e < n; ++e) computing_s_ += duration_s(done[e]);
+    if (pass > 0) computing_s_ += duration_s(rest_);
+  });
+  rest_ = rest;
+  if (!is_last)
+    for (const Side side : all_sides) part_->halo.send(side, parity_);
+}
+
+template <class T, int W>
+long ResidentExecutor<T, W>::least_progress() {
+  std::vector<cl_int> progress(std::size_t(bands_), 0);
+  problem_.queue.read(progress_, 0, std::as_writable_bytes(std::span(progress)));
+  return *std::min_element(progress.begin(), progress.end());
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::launch_stage(int stage, long step) {
+  const int stages = setup_.method.stages;
+  const std::size_t table = std::size_t((staged_->is_swapped() ? staged_->current_copy() : 0) * stages + stage);
+  if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_[table]);
+  cl_uint n = DeviceProblem<T, W>::table_arguments;
+  kernel_.set_one(n++, list_tables_[table]);
+  kernel_.set_one(n++, problem_.signals());
+  kernel_.set_one(n++, failed_);
+  const int signal_row = int(step) * stages + stage, width = int(signal_count(setup_.problem)) + 1;
+  for (const cl_int value : {signal_row * width, int(step), int(stage + 1 == stages)}) kernel_.set_one(n++, value);
+  problem_.launch(kernel_, bands_);
+}
+
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::run_stages(long steps) {
+  const int stages = setup_.method.stages;
+  const auto exchanged = [&](int stage) { return is_part() && staged_->is_exchanged(stage); };
+  if (is_part()) send(staged_->current_copy());
+  for (long step = 0; step < steps; ++step)
+    for (int stage = 0; stage < stages; ++stage) {
+      if (exchanged(stage)) receive(staged_->copy_of(stage));
+      launch_stage(stage, step);
+      const bool is_last = stage + 1 == stages;
+      if (is_last && staged_->is_swapped()) staged_->swap();
+      const int next = is_last ? 0 : stage + 1;
+      if (exchanged(next) && !(is_last && step + 1 == steps)) send(staged_->copy_of(next));
+    }
+  return outcome(steps);
+}
+
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::outcome(long steps) {
+  std::vector<cl_int> failed(std::size_t(1 + 2 * bands_));
+  problem_.queue.read(failed_, 0, std::as_writable_bytes(std::span(failed)));
+  if (is_split_) guarded(problem_.queue.device().entry.name, [&] { computing_s_ += duration_s(rest_); });
+  if (failed[0] == INT_MAX) return {true, steps, 0};
+  if (staged_ && staged_->is_swapped() && (steps - 1 - failed[0]) % 2 != 0) staged_->swap(); // later ones were not done
+  to_host();
+  std::optional<std::size_t> first;
+  for (int band = 0; band < bands_; ++band) {
+    if (failed[std::size_t(1 + 2 * band)] != failed[0]) continue;
+    const int r = failed[std::size_t(2 + 2 * band)];
+    const auto element = packed_.first_failed(r, row(r), stored_fields());
+    if (element && (!first || *element < *first)) first = element;
+  }
+  return {false, failed[0], first.value_or(0)};
+}
+
+// With all that it calls; the rest of the class is in resident_executor.cpp.
+#define DSS_INSTANTIATE(T, W) template Outcome ResidentExecutor<T, W>::advance(long, std::span<const double>);
+DSS_EACH_PACK(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
+
+} // namespace dss::opencl
