@@ -78,6 +78,14 @@ static inline face face_across(element e, face x, const int axis, axis_law law, 
 #endif
   return f;
 }
+/* The same where the x face is not at hand. */
+static inline face face_across_alone(element e, const int axis, axis_law law, const term_flags terms) {
+#if IS_PLANAR
+  return face_across(e, element_face(e, 0, law.x, terms.is_damped), axis, law, terms);
+#else
+  return element_face(e, axis, law.own, terms.is_damped);
+#endif
+}
 static inline vec material_arm(element e, const int axis, material_law law) {
   return face_arm(e.q, axis, law.edge_i, SPLAT(0.5) * law.edge_i);
 }
@@ -97,16 +105,14 @@ static inline exchange link_exchange(element i, vec upper, element j, vec lower,
 /* Upper face of an element by itself on axis 1 or 2, where its x face is not at hand. */
 static inline vec upper_across(element i, const int axis, axis_law law, const term_flags terms) {
   if (terms.is_material) return i.u;
-  return upper_face(centre_pull(i, law.x, terms.is_damped),
-                    face_across(i, element_face(i, 0, law.x, terms.is_damped), axis, law, terms));
+  return upper_face(centre_pull(i, law.x, terms.is_damped), face_across_alone(i, axis, law, terms));
 }
 /* Exchange with the element j across a y or z face; `upper` is i's upper face. */
 static inline exchange link_across(element i, vec upper, element j, const int axis, axis_law law,
                                    const term_flags terms) {
   vec lower = j.u;
   if (!terms.is_material)
-    lower = lower_face(centre_pull(j, law.x, terms.is_damped),
-                       face_across(j, element_face(j, 0, law.x, terms.is_damped), axis, law, terms));
+    lower = lower_face(centre_pull(j, law.x, terms.is_damped), face_across_alone(j, axis, law, terms));
   return link_exchange(i, upper, j, lower, axis, law, terms);
 }
 

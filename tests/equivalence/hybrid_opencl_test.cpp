@@ -38,6 +38,21 @@ TEST_F(HybridOnDevices, moves_of_elements_in_the_middle_of_a_run_change_no_bit) 
   });
 }
 
+/// Parts of at least four halos, one with neighbours on both sides.
+TEST_F(HybridOnDevices, edges_that_go_before_the_rest_have_the_bits_of_the_whole) {
+  const Problem problem = fixture::make_block(9, 80, 1, LinkLaw::paper);
+  for (const char* kind : {"", "discrete"}) {
+    const DeviceAs device(kind);
+    for (const Method& method : methods()) {
+      const State start = fixture::random_state(problem, 9, 1e-4, 0.02, 0.01);
+      const State whole = VariantRun{plugin_of("avx512"), problem, method}.after(start, 100);
+      for (const char* members : {"avx512:1,opencl:2", "avx2:1,opencl:1,avx512:1", "opencl:1,opencl:2"})
+        EXPECT_EQ(differing_bits(whole, JointRun{problem, method, members}.after(start, 100), Precision::f64), 0u)
+            << method.name << ' ' << members << ' ' << kind;
+    }
+  }
+}
+
 TEST_F(HybridOnDevices, members_taken_for_gpus_have_the_bits_of_the_whole) {
   const DeviceAs gpu("gpu");
   const Problem problem = fixture::make_block(19, 24, 1, LinkLaw::paper);

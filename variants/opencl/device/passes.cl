@@ -17,7 +17,7 @@ static bool has_failed(device d, global const row_stage* task) {
 
 static void record_failure(global int* failed, const int block, const int step, const int row) {
   atomic_min(failed, step);
-  if (step < failed[1 + 2 * block]) failed[2 + 2 * block] = row; /* the first that this work-item meets */
+  RECORD_ROW
   atomic_min(failed + 1 + 2 * block, step);
 }
 

@@ -11,3 +11,4 @@
 #define SYNCHRONISE barrier(CLK_GLOBAL_MEM_FENCE)
 #define STOP_AT(n) /* work-items meet at barriers: none stops before the others */
 #define IS_FIRST_ITEM (get_local_id(0) == 0)
+#define RECORD_ROW atomic_min(failed + 2 + 2 * block, row); /* a launch is one step: the first row of its items */
