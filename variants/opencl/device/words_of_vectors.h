@@ -11,4 +11,5 @@
 #define SYNCHRONISE
 #define STOP_AT(n) count = n;
 #define IS_FIRST_ITEM true
-#define RECORD_ROW if (step < failed[1 + 2 * block]) failed[2 + 2 * block] = row; /* the first of the earliest step */
+#define RECORD_ROW                                                                                                     \
+  if (step < failed[1 + 2 * block]) failed[2 + 2 * block] = row; /* the first of the earliest step */
