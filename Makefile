@@ -36,7 +36,8 @@ reproduce: build
 # All that needs a GPU. Without one the results that are there stay as they are.
 reproduce-gpu: TARGETS := --target dssbench
 reproduce-gpu: build
-	@if $(BUILD)/dssbench list devices | awk '$$2 == "gpu" { found = 1 } END { exit !found }'; then $(MAKE) --no-print-directory gpu-studies; \
+	@$(BUILD)/dssbench list devices >$(BUILD)/devices.txt
+	@if awk '$$2 == "gpu" && !/unusable/ { found = 1 } END { exit !found }' $(BUILD)/devices.txt; then $(MAKE) --no-print-directory gpu-studies; \
 	else echo "reproduce-gpu: there is no GPU here, nothing was measured (dssbench list devices shows what there is)"; fi
 
 gpu-studies:

@@ -29,12 +29,15 @@ std::vector<int> counts(const JsonPlace& place, int cores, const char* what) {
   for (const JsonPlace& item : place.items()) {
     if (item.value() == "cores")
       numbers.push_back(cores);
+    else if (item.value() == "rest")
+      numbers.push_back(std::max(1, cores - 1));
     else if (item.value() == "1..cores") {
       for (int number = 1; number <= cores; ++number) numbers.push_back(number);
     } else if (item.value().is_number_integer()) {
       numbers.push_back(int(item.count(1)));
     } else {
-      item.fail(fmt::format("{} is neither a number of {} nor \"cores\" nor \"1..cores\"", item.value().dump(), what));
+      item.fail(fmt::format("{} is neither a number of {} nor \"cores\", \"rest\" (all but one) nor \"1..cores\"",
+                            item.value().dump(), what));
     }
   }
   if (numbers.empty()) place.fail(fmt::format("is empty; give at least one number of {}", what));

@@ -70,9 +70,11 @@ void JointExecutor::build(Decomposition decomposition) {
   const bool is_crowded = unsigned(threads) > std::thread::hardware_concurrency();
   team_.run([&](std::size_t m) { parts_[m].reset(); });
   exchange_ = std::make_unique<Exchange>(is_crowded);
+  const bool was_broken = std::exchange(is_broken_, true); // until all members are there
   team_.run([&](std::size_t m) {
     parts_[m] = std::make_unique<MemberPart>(setup_, participants_[m], decomposition_, int(m), *exchange_);
   });
+  is_broken_ = was_broken;
   const int lanes = parts_.front()->executor().halo_lanes();
   const bool is_mixed = lanes == 0 || std::ranges::any_of(parts_, [&](const auto& part) {
                           return part->executor().halo_lanes() != lanes;

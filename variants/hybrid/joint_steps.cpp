@@ -102,6 +102,7 @@ void JointExecutor::calibrate() {
     const std::vector<double> speed = speeds(elements_, step_s_);
     const auto [least, most] = std::ranges::minmax_element(step_s_);
     if (*least >= (1 - Balance::tolerated) * *most || round + 1 == rounds) break;
+    if (*least <= 0) break; // a part without neighbours does not know its own time
     build(decompose(setup_.problem, "strips", decomposition_.parts, {speed, {}}));
   }
   each_member([](MemberPart& member, std::size_t) {

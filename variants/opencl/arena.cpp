@@ -10,17 +10,15 @@ Arena::Arena() {
     void* const at =
         mmap(nullptr, reserved_ + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (at == MAP_FAILED) continue;
-    start_ = static_cast<std::byte*>(at);
+    start_ = mapped_ = static_cast<std::byte*>(at);
     break;
   }
   if (start_ == nullptr) throw std::bad_alloc();
   const std::size_t over = reinterpret_cast<std::size_t>(start_) % page;
-  if (over == 0) return;
-  munmap(start_, page - over); // begin on a huge page
-  start_ += page - over;
+  if (over > 0) start_ += page - over; // begin on a huge page
 }
 
-Arena::~Arena() { munmap(start_, reserved_); }
+Arena::~Arena() { munmap(mapped_, reserved_ + page); }
 
 void* Arena::allocate(std::size_t bytes) {
   const std::size_t alignment = bytes >= 2 * page ? page : line;

@@ -18,7 +18,7 @@ public:
   std::size_t bytes() const { return used_; }
 
 private:
-  std::byte* start_ = nullptr;
+  std::byte *mapped_ = nullptr, *start_ = nullptr;
   std::size_t reserved_ = 0;
   std::size_t used_ = page; ///< rows look before and behind themselves, where no lane counts
 };

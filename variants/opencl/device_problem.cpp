@@ -1,5 +1,6 @@
 #include "variants/opencl/device_problem.hpp"
 
+#include "solver/error.hpp"
 #include "variants/engine/packs.hpp"
 
 #include <algorithm>
@@ -19,6 +20,15 @@ DeviceProblem<T, W>::DeviceProblem(const Problem& problem, Model model, const Pa
                                    const Layout& where)
     : packed(problem, model, part, memory), layout(where), queue(device), problem_(problem), model_(model), part_(part),
       is_shared_(device.is_unified && !where.has_items) {}
+
+template <class T, int W>
+DeviceProblem<T, W>::~DeviceProblem() {
+  mapping_.reset();
+  try {
+    queue.finish();
+  } catch (const InputError&) { // told by whoever met it first
+  }
+}
 
 template <class T, int W>
 int DeviceProblem<T, W>::shape_of(const Terms& terms) {
@@ -117,14 +127,22 @@ void DeviceProblem<T, W>::finish(int leapfrog_fields, bool has_rates) {
   arena_ = is_shared_ ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.start())
                       : queue.make_buffer(memory.bytes());
   if (!is_shared_) queue.write(arena_, 0, {memory.start(), memory.bytes()});
-  if (layout.has_items) {
-    const std::size_t packs = std::size_t(packed.packs_across), most = 256;
-    group_size_ = std::min(
-        packs * W,
-        std::min(most,
-                 kernel("run_passes").handle().template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device.handle) / W *
-                     W));
-  }
+  if (layout.has_items) group_size_ = std::min(std::size_t(packed.packs_across * W), largest_group());
+}
+
+/// A multiple of the lanes that both kernels can have.
+template <class T, int W>
+std::size_t DeviceProblem<T, W>::largest_group() const {
+  std::size_t most = 256;
+  for (const char* const name : {"run_passes", "run_rows"})
+    most = std::min(most, guarded(queue.device().entry.name, [&] {
+                      return kernel(name).handle().template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(
+                          queue.device().handle);
+                    }));
+  if (most < W)
+    throw InputError("opencl: " + queue.device().entry.name + ": its work-groups hold " + std::to_string(most) +
+                     " work-items of these kernels, fewer than the 16 lanes of a pack; take another device");
+  return most / W * W;
 }
 
 template <class T, int W>

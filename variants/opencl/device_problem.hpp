@@ -37,6 +37,8 @@ class DeviceProblem {
 public:
   using Row = typename Tables<T>::row_stage;
   DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device, const Layout& layout);
+  /// Waits for the device, which may still use the arena after an error.
+  ~DeviceProblem();
   DeviceProblem(const DeviceProblem&) = delete;
   DeviceProblem& operator=(const DeviceProblem&) = delete;
 
@@ -90,6 +92,7 @@ public:
 
 private:
   int shape_of(const Terms& terms);
+  std::size_t largest_group() const;
   void make_constant_tables();
   const Problem& problem_;
   const Model model_;

@@ -17,8 +17,10 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
       problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout),
       rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }) {
   // Work-items of a group read what others update in place: leapfrog takes turns between two states there.
-  const bool is_staged = !setup_.problem.extra_links.empty() || (is_part() && part_->is_every_stage) ||
-                         (layout.has_items && rows_.is_leapfrog());
+  // Where bands are thinner than their halo, most of what they do is done by others as well.
+  const int rows = packed_.own_end - packed_.own_begin, halo = setup_.method.stages * packed_.reach;
+  const bool is_staged = (layout.has_items && rows < layout.bands * halo) || !setup_.problem.extra_links.empty() ||
+                         (is_part() && part_->is_every_stage) || (layout.has_items && rows_.is_leapfrog());
   if (is_staged)
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, stored_fields(), layout.bands, part_);
   else
@@ -171,13 +173,10 @@ auto ResidentExecutor<T, W>::state_ranges() -> std::vector<Range> {
     else
       ranges.push_back({from, from + count});
   };
-  const auto size = [&](int r) {
-    return std::size_t(packed_.rows[std::size_t(r)].packs) * std::size_t(stored_fields() * W);
-  };
-  for (int r = 0; r < int(packed_.rows.size()); ++r) add(row(r), size(r));
+  for (int r = 0; r < int(packed_.rows.size()); ++r) add(row(r), row_size(r));
   for (Block<T, W>& block : blocks_)
     for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
-      if (block.is_published(r)) add(block.published(r, parity_), size(r));
+      if (block.is_published(r)) add(block.published(r, parity_), row_size(r));
   return ranges;
 }
 
@@ -194,9 +193,9 @@ template <class T, int W>
 void ResidentExecutor<T, W>::to_device() {
   if (!is_on_host_) return;
   problem_.queue.set_counting(false);
-  problem_.to_device(state_ranges());
+  problem_.to_device(is_changed_ ? state_ranges() : std::vector<Range>{});
   problem_.queue.set_counting(true);
-  is_on_host_ = false;
+  is_on_host_ = is_changed_ = false;
 }
 
 template <class T, int W>
@@ -206,14 +205,36 @@ HaloLayout ResidentExecutor<T, W>::halo_layout(std::span<const std::size_t> elem
       elements, [&](int r) { return copy_row(copy, r); }, is_own);
   layout.is_stable = false; // the host has the arena only between computations
   if (elements.empty()) return layout;
-  auto& ranges = (is_own(elements.front()) ? sent_ : received_)[std::size_t(copy)];
+  const bool own = is_own(elements.front());
+  std::vector<Range>& ranges = (own ? sent_ : received_)[std::size_t(copy)];
   for (const auto& piece : layout.pieces) {
     const auto* const from = reinterpret_cast<const T*>(piece.at);
-    const T* const to = from + piece.count / sizeof(T);
-    const auto covers = [&](const Range& known) { return known.from <= from && to <= known.to; };
-    if (std::none_of(ranges.begin(), ranges.end(), covers)) ranges.push_back({from, to});
+    add_range(ranges, {from, from + piece.count / sizeof(T)});
+  }
+  if (staged_) return layout;
+  for (const std::size_t element : elements) { // whole rows that nobody else writes: few transfers
+    const int r = int(row_of(packed_.lattice, element));
+    const auto [first, twin] = copy_row(copy, r);
+    const T* const from = own ? twin : block_of(r).is_remote() ? first : nullptr;
+    if (from != nullptr) add_range(ranges, {from, from + row_size(r)});
   }
   return layout;
+}
+
+/// Ranges that touch or overlap become one.
+template <class T, int W>
+void ResidentExecutor<T, W>::add_range(std::vector<Range>& ranges, Range range) {
+  const auto touches = [&](const Range& known) { return known.from <= range.to && range.from <= known.to; };
+  for (auto known = ranges.begin(); known != ranges.end();) {
+    if (known->from <= range.from && range.to <= known->to) return;
+    if (!touches(*known)) {
+      ++known;
+      continue;
+    }
+    range = {std::min(range.from, known->from), std::max(range.to, known->to)};
+    known = ranges.erase(known);
+  }
+  ranges.push_back(range);
 }
 
 template <class T, int W>
@@ -225,11 +246,13 @@ void ResidentExecutor<T, W>::send(int copy) {
 template <class T, int W>
 void ResidentExecutor<T, W>::receive(int copy, Wait wait) {
   for (const Side side : all_sides) part_->halo.receive(side, copy);
+  is_changed_ |= is_on_host_;
   if (!is_on_host_) problem_.to_device(received_[std::size_t(copy)], wait);
 }
 
 template <class T, int W>
 void ResidentExecutor<T, W>::publish_all() {
+  is_changed_ = true;
   for (Block<T, W>& block : blocks_)
     for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
       if (block.is_published(r)) block.publish(r, parity_);

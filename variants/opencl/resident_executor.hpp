@@ -42,6 +42,10 @@ private:
   T* row(int r);
   std::pair<T*, T*> copy_row(int copy, int r);
   void publish_all();
+  std::size_t row_size(int r) const {
+    return std::size_t(packed_.rows[std::size_t(r)].packs) * std::size_t(stored_fields() * W);
+  }
+  static void add_range(std::vector<Range>& ranges, Range range);
   std::vector<Range> state_ranges();
   /// The state, halo included, is in the arena for the host, until to_device().
   void to_host();
@@ -61,6 +65,8 @@ private:
   /// Rows of each block, and whether edges that neighbours wait for are blocks of their own.
   std::vector<int> cut_blocks();
   long least_progress();
+  /// Passes up to and with the one that failed, at most `passes`.
+  long passes_to_do(long passes);
   Outcome run_stages(long steps);
   void launch_stage(int stage, long step);
   void forget_failures();
@@ -79,7 +85,7 @@ private:
   cl::Event rest_; ///< of the step before
   double computing_s_ = 0;
   int parity_ = 0;
-  bool is_on_host_ = false;
+  bool is_on_host_ = false, is_changed_ = false; ///< by the host, since the device had it
   int trials_left_ =
       0; ///< of bands that wait for one another, until they are found not to be computed at the same time
   std::vector<typename Tables<T>::sweep> sweeps_;

@@ -3,6 +3,7 @@
 #include "variants/opencl/resident_executor.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dss::opencl {
 
@@ -58,12 +59,14 @@ Outcome ResidentExecutor<T, W>::run_passes(long steps) {
     }
   } else {
     long done = 0;
-    if (trials_left_ > 0) {
+    while (trials_left_ > 0 && done < passes_to_do(passes)) {
       run_to(passes, true);
-      done = least_progress();
-      if (done < std::min(passes, 2L)) --trials_left_; // bands came one after the other
+      const long before = std::exchange(done, least_progress());
+      if (done - before >= std::min(passes_to_do(passes) - before, 2L)) continue;
+      --trials_left_; // bands came one after the other
+      break;
     }
-    for (long pass = done; pass < passes; ++pass) run_to(pass + 1, false);
+    for (long pass = done, last = passes_to_do(passes); pass < last; ++pass) run_to(pass + 1, false);
     parity_ = parity_after(passes);
   }
   return outcome(steps);
@@ -118,6 +121,13 @@ long ResidentExecutor<T, W>::least_progress() {
   std::vector<cl_int> progress(std::size_t(bands_), 0);
   problem_.queue.read(progress_, 0, std::as_writable_bytes(std::span(progress)));
   return *std::min_element(progress.begin(), progress.end());
+}
+
+template <class T, int W>
+long ResidentExecutor<T, W>::passes_to_do(long passes) {
+  cl_int failed_step = INT_MAX;
+  problem_.queue.read(failed_, 0, std::as_writable_bytes(std::span(&failed_step, 1)));
+  return failed_step == INT_MAX ? passes : std::min(passes, long(failed_step / steps_a_pass_) + 1);
 }
 
 template <class T, int W>
