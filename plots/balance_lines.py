@@ -5,15 +5,13 @@ Reads results/tables/balance.csv, as `dssbench experiment balance` writes it, an
 Above: throughput over the sum of both speeds. Below: over the fast one alone; full lines: the best shares, dotted: two halves. Above 1 joining pays.
 Example: plots/balance_lines.py results/tables/balance.csv --output results/figures/balance.png
 """
-import argparse
-import pathlib
-import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
+from picture_command import draw_from_command_line  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision.
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#000000", "#999999"]
@@ -61,18 +59,5 @@ def draw(path, output):
     return None
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", type=pathlib.Path, help="results/tables/balance.csv")
-    parser.add_argument("--output", type=pathlib.Path, required=True, help="PNG, SVG or PDF")
-    arguments = parser.parse_args()
-    if not arguments.table.exists():
-        sys.exit(f"{arguments.table}: no such file; run `dssbench experiment balance` first")
-    reason = draw(arguments.table, arguments.output)
-    if reason:
-        sys.exit(reason)
-    print(arguments.output)
-
-
 if __name__ == "__main__":
-    main()
+    draw_from_command_line(__doc__, draw, "balance")

@@ -6,15 +6,13 @@ Filled marks and full lines are measured here (scaled to 10,000 steps where fewe
 is not there (a GPU) is named as unavailable, and has no mark.
 Example: plots/figure9_lines.py results/tables/table3.csv --output results/figures/table3_figure9.png
 """
-import argparse
-import pathlib
-import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
+from picture_command import draw_from_command_line  # noqa: E402
 
 STEPS = 10000
 # Okabe and Ito's colours: told apart with any colour vision; markers differ too.
@@ -89,18 +87,5 @@ def draw(path, output):
     return None
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", type=pathlib.Path, help="results/tables/NAME.csv")
-    parser.add_argument("--output", type=pathlib.Path, required=True, help="PNG, SVG or PDF")
-    arguments = parser.parse_args()
-    if not arguments.table.exists():
-        sys.exit(f"{arguments.table}: no such file; run `dssbench experiment` first")
-    reason = draw(arguments.table, arguments.output)
-    if reason:
-        sys.exit(reason)
-    print(arguments.output)
-
-
 if __name__ == "__main__":
-    main()
+    draw_from_command_line(__doc__, draw)

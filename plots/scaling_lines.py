@@ -5,15 +5,13 @@ Reads results/tables/NAME.csv, as `dssbench experiment` writes it, and nothing e
 Points with more workers than cores are hollow: ratios of times, no speed-ups, and labelled so.
 Example: plots/scaling_lines.py results/tables/table1.csv --output results/figures/table1_scaling.png
 """
-import argparse
-import pathlib
-import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
+from picture_command import draw_from_command_line  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision; markers differ too.
 STYLES = {
@@ -145,18 +143,5 @@ def draw(path, output):
     return None
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", type=pathlib.Path, help="results/tables/NAME.csv")
-    parser.add_argument("--output", type=pathlib.Path, required=True, help="PNG, SVG or PDF")
-    arguments = parser.parse_args()
-    if not arguments.table.exists():
-        sys.exit(f"{arguments.table}: no such file; run `dssbench experiment` first")
-    reason = draw(arguments.table, arguments.output)
-    if reason:
-        sys.exit(reason)
-    print(arguments.output)
-
-
 if __name__ == "__main__":
-    main()
+    draw_from_command_line(__doc__, draw)

@@ -51,6 +51,11 @@ struct PartSetup {
   bool is_overlapped = false;  ///< compute what needs no halo first, and what neighbours wait for as early as possible
 };
 
+/// Null for a whole problem, or a part that has no neighbours, which is computed as one.
+inline const PartSetup* part_with_neighbours(const PartSetup* setup) {
+  return setup == nullptr || setup->part.neighbours.empty() ? nullptr : setup;
+}
+
 /// One step of a part in the order that hides messages best: the rows that the upper neighbours wait for are a pass of
 /// their own and come first (if it is split), those that the lower ones wait for come first in the other pass.
 /// @param run_upper  computes the upper pass  @param run_lower  computes the lower pass; calls its argument when the

@@ -45,6 +45,9 @@ public:
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
 
+  /// Packs of all rows, and one more: rows look one pack ahead.
+  std::size_t readable_packs() const { return rows.back().pack_offset + std::size_t(rows.back().packs) + 1; }
+
   int own_begin = 0,
       own_end = 0; ///< from the first row with an own element to behind the last: all rows of a whole problem
   bool is_part() const { return part_ != nullptr; }

@@ -36,10 +36,6 @@ static void run_team(int threads, Work&& work) {
                      " (OMP_THREAD_LIMIT?); give at most that");
 }
 
-static const PartSetup* part_with_neighbours(const PartSetup* setup) {
-  return setup == nullptr || setup->part.neighbours.empty() ? nullptr : setup;
-}
-
 template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
@@ -63,34 +59,22 @@ void RowExecutor<T>::make_blocks() {
                                                packed_.own_end < rows && edge - packed_.own_begin >= 2 * halo)
     cuts = {packed_.own_begin, edge, packed_.own_end};
   const bool is_alone = cuts.size() == 2 && !is_part();
-  if (packed_.own_begin > 0) blocks_.emplace_back(packed_, 0, packed_.own_begin, stored_fields(), halo);
-  for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-    blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), halo, !is_leapfrog(),
-                         WavefrontStep<T>::sweeps(packed_, method, is_alone));
-  if (packed_.own_end < rows) blocks_.emplace_back(packed_, packed_.own_end, rows, stored_fields(), halo);
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    if (!blocks_[b].is_remote())
-      steps_.emplace_back(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks_, b);
-}
-
-template <class T>
-Block<T>& RowExecutor<T>::block_of(int r) {
-  return *std::find_if(blocks_.begin(), blocks_.end(), [&](const Block<T>& block) { return block.owns(r); });
+  blocks_.make(packed_, method, cuts, stored_fields(), halo, is_alone);
+  std::vector<Block<T>>& blocks = blocks_.all();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (!blocks[b].is_remote())
+      steps_.emplace_back(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks, b);
 }
 
 template <class T>
 T* RowExecutor<T>::row(int r) {
-  if (staged_) return staged_->row(r);
-  Block<T>& block = block_of(r);
-  return block.is_remote() ? block.published(r, parity_) : block.row(r);
+  return staged_ ? staged_->row(r) : blocks_.row(r, parity_);
 }
 
 template <class T>
 std::pair<T*, T*> RowExecutor<T>::copy_row(int copy, int r) {
   if (staged_) return {staged_->copy_row(copy, r), nullptr};
-  Block<T>& block = block_of(r);
-  T* const published = block.is_published(r) ? block.published(r, copy) : nullptr;
-  return {block.is_remote() ? published : block.row(r), block.is_remote() ? nullptr : published};
+  return blocks_.copy_row(copy, r);
 }
 
 template <class T>
@@ -105,7 +89,7 @@ HaloLayout RowExecutor<T>::halo_layout(std::span<const std::size_t> elements, in
     if (staged_) // own rows are written whole, with the halo elements among them
       is_stable &= staged_->copies() > 1 && (own || is_halo_row);
     else
-      is_stable &= own ? copy_row(copy, r).second != nullptr : block_of(r).is_remote();
+      is_stable &= own ? copy_row(copy, r).second != nullptr : blocks_.of(r).is_remote();
   }
   layout.is_stable = is_stable;
   return layout;
@@ -124,18 +108,11 @@ void RowExecutor<T>::refresh_halo() {
 }
 
 template <class T>
-void RowExecutor<T>::publish_all() {
-  for (Block<T>& block : blocks_)
-    for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
-      if (block.is_published(r)) block.publish(r, parity_);
-}
-
-template <class T>
 void RowExecutor<T>::write(std::size_t first, std::span<const double> fields) {
   stop_leapfrog();
   parity_ = 0;
   rows_.write(first, fields);
-  publish_all();
+  blocks_.publish_all(parity_);
 }
 
 template <class T>
@@ -153,7 +130,7 @@ template <class T>
 void RowExecutor<T>::restore(std::size_t first, std::span<const double> kept) {
   end_rates_ = {};
   is_started_ = rows_.restore(first, kept);
-  publish_all();
+  blocks_.publish_all(parity_);
 }
 
 template <class T>
@@ -200,7 +177,7 @@ void RowExecutor<T>::stop_leapfrog() {
 template <class T>
 void RowExecutor<T>::start_leapfrog(std::span<const double> signals) {
   rows_.start(evaluate(signals).data());
-  publish_all();
+  blocks_.publish_all(parity_);
 }
 
 template <class T>
@@ -235,7 +212,8 @@ template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
   const std::size_t step_width = signal_count(setup_.problem) * std::size_t(setup_.method.stages);
   const long at_once = WavefrontStep<T>::steps_a_pass(packed_, setup_.method, steps_.size() == 1 && !is_part());
-  const std::size_t first_own = blocks_.front().is_remote() ? 1 : 0;
+  std::vector<Block<T>>& blocks = blocks_.all();
+  const std::size_t first_own = blocks_.first_own();
   const bool is_overlapped = is_part() && part_->is_overlapped && threads_ == 1;
   FirstFailure failure;
   if (is_part()) exchange(&Halo::send, parity_);
@@ -246,7 +224,7 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
       const int parity = (parity_ + int(pass & 1)) & 1;
       const bool is_last = n + at_once >= steps;
       for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
-        blocks_[first_own + b].failed_row = -1;
+        blocks[first_own + b].failed_row = -1;
       if (is_overlapped) {
         step_overlapped(values, parity, is_last);
       } else {
@@ -255,7 +233,7 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
         steps_[std::size_t(thread)](values, int(std::min(at_once, steps - n)), parity);
       }
       for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
-        if (Block<T>& block = blocks_[first_own + b]; block.failed_row >= 0)
+        if (Block<T>& block = blocks[first_own + b]; block.failed_row >= 0)
           failure.meet(n + block.failed_step,
                        *packed_.first_failed(block.failed_row, block.row(block.failed_row), stored_fields()));
       synchronise();
@@ -315,7 +293,7 @@ std::string RowExecutor<T>::schedule() const {
 template <class T>
 std::size_t RowExecutor<T>::bytes() const {
   std::size_t sum = packed_.bytes();
-  for (const Block<T>& block : blocks_) sum += block.bytes();
+  for (const Block<T>& block : blocks_.all()) sum += block.bytes();
   for (const WavefrontStep<T>& step : steps_) sum += step.bytes();
   return staged_ ? sum + staged_->bytes() : sum;
 }

@@ -3,6 +3,7 @@
 /// threads.
 #include "solver/numerics/signal_rows.hpp"
 #include "variants/api.hpp"
+#include "variants/engine/blocks.hpp"
 #include "variants/engine/staged.hpp"
 #include "variants/engine/state_rows.hpp"
 
@@ -34,7 +35,6 @@ private:
   int stored_fields() const { return rows_.stored_fields(); }
   bool is_part() const { return part_ != nullptr; }
   void make_blocks();
-  Block<T>& block_of(int r);
   T* row(int r);
   /// Row of a copy that parts exchange, and where else it is kept (or null).
   std::pair<T*, T*> copy_row(int copy, int r);
@@ -42,7 +42,6 @@ private:
   void exchange(void (Halo::*act)(Side, int), int copy);
   /// All of the halo anew, of the present state. Every part must take part.
   void refresh_halo();
-  void publish_all();
   /// Rates of all model fields, packs of packed_.fields() fields, at the present state.
   Buffer<T> evaluate(std::span<const double> signals);
   void start_leapfrog(std::span<const double> signals);
@@ -57,7 +56,7 @@ private:
   const PartSetup* part_; ///< null for a whole problem, or a part that has no neighbours
   PackedRows<T> packed_;
   StateRows<T> rows_;
-  std::vector<Block<T>> blocks_; ///< wavefront; of a part: remote blocks first and last where it has a halo there
+  Blocks<T> blocks_;                    ///< wavefront
   std::vector<WavefrontStep<T>> steps_; ///< of each own block
   int threads_ = 1;
   std::optional<StagedRows<T>> staged_; ///< or stage by stage

@@ -10,10 +10,8 @@ StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Problem& problem, c
     : packed_(packed), method_(method), exchange_(exchange), fields_(fields),
       pack_size_(std::size_t(fields) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
       failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, dt)), extra_links_(problem, packed) {
-  const PackedRow<T>& last = packed.rows.back();
-  const std::size_t packs = last.pack_offset + std::size_t(last.packs) + 1; // rows look one pack ahead
   const int copies = std::max(method.stages, 2);
-  for (int m = 0; m < copies; ++m) stages_.emplace_back(packs * pack_size_, packed.memory);
+  for (int m = 0; m < copies; ++m) stages_.emplace_back(packed.readable_packs() * pack_size_, packed.memory);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
   plan_rows();
 }

@@ -92,8 +92,7 @@ bool StateRows<T, W>::restore(std::size_t first, std::span<const double> kept) {
 
 template <class T, int W>
 std::size_t StateRows<T, W>::plain_size() const {
-  const std::size_t packs = packed_.rows.back().pack_offset + std::size_t(packed_.rows.back().packs) + 1;
-  return packs * std::size_t(packed_.fields() * W);
+  return packed_.readable_packs() * std::size_t(packed_.fields() * W);
 }
 
 template <class T, int W>

@@ -11,10 +11,9 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
   PackedRows<T, W>& packed = device_.packed;
   packed.own_begin = 0, packed.own_end = int(packed.rows.size()); // of the halo too: whoever asks knows what counts
   const int fields = packed.fields();
-  const std::size_t packs = packed.rows.back().pack_offset + std::size_t(packed.rows.back().packs) + 1;
   const std::size_t pack_size = std::size_t(fields * W);
-  plain_ = dss::Buffer<T>(packs * pack_size, packed.memory);
-  rates_ = dss::Buffer<T>(packs * pack_size, packed.memory);
+  plain_ = dss::Buffer<T>(packed.readable_packs() * pack_size, packed.memory);
+  rates_ = dss::Buffer<T>(packed.readable_packs() * pack_size, packed.memory);
   zero_ = dss::Buffer<T>(std::size_t(packed.max_packs + 1) * pack_size, packed.memory);
   const auto row_of = [&](dss::Buffer<T>& rows, int r) {
     return rows.data() + packed.rows[std::size_t(r)].pack_offset * pack_size;

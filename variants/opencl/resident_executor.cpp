@@ -7,10 +7,6 @@
 
 namespace dss::opencl {
 
-static const PartSetup* part_with_neighbours(const PartSetup* setup) {
-  return setup == nullptr || setup->part.neighbours.empty() ? nullptr : setup;
-}
-
 template <class T, int W>
 ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
@@ -51,22 +47,19 @@ std::vector<int> ResidentExecutor<T, W>::cut_blocks() {
 template <class T, int W>
 void ResidentExecutor<T, W>::make_blocks() {
   const Method& method = setup_.method;
-  const int rows = int(packed_.rows.size()), halo = method.stages * packed_.reach;
+  const int halo = method.stages * packed_.reach;
   const std::vector<int> cuts = cut_blocks();
   bands_ = int(cuts.size()) - 1;
   const bool is_alone = bands_ == 1 && !is_part();
   steps_a_pass_ = WavefrontStep<T, W>::steps_a_pass(packed_, method, is_alone);
-  if (packed_.own_begin > 0) blocks_.emplace_back(packed_, 0, packed_.own_begin, stored_fields(), halo);
-  for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-    blocks_.emplace_back(packed_, cuts[b], cuts[b + 1], stored_fields(), halo, !rows_.is_leapfrog(),
-                         WavefrontStep<T, W>::sweeps(packed_, method, is_alone));
-  if (packed_.own_end < rows) blocks_.emplace_back(packed_, packed_.own_end, rows, stored_fields(), halo);
+  blocks_.make(packed_, method, cuts, stored_fields(), halo, is_alone);
+  std::vector<Block<T, W>>& blocks = blocks_.all();
   most_sweeps_ = WavefrontStep<T, W>::sweeps(packed_, method, is_alone);
   if (!problem_.layout.has_items && !is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
-  for (std::size_t b = 0, band = 0; b < blocks_.size(); ++b) {
-    if (blocks_[b].is_remote()) continue;
+  for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
+    if (blocks[b].is_remote()) continue;
     add_neighbours(cuts, int(band++), halo);
-    WavefrontStep<T, W> step(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks_, b);
+    WavefrontStep<T, W> step(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks, b);
     for (const int parity : {0, 1}) {
       int n = 0;
       const auto is_last = [&] { return n % method.stages == 0; }; // n counts from 1 here
@@ -81,10 +74,10 @@ void ResidentExecutor<T, W>::make_blocks() {
             ++sweeps_.back().prime_count;
           },
           [&](int r, bool is_whole, const RowTask<T>& task) {
-            const bool is_published = is_last() && blocks_[b].is_published(r) && blocks_[b].owns(r);
+            const bool is_published = is_last() && blocks[b].is_published(r) && blocks[b].owns(r);
             const int place =
                 problem_.add(task, r, is_whole ? problem_.action_of(task, method) : Tables<T>::prime_upper,
-                             stored_fields(), is_published ? blocks_[b].published(r, parity ^ 1) : nullptr);
+                             stored_fields(), is_published ? blocks[b].published(r, parity ^ 1) : nullptr);
             if (sweeps_.back().rows < 0) sweeps_.back().rows = place;
           });
     }
@@ -144,23 +137,14 @@ void ResidentExecutor<T, W>::make_kernels() {
 }
 
 template <class T, int W>
-Block<T, W>& ResidentExecutor<T, W>::block_of(int r) {
-  return *std::find_if(blocks_.begin(), blocks_.end(), [&](const Block<T, W>& block) { return block.owns(r); });
-}
-
-template <class T, int W>
 T* ResidentExecutor<T, W>::row(int r) {
-  if (staged_) return staged_->row(r);
-  Block<T, W>& block = block_of(r);
-  return block.is_remote() ? block.published(r, parity_) : block.row(r);
+  return staged_ ? staged_->row(r) : blocks_.row(r, parity_);
 }
 
 template <class T, int W>
 std::pair<T*, T*> ResidentExecutor<T, W>::copy_row(int copy, int r) {
   if (staged_) return {staged_->copy_row(copy, r), nullptr};
-  Block<T, W>& block = block_of(r);
-  T* const published = block.is_published(r) ? block.published(r, copy) : nullptr;
-  return {block.is_remote() ? published : block.row(r), block.is_remote() ? nullptr : published};
+  return blocks_.copy_row(copy, r);
 }
 
 /// Of whole rows; rows that follow one another in memory are one range.
@@ -174,7 +158,7 @@ auto ResidentExecutor<T, W>::state_ranges() -> std::vector<Range> {
       ranges.push_back({from, from + count});
   };
   for (int r = 0; r < int(packed_.rows.size()); ++r) add(row(r), row_size(r));
-  for (Block<T, W>& block : blocks_)
+  for (Block<T, W>& block : blocks_.all())
     for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
       if (block.is_published(r)) add(block.published(r, parity_), row_size(r));
   return ranges;
@@ -215,7 +199,7 @@ HaloLayout ResidentExecutor<T, W>::halo_layout(std::span<const std::size_t> elem
   for (const std::size_t element : elements) { // whole rows that nobody else writes: few transfers
     const int r = int(row_of(packed_.lattice, element));
     const auto [first, twin] = copy_row(copy, r);
-    const T* const from = own ? twin : block_of(r).is_remote() ? first : nullptr;
+    const T* const from = own ? twin : blocks_.of(r).is_remote() ? first : nullptr;
     if (from != nullptr) add_range(ranges, {from, from + row_size(r)});
   }
   return layout;
@@ -253,9 +237,7 @@ void ResidentExecutor<T, W>::receive(int copy, Wait wait) {
 template <class T, int W>
 void ResidentExecutor<T, W>::publish_all() {
   is_changed_ = true;
-  for (Block<T, W>& block : blocks_)
-    for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
-      if (block.is_published(r)) block.publish(r, parity_);
+  blocks_.publish_all(parity_);
 }
 
 template <class T, int W>

@@ -2,8 +2,8 @@
 /// The variant `opencl`: the state stays on the device, which does whole steps. Schedules, blocks of rows and their memory are the engine's.
 #include "solver/numerics/signal_rows.hpp"
 #include "variants/api.hpp"
+#include "variants/engine/blocks.hpp"
 #include "variants/engine/state_rows.hpp"
-#include "variants/engine/wavefront.hpp"
 #include "variants/opencl/device_rates.hpp"
 
 #include <optional>
@@ -31,6 +31,9 @@ public:
   double computing_s() const override { return is_split_ ? computing_s_ : -1; }
 
 private:
+  /// Places of those arguments of run_passes that change from launch to launch (device/passes.cl).
+  static constexpr cl_uint last_pass_argument = DeviceProblem<T, W>::table_arguments + 7,
+                           patience_argument = last_pass_argument + 6, first_block_argument = patience_argument + 1;
   using Range = typename DeviceProblem<T, W>::Range;
   bool is_part() const { return part_ != nullptr; }
   int stored_fields() const { return rows_.stored_fields(); }
@@ -38,7 +41,6 @@ private:
   void add_neighbours(const std::vector<int>& cuts, int band, int halo);
   void add_stages();
   void make_kernels();
-  Block<T, W>& block_of(int r);
   T* row(int r);
   std::pair<T*, T*> copy_row(int copy, int r);
   void publish_all();
@@ -77,7 +79,7 @@ private:
   DeviceProblem<T, W> problem_;
   PackedRows<T, W>& packed_ = problem_.packed;
   StateRows<T, W> rows_;
-  std::vector<Block<T, W>> blocks_; ///< wavefront; of a part: remote blocks first and last where it has a halo there
+  Blocks<T, W> blocks_;                    ///< wavefront
   std::optional<StagedRows<T, W>> staged_; ///< or stage by stage
   int bands_ = 1, steps_a_pass_ = 1, most_sweeps_ = 0;
   bool is_split_ = false; ///< part: the edges that neighbours wait for are blocks of their own, first and last

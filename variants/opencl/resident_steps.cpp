@@ -75,15 +75,14 @@ Outcome ResidentExecutor<T, W>::run_passes(long steps) {
 template <class T, int W>
 void ResidentExecutor<T, W>::run_to(long last_pass, bool is_together) {
   constexpr int patience = 1 << 24; // some 10 ms: what it may take a sleeping thread to come
-  constexpr cl_uint first_number = DeviceProblem<T, W>::table_arguments + 5;
-  kernel_.set_one(first_number + 2, cl_int(last_pass));
-  kernel_.set_one(first_number + 8, cl_int(is_together ? patience : 0));
+  kernel_.set_one(last_pass_argument, cl_int(last_pass));
+  kernel_.set_one(patience_argument, cl_int(is_together ? patience : 0));
   launch_blocks(0, bands_);
 }
 
 template <class T, int W>
 cl::Event ResidentExecutor<T, W>::launch_blocks(int first, int count) {
-  kernel_.set_one(DeviceProblem<T, W>::table_arguments + 5 + 9, cl_int(first));
+  kernel_.set_one(first_block_argument, cl_int(first));
   return problem_.launch(kernel_, count);
 }
 
@@ -95,7 +94,7 @@ static double duration_s(const cl::Event& event) {
 // The device always has the rest of a step to do while the host waits for neighbours.
 template <class T, int W>
 void ResidentExecutor<T, W>::step_overlapped(long pass, bool is_last) {
-  kernel_.set_one(DeviceProblem<T, W>::table_arguments + 5 + 2, cl_int(pass + 1));
+  kernel_.set_one(last_pass_argument, cl_int(pass + 1));
   const int edges = int(has_lower_edge_) + int(has_upper_edge_);
   cl::Event done[2];
   int n = 0;

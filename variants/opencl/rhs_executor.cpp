@@ -14,8 +14,7 @@ RhsExecutor<T, W>::RhsExecutor(const Setup& setup, const Device& device, const L
     : setup_(setup), rates_(setup.problem, setup.model, nullptr, device, layout, false),
       rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }),
       updates_(stage_updates<T>(setup_.method, setup_.dt)) {
-  const std::size_t packs = rates_.size() / std::size_t(packed_.fields() * W);
-  state_ = dss::Buffer<T>(packs * std::size_t(rows_.stored_fields() * W));
+  state_ = dss::Buffer<T>(packed_.readable_packs() * std::size_t(rows_.stored_fields() * W));
   plain_ = dss::Buffer<T>(rates_.size());
   sums_ = dss::Buffer<T>(rates_.size());
   for (int s = 0; s + 1 < setup_.method.stages; ++s) stages_.emplace_back(rates_.size());

@@ -71,6 +71,7 @@ std::string row_program(const ProgramKind& kind) {
   std::string text = head(kind, kind.has_items);
   text += fmt::format("#define HAS_LEAPFROG {}\n#define HAS_RATES {}\n#define LEAPFROG_FIELDS {}\n",
                       int(kind.has_leapfrog), int(kind.has_rates), kind.leapfrog_fields);
+  if (!kind.has_items) text += device_text("shifts_of_vectors.cl");
   std::string cases;
   for (std::size_t n = 0; n < kind.terms.size(); ++n) {
     const Terms& t = kind.terms[n];

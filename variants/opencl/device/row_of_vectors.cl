@@ -1,63 +1,22 @@
 /* The rows of CPU devices: a REAL is a pack, a work-item goes along the row (as kernels/stage_row/stage_row.hpp does). */
 
-static inline vec NAME(vec_from_above)(vec a, vec above) {
-  vec r;
-  r.x = SHIFT_DOWN(a.x, above.x), r.y = SHIFT_DOWN(a.y, above.y);
-#ifndef PLANAR
-  r.z = SHIFT_DOWN(a.z, above.z);
-#endif
-  return r;
-}
-static inline vec NAME(vec_from_below)(vec below, vec a) {
-  vec r;
-  r.x = SHIFT_UP(below.x, a.x), r.y = SHIFT_UP(below.y, a.y);
-#ifndef PLANAR
-  r.z = SHIFT_UP(below.z, a.z);
-#endif
-  return r;
-}
-static inline spin NAME(spin_from_above)(spin a, spin above) {
-  spin r;
-#ifndef PLANAR
-  r.x = SHIFT_DOWN(a.x, above.x), r.y = SHIFT_DOWN(a.y, above.y);
-#endif
-  r.z = SHIFT_DOWN(a.z, above.z);
-  return r;
-}
-static inline spin NAME(spin_from_below)(spin below, spin a) {
-  spin r;
-#ifndef PLANAR
-  r.x = SHIFT_UP(below.x, a.x), r.y = SHIFT_UP(below.y, a.y);
-#endif
-  r.z = SHIFT_UP(below.z, a.z);
-  return r;
-}
-static inline rotor NAME(rotor_from_above)(rotor a, rotor above) {
-  rotor r;
-  r.s = SHIFT_DOWN(a.s, above.s), r.z = SHIFT_DOWN(a.z, above.z);
-#ifndef PLANAR
-  r.x = SHIFT_DOWN(a.x, above.x), r.y = SHIFT_DOWN(a.y, above.y);
-#endif
-  return r;
-}
-
 static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, const uint mask, carried* previous) {
   element j = i.e;
   vec lower = i.e.u, upper = i.e.u;
   if (FLAGS.is_material) {
-    j.u = NAME(vec_from_above)(i.e.u, next.e.u);
-    j.v = NAME(vec_from_above)(i.e.v, next.e.v);
+    j.u = vec_from_above(i.e.u, next.e.u);
+    j.v = vec_from_above(i.e.v, next.e.v);
   } else {
-    lower = NAME(vec_from_above)(i.lower_x, next.lower_x);
+    lower = vec_from_above(i.lower_x, next.lower_x);
     upper = upper_face(i.pull, i.x);
   }
-  if (FLAGS.is_material | FLAGS.is_bending) j.q = NAME(rotor_from_above)(i.e.q, next.e.q);
-  if (FLAGS.is_material | FLAGS.is_damped) j.w = NAME(spin_from_above)(i.e.w, next.e.w);
+  if (FLAGS.is_material | FLAGS.is_bending) j.q = rotor_from_above(i.e.q, next.e.q);
+  if (FLAGS.is_material | FLAGS.is_damped) j.w = spin_from_above(i.e.w, next.e.w);
   const exchange up = NAME(masked)(link_exchange(i.e, upper, j, lower, 0, law, FLAGS), mask);
   const carried own = carried_by(up, FLAGS);
   carried low = nothing_carried();
-  low.force = NAME(vec_from_below)(previous->force, own.force);
-  if (has_couples(FLAGS)) low.couple = NAME(spin_from_below)(previous->couple, own.couple);
+  low.force = vec_from_below(previous->force, own.force);
+  if (has_couples(FLAGS)) low.couple = spin_from_below(previous->couple, own.couple);
   *previous = own;
   return wrench_of_x(i, up, low, law, FLAGS);
 }

@@ -1,6 +1,9 @@
 /* Components of the model's tuples, and how they move between memory and REALs. Words: W lanes a pack; LOAD(p), STORE(v, p) at a
  * component's address; COMPONENT_STEP from one component to the next. */
 #ifdef PLANAR
+#define COMPONENTS_OF_VEC(act) act(x) act(y)
+#define COMPONENTS_OF_SPIN(act) act(z)
+#define COMPONENTS_OF_ROTOR(act) act(s) act(z)
 #define EACH_OF_VEC(act, t) act(t.x) act(t.y)
 #define EACH_OF_SPIN(act, t) act(t.z)
 #define EACH_OF_ROTOR(act, t) act(t.s) act(t.z)
@@ -8,6 +11,9 @@
 #define SPIN_SIZE 1
 #define FIELDS 7
 #else
+#define COMPONENTS_OF_VEC(act) act(x) act(y) act(z)
+#define COMPONENTS_OF_SPIN(act) act(x) act(y) act(z)
+#define COMPONENTS_OF_ROTOR(act) act(s) act(x) act(y) act(z)
 #define EACH_OF_VEC(act, t) act(t.x) act(t.y) act(t.z)
 #define EACH_OF_SPIN(act, t) act(t.x) act(t.y) act(t.z)
 #define EACH_OF_ROTOR(act, t) act(t.s) act(t.x) act(t.y) act(t.z)
