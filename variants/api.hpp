@@ -60,9 +60,9 @@ public:
   virtual std::size_t bytes() const = 0;
   /// Copies of the elements that an executor of a part exchanges; 0: it cannot compute parts.
   virtual int halo_copies() const { return 0; }
-  /// Elements that lie together in a copy: only layouts of executors with equal numbers have messages in the same order.
+  /// Elements that lie together in a copy: only layouts of executors with equal numbers have messages in the same order (message_order.hpp).
   virtual int halo_lanes() const { return 0; }
-  /// Where everything stored of these elements (ascending, local numbers) lies in a copy. Own elements are there to be read: every
+  /// Where everything stored of these elements (ascending, local numbers) lies in a copy; asked for before the first exchange. Own elements are there to be read: every
   /// offset is given once. Halo elements are there to be written, some offsets in several places.
   virtual HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) {
     return (void)elements, (void)copy, HaloLayout{};

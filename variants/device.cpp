@@ -75,4 +75,13 @@ void require_precision(const DeviceEntry& device, Precision precision) {
                                  device.id, device.name));
 }
 
+DeviceUse& DeviceUse::operator+=(const DeviceUse& other) {
+  if (device.id.empty()) device = other.device, is_cached = other.is_cached, launch_s = other.launch_s;
+  build_s += other.build_s;
+  launches += other.launches;
+  to_device_bytes += other.to_device_bytes, from_device_bytes += other.from_device_bytes;
+  transfer_s += other.transfer_s;
+  return *this;
+}
+
 } // namespace dss

@@ -38,8 +38,10 @@ struct DeviceUse {
   bool is_cached = false;
   double launches = 0;
   double to_device_bytes = 0, from_device_bytes = 0;
-  double transfer_s = 0; ///< in transfers that the host waited for [s]
+  double transfer_s = 0; ///< in transfers, hidden or not [s]
   double launch_s = 0;   ///< one empty launch and its end, as measured when the executor was made [s]
+  /// Adds counts and times; the device is the first that is known.
+  DeviceUse& operator+=(const DeviceUse& other);
 };
 
 } // namespace dss

@@ -38,6 +38,26 @@ TEST_F(HybridOnDevices, moves_of_elements_in_the_middle_of_a_run_change_no_bit) 
   });
 }
 
+TEST_F(HybridOnDevices, what_a_device_did_is_counted_over_moves_of_elements) {
+  const Problem problem = fixture::make_block(9, 24, 1, LinkLaw::paper);
+  const Method& method = *find_method("rk4");
+  constexpr long steps = 200;
+  for (const char* kind : {"", "discrete"}) {
+    const DeviceAs device(kind);
+    const auto run = JointRun{problem, method, "avx2:1,opencl:1", Precision::f64, swinging(2, 3)}.executor();
+    run->write(0, fixture::random_state(problem, 9, 1e-4, 0.02, 0.01));
+    const DeviceUse before = run->device_use();
+    run->advance(steps, signal_rows(problem, method, problem.dt, 0, steps));
+    const DeviceUse after = run->device_use();
+    EXPECT_GE(run->hybrid_info().rebalances, 2) << kind;
+    EXPECT_EQ(after.device.id, before.device.id) << kind;
+    EXPECT_GE(after.launches - before.launches, double(steps)) << kind;
+    EXPECT_GE(after.transfer_s, before.transfer_s) << kind;
+    constexpr double row_bytes = 9 * field_count * sizeof(double);
+    EXPECT_EQ(after.from_device_bytes - before.from_device_bytes > steps * row_bytes, std::string(kind) == "discrete");
+  }
+}
+
 /// Parts of at least four halos, one with neighbours on both sides.
 TEST_F(HybridOnDevices, edges_that_go_before_the_rest_have_the_bits_of_the_whole) {
   const Problem problem = fixture::make_block(9, 80, 1, LinkLaw::paper);

@@ -1,7 +1,7 @@
 #pragma once
 /// Halos between the members of a hybrid: through the memory of the process, once a step.
 #include "variants/api.hpp"
-#include "variants/hybrid/message_order.hpp"
+#include "variants/message_order.hpp"
 
 #include <array>
 #include <atomic>

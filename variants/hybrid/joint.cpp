@@ -68,6 +68,7 @@ void JointExecutor::build(Decomposition decomposition) {
   int threads = 0;
   for (const Participant& one : participants_) threads += one.member.threads;
   const bool is_crowded = unsigned(threads) > std::thread::hardware_concurrency();
+  past_use_ = device_use();
   team_.run([&](std::size_t m) { parts_[m].reset(); });
   exchange_ = std::make_unique<Exchange>(is_crowded);
   const bool was_broken = std::exchange(is_broken_, true); // until all members are there
@@ -157,9 +158,10 @@ std::string JointExecutor::schedule() const {
 }
 
 DeviceUse JointExecutor::device_use() const {
+  DeviceUse all = past_use_;
   for (const auto& part : parts_)
-    if (const DeviceUse use = part->executor().device_use(); !use.device.id.empty()) return use;
-  return {};
+    if (part != nullptr) all += part->executor().device_use();
+  return all;
 }
 
 HybridInfo JointExecutor::hybrid_info() const {

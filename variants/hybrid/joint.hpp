@@ -59,6 +59,7 @@ private:
   std::vector<std::size_t> elements_; ///< of each part
   std::unique_ptr<Exchange> exchange_;
   std::vector<std::unique_ptr<MemberPart>> parts_;
+  DeviceUse past_use_; ///< by members before elements moved
   Balance balance_;
   std::vector<double> step_s_; ///< of each member, as measured last
   double build_s_ = 0;         ///< what the last decomposition took to set up

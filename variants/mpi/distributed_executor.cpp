@@ -38,15 +38,6 @@ const Plugin& DistributedExecutor::find_plugin(Setup& setup) {
   return plugin;
 }
 
-void DistributedExecutor::require_equal_lanes(const std::string& members) {
-  std::vector<std::string> lanes;
-  for (const double own : world_.gather(part_->executor().halo_lanes())) lanes.push_back(fmt::format("{:.0f}", own));
-  if (const std::string distinct = joined(lanes); distinct != lanes.front())
-    throw InputError(fmt::format("--hybrid {}: ranks hold {} elements in a pack and order messages differently; give "
-                                 "members that hold the same, or compute them in one process",
-                                 members, distinct));
-}
-
 DistributedExecutor::DistributedExecutor(const Setup& asked)
     : world_(World::instance()), fault_(Fault::of_rank(world_.rank())) {
   static const Distribution alone;
@@ -55,7 +46,6 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   const Plugin& plugin = find_plugin(setup);
   const Spread found = spread(setup, plugin, world_, fault_);
   part_.emplace(setup, plugin, found.decomposition, *found.halo, world_, fault_);
-  if (!setup.members.empty()) require_equal_lanes(setup.members);
   info_.ranks = world_.ranks();
   info_.decomposition = found.decomposition.method;
   info_.halo = found.halo->name;

@@ -31,8 +31,6 @@ private:
   std::size_t global_of(std::size_t local) const;
   /// This rank's, of what the setup asks for; all ranks' in info_.
   const Plugin& find_plugin(Setup& setup);
-  /// Members must order messages alike. @throws InputError on all ranks if they do not
-  void require_equal_lanes(const std::string& members);
 
   World& world_;
   const Fault fault_;

@@ -1,8 +1,11 @@
 #include "variants/mpi/distributed_part.hpp"
 
 #include "solver/error.hpp"
+#include "variants/mpi/transports.hpp"
+#include "variants/mpi/waiting.hpp"
 #include "variants/part_cost.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace dss {
@@ -19,10 +22,38 @@ DistributedPart::DistributedPart(const Setup& setup, const Plugin& plugin, const
   if (executor_->halo_copies() == 0 && world.ranks() > 1)
     throw InputError(
         fmt::format("variant mpi:{}: {} does not compute parts; give one that does", plugin.name, plugin.name));
-  exchange_->attach(executor_->halo_copies(), [this](const Face& face, Way way, int copy) {
+  const std::size_t number_bytes = setup.precision == Precision::f64 ? sizeof(double) : sizeof(float);
+  const auto lanes = world.gather(executor_->halo_lanes());
+  const bool is_mixed = std::ranges::any_of(lanes, [&](double other) { return other != lanes.front(); });
+  const std::vector<MessageOrder> orders =
+      is_mixed ? neighbours_orders(number_bytes, world.comm()) : std::vector<MessageOrder>{};
+  exchange_->attach(executor_->halo_copies(), [&](const Face& face, Way way, int copy) {
     const Neighbour& neighbour = part_.neighbours[face.number];
-    return executor_->halo_layout(way == Way::out ? neighbour.send : neighbour.receive, copy);
+    HaloLayout layout = executor_->halo_layout(way == Way::out ? neighbour.send : neighbour.receive, copy);
+    if (!is_mixed || way == Way::out) return layout;
+    return reordered(layout, message_order(*executor_, neighbour.receive, copy, number_bytes), orders[face.number],
+                     number_bytes);
   });
+}
+
+/// How each neighbour orders its messages to this rank.
+std::vector<MessageOrder> DistributedPart::neighbours_orders(std::size_t number_bytes, MPI_Comm comm) {
+  std::vector<MessageOrder> own, theirs;
+  std::vector<MPI_Request> requests;
+  for (const Neighbour& neighbour : part_.neighbours)
+    own.push_back(message_order(*executor_, neighbour.send, 0, number_bytes));
+  for (std::size_t n = 0; n < own.size(); ++n)
+    MPI_Isend(own[n].data(), count_of(own[n].size()), MPI_UNSIGNED_LONG, part_.neighbours[n].part, 0, comm,
+              &requests.emplace_back());
+  for (const Neighbour& neighbour : part_.neighbours) {
+    const Waiting waiting(neighbour.part);
+    theirs.emplace_back(message_order(*executor_, neighbour.receive, 0, number_bytes).size());
+    MPI_Recv(theirs.back().data(), count_of(theirs.back().size()), MPI_UNSIGNED_LONG, neighbour.part, 0, comm,
+             MPI_STATUS_IGNORE);
+  }
+  const Waiting waiting(Waiting::for_all);
+  MPI_Waitall(int(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  return theirs;
 }
 
 Outcome DistributedPart::advance(long steps, std::span<const double> signals) {

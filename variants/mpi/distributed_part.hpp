@@ -1,6 +1,7 @@
 #pragma once
 /// One rank's part under one strategy, ready to compute: for a run, and for the trial of a strategy.
 #include "variants/api.hpp"
+#include "variants/message_order.hpp"
 #include "variants/mpi/faults.hpp"
 #include "variants/mpi/halo_exchange.hpp"
 #include "variants/mpi/world.hpp"
@@ -27,6 +28,8 @@ public:
   const Traffic& traffic() const { return traffic_; }
 
 private:
+  std::vector<MessageOrder> neighbours_orders(std::size_t number_bytes, MPI_Comm comm);
+
   const Part part_;
   const std::unique_ptr<HaloExchange> exchange_;
   TimedHalo halo_;

@@ -12,7 +12,9 @@ namespace {
 /// An indexed datatype over the pieces of a layout, relative to the first; bytes, if they are one.
 class PiecesType {
 public:
-  explicit PiecesType(const HaloLayout& layout) : start_(layout.pieces.front().at) {
+  explicit PiecesType(HaloLayout layout) {
+    std::ranges::sort(layout.pieces, {}, &HaloLayout::Piece::offset);
+    start_ = layout.pieces.front().at;
     if (layout.pieces.size() == 1) {
       count_ = count_of(layout.size);
       return;
@@ -40,7 +42,7 @@ public:
   MPI_Datatype type() const { return type_; }
 
 private:
-  std::byte* start_;
+  std::byte* start_ = nullptr;
   int count_ = 1; ///< of the type
   MPI_Datatype type_ = MPI_BYTE;
 };

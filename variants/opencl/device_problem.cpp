@@ -153,12 +153,15 @@ Kernel DeviceProblem<T, W>::kernel(const char* name) const {
 }
 
 template <class T, int W>
-cl::Event DeviceProblem<T, W>::launch(const Kernel& kernel, int bands) {
-  return queue.launch(kernel, cl::NDRange(std::size_t(bands) * group_size_), cl::NDRange(group_size_));
+cl::Event DeviceProblem<T, W>::launch(Queue& by, const Kernel& kernel, int bands, const Events& after) {
+  return by.launch(kernel, cl::NDRange(std::size_t(bands) * group_size_), cl::NDRange(group_size_), &after);
 }
 
+/// The queue is in order: who waits for the last transfer has waited for all.
+static Wait wait_for(bool is_last) { return is_last ? Wait::yes : Wait::no; }
+
 template <class T, int W>
-void DeviceProblem<T, W>::to_host(std::span<const Range> ranges, Wait wait) {
+void DeviceProblem<T, W>::to_host(std::span<const Range> ranges) {
   if (is_shared_) {
     if (mapping_ == nullptr)
       mapping_.reset(new Mapping(queue.map(arena_, 0, arena_.bytes(), CL_MAP_READ | CL_MAP_WRITE)));
@@ -167,18 +170,18 @@ void DeviceProblem<T, W>::to_host(std::span<const Range> ranges, Wait wait) {
   for (const Range& range : ranges) {
     auto* const from = reinterpret_cast<std::byte*>(const_cast<T*>(range.from));
     const std::size_t bytes = std::size_t(range.to - range.from) * sizeof(T);
-    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes}, &range == &ranges.back() ? wait : Wait::no);
+    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes}, wait_for(&range == &ranges.back()));
   }
 }
 
 template <class T, int W>
-void DeviceProblem<T, W>::to_device(std::span<const Range> ranges, Wait wait) {
+void DeviceProblem<T, W>::to_device(std::span<const Range> ranges) {
   mapping_.reset();
   if (is_shared_) return;
   for (const Range& range : ranges) {
     const auto* const from = reinterpret_cast<const std::byte*>(range.from);
     queue.write(arena_, std::size_t(from - memory.start()), {from, std::size_t(range.to - range.from) * sizeof(T)},
-                &range == &ranges.back() ? wait : Wait::no);
+                wait_for(&range == &ranges.back()));
   }
 }
 

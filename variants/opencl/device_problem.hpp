@@ -64,16 +64,15 @@ public:
   Kernel kernel(const char* name) const;
   static constexpr cl_uint table_arguments = 7;
 
-  /// Launches a kernel over bands. @return its event
-  cl::Event launch(const Kernel& kernel, int bands);
-  /// The host may use the arena until to_device(). Without shared memory [from, to) of these ranges are copied; without waiting, they are
-  /// there when the queue has come so far, and must not change until then.
+  /// Launches a kernel over bands, by a queue of the device and after these events. @return its event
+  cl::Event launch(Queue& by, const Kernel& kernel, int bands, const Events& after = {});
+  /// The host may use the arena until to_device(). Without shared memory [from, to) of these ranges are copied.
   struct Range {
     const T *from, *to;
   };
   bool is_shared() const { return is_shared_; }
-  void to_host(std::span<const Range> ranges, Wait wait = Wait::yes);
-  void to_device(std::span<const Range> ranges, Wait wait = Wait::yes);
+  void to_host(std::span<const Range> ranges);
+  void to_device(std::span<const Range> ranges);
   const opencl::Buffer& arena() const { return arena_; }
 
   /// Signals of some stages, with a constant 1 behind each (StepSignals).
@@ -111,9 +110,9 @@ private:
   bool is_cached_ = true;
 };
 
+/// @param counts  of all queues
 template <class T, int W>
-DeviceUse use_of(const DeviceProblem<T, W>& problem) {
-  const Counts& counts = problem.queue.counts();
+DeviceUse use_of(const DeviceProblem<T, W>& problem, const Counts& counts) {
   return {problem.queue.device().entry, problem.build_s(),        problem.is_cached(), counts.launches,
           counts.to_device_bytes,       counts.from_device_bytes, counts.transfer_s,   problem.queue.empty_launch_s()};
 }

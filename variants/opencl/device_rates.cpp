@@ -62,7 +62,7 @@ void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals
   kernel_.set_one(n++, device_.signals());
   kernel_.set_one(n++, failed_);
   for (const cl_int value : {0, 0, 0}) kernel_.set_one(n++, value); // first list, step, is_last_stage
-  device_.launch(kernel_, bands());
+  device_.launch(device_.queue, kernel_, bands());
   queue.read(device_.arena(), place(rates_), {reinterpret_cast<std::byte*>(rates), bytes});
 }
 

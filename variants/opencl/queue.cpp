@@ -50,6 +50,18 @@ void require_memory(const DeviceEntry& device, double bytes, double allocated) {
 
 } // namespace
 
+Counts& Counts::operator+=(const Counts& other) {
+  launches += other.launches;
+  to_device_bytes += other.to_device_bytes, from_device_bytes += other.from_device_bytes;
+  transfer_s += other.transfer_s;
+  return *this;
+}
+
+double duration_s(const cl::Event& event) {
+  return 1e-9 * double(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                       event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+}
+
 Mapping::~Mapping() {
   try {
     queue_.enqueueUnmapMemObject(buffer_, data_);
@@ -83,31 +95,48 @@ Kernel Queue::make_kernel(const Program& program, const char* name) const {
   });
 }
 
-/// The time is the device's own, so that kernels before it in the queue are not counted.
 template <class Enqueue>
-void Queue::transfer(std::size_t bytes, Wait wait, double Counts::*counter, Enqueue&& enqueue) {
+cl::Event Queue::transfer(std::size_t bytes, Wait wait, double Counts::*counter, Enqueue&& enqueue) {
+  cl::Event done;
+  guarded(device_.entry.name, [&] { enqueue(wait == Wait::yes ? CL_TRUE : CL_FALSE, &done); });
+  if (!is_counting_) return done;
+  counts_.*counter += double(bytes);
+  uncounted_.push_back(done);
+  count_transfers(Wait::no);
+  return done;
+}
+
+// The device's own times, so that kernels before a transfer are not counted.
+void Queue::count_transfers(Wait wait) {
   guarded(device_.entry.name, [&] {
-    cl::Event done;
-    enqueue(wait == Wait::yes ? CL_TRUE : CL_FALSE, &done);
-    if (!is_counting_) return;
-    counts_.*counter += double(bytes);
-    if (wait == Wait::yes)
-      counts_.transfer_s += 1e-9 * double(done.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                                          done.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+    for (; !uncounted_.empty(); uncounted_.pop_front()) {
+      const cl::Event& first = uncounted_.front();
+      if (wait == Wait::yes)
+        first.wait();
+      else if (first.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() != CL_COMPLETE)
+        return;
+      counts_.transfer_s += duration_s(first);
+    }
   });
 }
 
-void Queue::write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data, Wait wait) {
-  if (data.empty()) return;
-  transfer(data.size(), wait, &Counts::to_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
+const Counts& Queue::counts() {
+  count_transfers(Wait::yes);
+  return counts_;
+}
+
+cl::Event Queue::write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data, Wait wait) {
+  if (data.empty()) return {};
+  return transfer(data.size(), wait, &Counts::to_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
     queue_.enqueueWriteBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), nullptr, done);
   });
 }
 
-void Queue::read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait) {
-  if (data.empty()) return;
-  transfer(data.size(), wait, &Counts::from_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
-    queue_.enqueueReadBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), nullptr, done);
+cl::Event Queue::read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait,
+                      const Events* after) {
+  if (data.empty()) return {};
+  return transfer(data.size(), wait, &Counts::from_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
+    queue_.enqueueReadBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), after, done);
   });
 }
 
@@ -133,20 +162,13 @@ Mapping Queue::map(const Buffer& buffer, std::size_t offset, std::size_t bytes, 
   });
 }
 
-cl::Event Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local) {
+cl::Event Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local,
+                        const Events* after) {
   cl::Event end;
   guarded(kernel.device_,
-          [&] { queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local, nullptr, &end); });
+          [&] { queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local, after, &end); });
   if (is_counting_) ++counts_.launches;
   return end;
-}
-
-cl::Event Queue::mark() {
-  return guarded(device_.entry.name, [&] {
-    cl::Event event;
-    queue_.enqueueMarkerWithWaitList(nullptr, &event);
-    return event;
-  });
 }
 
 void Queue::flush() {
@@ -155,6 +177,13 @@ void Queue::flush() {
 
 void Queue::finish() {
   guarded(device_.entry.name, [&] { queue_.finish(); });
+}
+
+void Queue::await(const Events& events) const {
+  guarded(device_.entry.name, [&] {
+    for (const cl::Event& event : events)
+      if (event() != nullptr) event.wait();
+  });
 }
 
 double Queue::empty_launch_s() {

@@ -4,9 +4,11 @@
 #include "variants/opencl/program.hpp"
 
 #include <cstddef>
+#include <deque>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace dss::opencl {
 
@@ -73,8 +75,13 @@ private:
 struct Counts {
   double launches = 0;
   double to_device_bytes = 0, from_device_bytes = 0;
-  double transfer_s = 0; ///< in transfers that the host waited for [s]
+  double transfer_s = 0; ///< in transfers [s]
+  Counts& operator+=(const Counts& other);
 };
+
+using Events = std::vector<cl::Event>;
+/// From the start to the end of a command that is done, by the device's clock [s].
+double duration_s(const cl::Event& event);
 
 /// Whether the host waits for the end of a transfer. If not, its memory must live, unchanged, until finish().
 enum class Wait { yes, no };
@@ -86,8 +93,8 @@ public:
 
   const Device& device() const { return device_; }
   const cl::CommandQueue& handle() const { return queue_; }
-  /// What was done while counting was on (it is at first).
-  const Counts& counts() const { return counts_; }
+  /// What was done while counting was on (it is at first). Waits for transfers.
+  const Counts& counts();
   void set_counting(bool is_counting) { is_counting_ = is_counting; }
 
   /// @throws InputError before anything is allocated if the device's largest buffer or its memory, less what this process has of it, is
@@ -95,32 +102,38 @@ public:
   Buffer make_buffer(std::size_t bytes, cl_mem_flags flags = CL_MEM_READ_WRITE, void* host = nullptr) const;
   Kernel make_kernel(const Program& program, const char* name) const;
 
-  void write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data, Wait wait = Wait::yes);
-  void read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait = Wait::yes);
+  /// @param after  null, or events of any queue that must have come  @return comes when it is done; none for no data
+  cl::Event write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data, Wait wait = Wait::yes);
+  cl::Event read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait = Wait::yes,
+                 const Events* after = nullptr);
   void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset, std::size_t bytes);
   /// Sets all bytes to zero.
   void clear(const Buffer& buffer);
   /// @param flags  CL_MAP_READ, CL_MAP_WRITE, both, or CL_MAP_WRITE_INVALIDATE_REGION
   Mapping map(const Buffer& buffer, std::size_t offset, std::size_t bytes, cl_map_flags flags);
 
-  cl::Event launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local = cl::NullRange);
-  /// An event that comes when all that is enqueued is done.
-  cl::Event mark();
+  cl::Event launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local = cl::NullRange,
+                   const Events* after = nullptr);
   /// Begins what is enqueued, without waiting.
   void flush();
   /// Waits for all that is enqueued.
   void finish();
+  /// Waits for events; those that are none have come.
+  void await(const Events& events) const;
 
   /// One launch of a kernel that does nothing, and its end: the median of some [s].
   double empty_launch_s();
 
 private:
   template <class Enqueue>
-  void transfer(std::size_t bytes, Wait wait, double Counts::*counter, Enqueue&& enqueue);
+  cl::Event transfer(std::size_t bytes, Wait wait, double Counts::*counter, Enqueue&& enqueue);
+  /// Adds the time of transfers that are done, or of all after waiting for them.
+  void count_transfers(Wait wait);
 
   Device device_;
   cl::CommandQueue queue_;
   Counts counts_;
+  std::deque<cl::Event> uncounted_; ///< transfers whose time is not in counts_ yet
   bool is_counting_ = true;
 };
 

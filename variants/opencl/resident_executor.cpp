@@ -11,7 +11,7 @@ template <class T, int W>
 ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout),
-      rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }) {
+      rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }), halo_rows_(problem_) {
   // Work-items of a group read what others update in place: leapfrog takes turns between two states there.
   // Where bands are thinner than their halo, most of what they do is done by others as well.
   const int rows = packed_.own_end - packed_.own_begin, halo = setup_.method.stages * packed_.reach;
@@ -184,54 +184,85 @@ void ResidentExecutor<T, W>::to_device() {
 
 template <class T, int W>
 HaloLayout ResidentExecutor<T, W>::halo_layout(std::span<const std::size_t> elements, int copy) {
-  const auto is_own = [&](std::size_t element) { return part_->part.layer[element] == 0; };
-  HaloLayout layout = rows_.layout(
-      elements, [&](int r) { return copy_row(copy, r); }, is_own);
-  layout.is_stable = false; // the host has the arena only between computations
-  if (elements.empty()) return layout;
-  const bool own = is_own(elements.front());
-  std::vector<Range>& ranges = (own ? sent_ : received_)[std::size_t(copy)];
-  for (const auto& piece : layout.pieces) {
-    const auto* const from = reinterpret_cast<const T*>(piece.at);
-    add_range(ranges, {from, from + piece.count / sizeof(T)});
+  const auto row_at = [&](std::size_t n) { return int(row_of(packed_.lattice, elements[n])); };
+  make_images(elements, copy);
+  HaloLayout layout;
+  for (std::size_t from = 0, to = 0; from < elements.size(); from = to) {
+    const int r = row_at(from);
+    while (to < elements.size() && row_at(to) == r) ++to;
+    add_to_halo(r, elements.subspan(from, to - from), copy, layout);
   }
-  if (staged_) return layout;
-  for (const std::size_t element : elements) { // whole rows that nobody else writes: few transfers
+  return layout; // not stable: images change when the device's rows are fetched, all copies' alike with a shared arena
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::make_images(std::span<const std::size_t> elements, int copy) {
+  std::vector<typename HaloRows<T, W>::Row> rows;
+  for (const std::size_t element : elements) {
     const int r = int(row_of(packed_.lattice, element));
     const auto [first, twin] = copy_row(copy, r);
-    const T* const from = own ? twin : blocks_.of(r).is_remote() ? first : nullptr;
-    if (from != nullptr) add_range(ranges, {from, from + row_size(r)});
+    for (T* const numbers : {first, twin})
+      if (numbers != nullptr && (rows.empty() || rows.back().numbers != numbers))
+        rows.push_back({numbers, row_size(r)});
   }
-  return layout;
+  halo_rows_.make_images(std::move(rows));
 }
 
-/// Ranges that touch or overlap become one.
+/// Elements of one row: their places in its image, and what is transferred of it.
 template <class T, int W>
-void ResidentExecutor<T, W>::add_range(std::vector<Range>& ranges, Range range) {
-  const auto touches = [&](const Range& known) { return known.from <= range.to && range.from <= known.to; };
-  for (auto known = ranges.begin(); known != ranges.end();) {
-    if (known->from <= range.from && range.to <= known->to) return;
-    if (!touches(*known)) {
-      ++known;
-      continue;
-    }
-    range = {std::min(range.from, known->from), std::max(range.to, known->to)};
-    known = ranges.erase(known);
+void ResidentExecutor<T, W>::add_to_halo(int r, std::span<const std::size_t> elements, int copy, HaloLayout& layout) {
+  const auto is_own = [&](std::size_t element) { return part_->part.layer[element] == 0; };
+  const bool own = is_own(elements.front());
+  auto& ranges = (own ? sent_ : received_)[std::size_t(copy)];
+  const auto [first, twin] = copy_row(copy, r);
+  const auto range_of = [&](T* row, T* from, std::size_t count) {
+    return typename HaloRows<T, W>::Range{from, from + count, halo_rows_.image(row) + (from - row)};
+  };
+  const HaloLayout of_row = rows_.layout(
+      elements, [&](int) { return std::pair(first, twin); }, is_own);
+  for (const auto& piece : of_row.pieces) {
+    T* const at = reinterpret_cast<T*>(piece.at);
+    const bool is_twin = twin != nullptr && at >= twin && at < twin + row_size(r);
+    const auto range = range_of(is_twin ? twin : first, at, piece.count / sizeof(T));
+    HaloRows<T, W>::add(ranges, range);
+    layout.pieces.push_back({reinterpret_cast<std::byte*>(range.image), layout.size + piece.offset, piece.count});
   }
-  ranges.push_back(range);
+  layout.size += of_row.size;
+  if (staged_) return;
+  // Whole rows that nobody else writes: few transfers.
+  if (T* const whole = own ? twin : blocks_.of(r).is_remote() ? first : nullptr)
+    HaloRows<T, W>::add(ranges, range_of(whole, whole, row_size(r)));
 }
 
 template <class T, int W>
-void ResidentExecutor<T, W>::send(int copy) {
-  if (!is_on_host_) problem_.to_host(sent_[std::size_t(copy)]);
+void ResidentExecutor<T, W>::send_all_sides(int copy) {
   for (const Side side : all_sides) part_->halo.send(side, copy);
 }
 
 template <class T, int W>
-void ResidentExecutor<T, W>::receive(int copy, Wait wait) {
+void ResidentExecutor<T, W>::receive_all_sides(int copy) {
   for (const Side side : all_sides) part_->halo.receive(side, copy);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::send(int copy) {
+  const auto& ranges = sent_[std::size_t(copy)];
+  if (is_on_host_)
+    halo_rows_.fetch_from_arena(ranges);
+  else
+    problem_.queue.await({halo_rows_.fetch(ranges, rest_)});
+  send_all_sides(copy);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::receive(int copy) {
+  const auto& ranges = received_[std::size_t(copy)];
+  receive_all_sides(copy);
   is_changed_ |= is_on_host_;
-  if (!is_on_host_) problem_.to_device(received_[std::size_t(copy)], wait);
+  if (is_on_host_)
+    halo_rows_.bring_to_arena(ranges);
+  else
+    problem_.queue.await({halo_rows_.bring(ranges)});
 }
 
 template <class T, int W>
@@ -313,7 +344,8 @@ std::string ResidentExecutor<T, W>::schedule() const {
 
 template <class T, int W>
 DeviceUse ResidentExecutor<T, W>::device_use() const {
-  return use_of(problem_);
+  Counts counts = problem_.queue.counts();
+  return use_of(problem_, counts += halo_rows_.queue().counts());
 }
 
 #define DSS_INSTANTIATE(T, W) template class ResidentExecutor<T, W>;

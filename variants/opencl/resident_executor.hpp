@@ -5,6 +5,7 @@
 #include "variants/engine/blocks.hpp"
 #include "variants/engine/state_rows.hpp"
 #include "variants/opencl/device_rates.hpp"
+#include "variants/opencl/halo_rows.hpp"
 
 #include <optional>
 
@@ -47,23 +48,27 @@ private:
   std::size_t row_size(int r) const {
     return std::size_t(packed_.rows[std::size_t(r)].packs) * std::size_t(stored_fields() * W);
   }
-  static void add_range(std::vector<Range>& ranges, Range range);
   std::vector<Range> state_ranges();
+  void make_images(std::span<const std::size_t> elements, int copy);
+  void add_to_halo(int r, std::span<const std::size_t> elements, int copy, HaloLayout& layout);
   /// The state, halo included, is in the arena for the host, until to_device().
   void to_host();
   void to_device();
-  /// Part: sends or receives on all sides, and moves what is exchanged between device and arena.
+  /// Part: sends or receives on all sides, and moves what is exchanged between device and host.
   void send(int copy);
-  void receive(int copy, Wait wait = Wait::yes);
+  void receive(int copy);
+  void send_all_sides(int copy);
+  void receive_all_sides(int copy);
   std::vector<T> evaluate(std::span<const double> signals);
   void stop_leapfrog();
   Outcome run_passes(long steps);
   /// All bands to the end of this pass. Together: without a launch for each, if all bands are computed at the same time.
   void run_to(long last_pass, bool is_together);
   /// Of blocks that follow one another, counted without remote ones.
-  cl::Event launch_blocks(int first, int count);
-  /// One step whose halo has been received on this copy: edges, whose halo is sent while the rest is computed.
+  cl::Event launch_blocks(Queue& by, int first, int count, const Events& after = {});
+  /// One step of a part that is split: halo, edges and what is sent of them in one queue, the rest in the other.
   void step_overlapped(long pass, bool is_last);
+  void count_computing();
   /// Rows of each block, and whether edges that neighbours wait for are blocks of their own.
   std::vector<int> cut_blocks();
   long least_progress();
@@ -84,7 +89,7 @@ private:
   int bands_ = 1, steps_a_pass_ = 1, most_sweeps_ = 0;
   bool is_split_ = false; ///< part: the edges that neighbours wait for are blocks of their own, first and last
   bool has_lower_edge_ = false, has_upper_edge_ = false;
-  cl::Event rest_; ///< of the step before
+  Events rest_, edges_; ///< launches of the last step or stage, edges apart if it is split
   double computing_s_ = 0;
   int parity_ = 0;
   bool is_on_host_ = false, is_changed_ = false; ///< by the host, since the device had it
@@ -96,8 +101,9 @@ private:
   opencl::Buffer sweep_table_, neighbour_table_, failed_, progress_;
   std::vector<opencl::Buffer> list_tables_, row_starts_;
   Kernel kernel_;
-  std::vector<std::vector<Range>> sent_, received_; ///< by copy
-  bool is_started_ = false;                         ///< leapfrog: stored velocities are those of the half step before
+  mutable HaloRows<T, W> halo_rows_;                             ///< as the problem's queue: counts wait for transfers
+  std::vector<typename HaloRows<T, W>::Ranges> sent_, received_; ///< by copy
+  bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before
   std::vector<double> end_signals_;
   std::vector<T> end_rates_; ///< leapfrog: rates at the end of the last advance, made when first read
   std::unique_ptr<DeviceRates<T, W>> rates_;

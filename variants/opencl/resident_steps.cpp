@@ -18,6 +18,7 @@ Outcome ResidentExecutor<T, W>::advance(long steps, std::span<const double> sign
     is_started_ = true;
   }
   end_rates_.clear();
+  rest_.clear(), edges_.clear();
   end_signals_.assign(signals.end() - std::ptrdiff_t(width), signals.end());
   to_device();
   problem_.set_signals(signals, width);
@@ -48,14 +49,15 @@ Outcome ResidentExecutor<T, W>::run_passes(long steps) {
   if (is_part()) {
     send(parity_);
     for (long pass = 0; pass < passes; ++pass) {
-      receive(parity_, is_split_ ? Wait::no : Wait::yes);
-      parity_ = parity_after(pass + 1);
+      const bool is_last = pass + 1 == passes;
       if (is_split_) {
-        step_overlapped(pass, pass + 1 == passes);
+        step_overlapped(pass, is_last);
         continue;
       }
+      receive(parity_);
+      parity_ = parity_after(pass + 1);
       run_to(pass + 1, false);
-      if (pass + 1 < passes) send(parity_);
+      if (!is_last) send(parity_);
     }
   } else {
     long done = 0;
@@ -77,42 +79,55 @@ void ResidentExecutor<T, W>::run_to(long last_pass, bool is_together) {
   constexpr int patience = 1 << 24; // some 10 ms: what it may take a sleeping thread to come
   kernel_.set_one(last_pass_argument, cl_int(last_pass));
   kernel_.set_one(patience_argument, cl_int(is_together ? patience : 0));
-  launch_blocks(0, bands_);
+  rest_ = {launch_blocks(problem_.queue, 0, bands_)};
 }
 
 template <class T, int W>
-cl::Event ResidentExecutor<T, W>::launch_blocks(int first, int count) {
+cl::Event ResidentExecutor<T, W>::launch_blocks(Queue& by, int first, int count, const Events& after) {
   kernel_.set_one(first_block_argument, cl_int(first));
-  return problem_.launch(kernel_, count);
+  return problem_.launch(by, kernel_, count, after);
 }
 
-static double duration_s(const cl::Event& event) {
-  return 1e-9 * double(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                       event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
-}
-
-// The device always has the rest of a step to do while the host waits for neighbours.
+// Edges and the rest read what the others published in the step before, and overwrite what they read the step before that: each waits for
+// the others' last step. So while a halo is under way, and brought, and the edges are computed and fetched, the rest always has a step to do.
 template <class T, int W>
 void ResidentExecutor<T, W>::step_overlapped(long pass, bool is_last) {
+  receive_all_sides(parity_);
+  halo_rows_.bring(received_[std::size_t(parity_)]);
+  parity_ ^= 1;
   kernel_.set_one(last_pass_argument, cl_int(pass + 1));
-  const int edges = int(has_lower_edge_) + int(has_upper_edge_);
-  cl::Event done[2];
-  int n = 0;
-  if (has_lower_edge_) done[n++] = launch_blocks(0, 1);
-  if (has_upper_edge_) done[n++] = launch_blocks(bands_ - 1, 1);
-  Queue& queue = problem_.queue;
-  if (!is_last) problem_.to_host(sent_[std::size_t(parity_)], Wait::no);
-  const cl::Event edges_are_here = queue.mark();
-  const cl::Event rest = launch_blocks(int(has_lower_edge_), bands_ - edges);
-  queue.flush();
-  guarded(queue.device().entry.name, [&] {
-    edges_are_here.wait();
-    for (int e = 0; e < n; ++e) computing_s_ += duration_s(done[e]);
-    if (pass > 0) computing_s_ += duration_s(rest_);
+  Events edges;
+  if (has_lower_edge_) edges.push_back(launch_blocks(halo_rows_.queue(), 0, 1, rest_));
+  if (has_upper_edge_) edges.push_back(launch_blocks(halo_rows_.queue(), bands_ - 1, 1, rest_));
+  Events here = edges;
+  if (!is_last) here.push_back(halo_rows_.fetch(sent_[std::size_t(parity_)]));
+  const cl::Event rest = launch_blocks(problem_.queue, int(has_lower_edge_), bands_ - int(edges.size()), edges_);
+  halo_rows_.queue().flush();
+  problem_.queue.flush();
+  problem_.queue.await(here);
+  count_computing(); // of the step before, whose rest the edges waited for
+  rest_ = {rest}, edges_ = std::move(edges);
+  if (!is_last) send_all_sides(parity_);
+}
+
+/// Of the last step: the time in which edges, the rest, or both were computed.
+template <class T, int W>
+void ResidentExecutor<T, W>::count_computing() {
+  if (edges_.empty()) return;
+  guarded(problem_.queue.device().entry.name, [&] {
+    const auto time = [](const cl::Event& event) {
+      return std::pair(event.getProfilingInfo<CL_PROFILING_COMMAND_START>(),
+                       event.getProfilingInfo<CL_PROFILING_COMMAND_END>());
+    };
+    rest_.front().wait();
+    const auto [begin, end] = time(rest_.front());
+    computing_s_ += duration_s(rest_.front());
+    for (const cl::Event& edge : edges_) {
+      const auto [edge_begin, edge_end] = time(edge);
+      const cl_ulong from = std::max(begin, edge_begin), to = std::min(end, edge_end);
+      computing_s_ += duration_s(edge) - (from < to ? 1e-9 * double(to - from) : 0);
+    }
   });
-  rest_ = rest;
-  if (!is_last)
-    for (const Side side : all_sides) part_->halo.send(side, parity_);
 }
 
 template <class T, int W>
@@ -140,7 +155,7 @@ void ResidentExecutor<T, W>::launch_stage(int stage, long step) {
   kernel_.set_one(n++, failed_);
   const int signal_row = int(step) * stages + stage, width = int(signal_count(setup_.problem)) + 1;
   for (const cl_int value : {signal_row * width, int(step), int(stage + 1 == stages)}) kernel_.set_one(n++, value);
-  problem_.launch(kernel_, bands_);
+  rest_ = {problem_.launch(problem_.queue, kernel_, bands_)};
 }
 
 template <class T, int W>
@@ -164,7 +179,7 @@ template <class T, int W>
 Outcome ResidentExecutor<T, W>::outcome(long steps) {
   std::vector<cl_int> failed(std::size_t(1 + 2 * bands_));
   problem_.queue.read(failed_, 0, std::as_writable_bytes(std::span(failed)));
-  if (is_split_) guarded(problem_.queue.device().entry.name, [&] { computing_s_ += duration_s(rest_); });
+  count_computing();
   if (failed[0] == INT_MAX) return {true, steps, 0};
   if (staged_ && staged_->is_swapped() && (steps - 1 - failed[0]) % 2 != 0) staged_->swap(); // later ones were not done
   to_host();

@@ -221,7 +221,7 @@ std::size_t RhsExecutor<T, W>::bytes() const {
 
 template <class T, int W>
 DeviceUse RhsExecutor<T, W>::device_use() const {
-  return use_of(rates_.device());
+  return use_of(rates_.device(), rates_.device().queue.counts());
 }
 
 #define DSS_INSTANTIATE(T, W) template class RhsExecutor<T, W>;

@@ -1,4 +1,4 @@
-#include "variants/hybrid/message_order.hpp"
+#include "variants/message_order.hpp"
 
 #include <algorithm>
 #include <stdexcept>
