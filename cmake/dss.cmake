@@ -99,6 +99,7 @@ endif()
 # dss_test(name source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself, labelled with its folder.
 function(dss_test name)
   add_executable(${name} ${ARGN})
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>) # what is tested has its own
   target_link_libraries(${name} PRIVATE dss_options dss_solver dss_variants GTest::gtest_main)
   add_dependencies(${name} dss_all_variants)
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)

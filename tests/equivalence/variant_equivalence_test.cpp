@@ -78,12 +78,14 @@ TEST_P(EveryVariant, agrees_with_the_oracle_after_a_run_from_a_moderate_state) {
 
 TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
   if (!plugin.is_threaded) GTEST_SKIP() << "not threaded";
+  const bool is_on_device = plugin.devices != nullptr; // each is a device of its own there, which takes time to make
+  const std::vector<int> counts = is_on_device ? std::vector{2, 7} : std::vector{2, 3, 4, 7};
   for (const Case& c : cases())
     for (const Precision precision : {Precision::f64, Precision::f32})
       for (const Method& method : methods()) {
         const State state = rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
         const State one = VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
-        for (const int threads : {2, 3, 4, 7})
+        for (const int threads : counts)
           EXPECT_EQ(differing_bits(
                         one,
                         (VariantRun{plugin, c.problem, method, Model::spatial, precision, threads}).after(state, 20),
