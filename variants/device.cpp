@@ -76,7 +76,9 @@ void require_precision(const DeviceEntry& device, Precision precision) {
 }
 
 DeviceUse& DeviceUse::operator+=(const DeviceUse& other) {
-  if (device.id.empty()) device = other.device, is_cached = other.is_cached, launch_s = other.launch_s;
+  if (other.device.id.empty()) return *this;
+  is_cached = other.is_cached && (device.id.empty() || is_cached);
+  if (device.id.empty()) device = other.device, launch_s = other.launch_s;
   build_s += other.build_s;
   launches += other.launches;
   to_device_bytes += other.to_device_bytes, from_device_bytes += other.from_device_bytes;

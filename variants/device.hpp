@@ -34,12 +34,12 @@ struct DeviceCeilings {
 /// What an executor used of a device. Counts and times are of all calls of advance.
 struct DeviceUse {
   DeviceEntry device;
-  double build_s = 0; ///< making the program ready: compilation, or reading it from the cache [s]
-  bool is_cached = false;
+  double build_s = 0;     ///< making the program ready: compilation, or reading it from the cache [s]
+  bool is_cached = false; ///< no program was compiled
   double launches = 0;
   double to_device_bytes = 0, from_device_bytes = 0;
   double transfer_s = 0; ///< in transfers, hidden or not [s]
-  double launch_s = 0;   ///< one empty launch and its end, as measured when the executor was made [s]
+  double launch_s = 0;   ///< one empty launch and its end, as measured once on this device [s]
   /// Adds counts and times; the device is the first that is known.
   DeviceUse& operator+=(const DeviceUse& other);
 };

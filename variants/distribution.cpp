@@ -1,7 +1,12 @@
 #include "variants/distribution.hpp"
 
+#include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
+
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
+#include <vector>
 
 namespace dss {
 
@@ -25,6 +30,18 @@ const HaloStrategy* find_halo_strategy(std::string_view name) {
   const auto all = halo_strategies();
   const auto found = std::find_if(all.begin(), all.end(), [&](const HaloStrategy& s) { return s.name == name; });
   return found == all.end() ? nullptr : &*found;
+}
+
+const HaloStrategy& asked_halo_strategy(const std::string& name, int threads) {
+  const HaloStrategy* const found = find_halo_strategy(name);
+  if (found == nullptr) {
+    std::vector<std::string> known{"auto"};
+    for (const HaloStrategy& strategy : halo_strategies()) known.emplace_back(strategy.name);
+    throw InputError(fmt::format("--halo {}: unknown strategy; {}", name, nearest_name(name, known)));
+  }
+  if (!found->is_possible(threads))
+    throw InputError(fmt::format("--halo {}: needs --threads 1 on each rank; give --halo deep", name));
+  return *found;
 }
 
 } // namespace dss

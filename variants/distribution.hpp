@@ -14,12 +14,20 @@ struct HaloStrategy {
   bool is_overlapped;  ///< as in PartSetup
   Transport transport;
   std::string_view what; ///< one line for people
+
+  /// Exchanges in a step of a method.
+  int exchanges(int stages) const { return is_every_stage ? stages : 1; }
+  /// Whether it does something of its own with so many threads a rank: a team computes all rows at once, so that there are no edges that
+  /// could be done before the rest.
+  bool is_possible(int threads) const { return threads == 1 || is_every_stage || !is_overlapped; }
 };
 
 /// sendrecv, overlap, deep, deep-overlap, shared.
 std::span<const HaloStrategy> halo_strategies();
 /// By name; null if there is none.
 const HaloStrategy* find_halo_strategy(std::string_view name);
+/// As asked for by --halo. @throws InputError if it is unknown, or not possible with so many threads a rank
+const HaloStrategy& asked_halo_strategy(const std::string& name, int threads);
 
 /// What a distributed variant is asked for.
 struct Distribution {

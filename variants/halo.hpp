@@ -41,6 +41,8 @@ public:
   /// Returns when the neighbours' elements on this side are in this copy, and what was sent to that side may be
   /// overwritten. @throws if they cannot come any more
   virtual void receive(Side side, int copy) = 0;
+  /// This part now does what may take long, such as compiling, while its neighbours wait; or no longer does.
+  virtual void work_alone(bool is_alone) { (void)is_alone; }
 };
 
 /// Makes an executor compute one part of a problem.
@@ -49,6 +51,21 @@ struct PartSetup {
   Halo& halo;
   bool is_every_stage = false; ///< exchange after every stage (one layer of halo); else once a step (a layer a stage)
   bool is_overlapped = false;  ///< compute what needs no halo first, and what neighbours wait for as early as possible
+};
+
+/// While it lives, a part works alone. Of a whole problem (null) nobody has to know.
+class PartWorksAlone {
+public:
+  explicit PartWorksAlone(const PartSetup* part) : part_(part) { tell(true); }
+  PartWorksAlone(const PartWorksAlone&) = delete;
+  PartWorksAlone& operator=(const PartWorksAlone&) = delete;
+  ~PartWorksAlone() { tell(false); }
+
+private:
+  void tell(bool is_alone) {
+    if (part_ != nullptr) part_->halo.work_alone(is_alone);
+  }
+  const PartSetup* part_;
 };
 
 /// Null for a whole problem, or a part that has no neighbours, which is computed as one.

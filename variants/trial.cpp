@@ -8,9 +8,6 @@
 namespace dss {
 namespace {
 
-constexpr double trial_s = 4e-3; ///< of each timing
-constexpr std::size_t large_elements = 500'000;
-
 /// What is in the halo costs the same: it stays zero.
 class NoHalo final : public Halo {
 public:
@@ -71,7 +68,7 @@ NodeSpeed measure_large(const Setup& setup, const Plugin& plugin, const Decompos
 
 NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, int part,
                         int rounds) {
-  if (setup.problem.lattice.element_count / std::size_t(decomposition.parts) > large_elements)
+  if (setup.problem.lattice.element_count / std::size_t(decomposition.parts) > large_part_elements)
     return measure_large(setup, plugin, decomposition, part, rounds);
   Trial at_once(setup, plugin, decomposition, part, *find_halo_strategy("deep"));
   Trial stage_by_stage(setup, plugin, decomposition, part, *find_halo_strategy("sendrecv"));

@@ -23,12 +23,6 @@ Precision chosen_precision(const std::string& name) {
   throw InputError(fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32"})));
 }
 
-std::vector<std::string> halo_names() {
-  std::vector<std::string> names{"auto"};
-  for (const HaloStrategy& strategy : halo_strategies()) names.emplace_back(strategy.name);
-  return names;
-}
-
 /// The variant of the process, and that of parts on ranks.
 VariantName asked_variant(const RunRequest& request) {
   if (request.hybrid.empty()) return parse_variant(request.variant, request.ranks);
@@ -81,13 +75,10 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
     refuse(fmt::format("--ranks {}: this job has {}; give --ranks {}, or none", request.ranks, job.ranks, job.ranks));
   if (request.shares == "measured" && is_file(request.decomposition))
     refuse("--shares measured: the parts are in the file of --decomposition; give a method, or --shares equal");
-  if (request.halo == "deep-overlap" && request.threads > 1)
-    refuse("--halo deep-overlap: needs --threads 1 on each rank; give --halo deep");
   if (std::size_t(request.ranks) > plan.scene.problem.lattice.element_count)
     refuse(fmt::format("--ranks {}: the scene has {} elements; give at most that", request.ranks,
                        plan.scene.problem.lattice.element_count));
-  if (request.halo != "auto" && find_halo_strategy(request.halo) == nullptr)
-    refuse(fmt::format("--halo {}: unknown strategy; {}", request.halo, nearest_name(request.halo, halo_names())));
+  if (request.halo != "auto") asked_halo_strategy(request.halo, request.threads);
   if (request.shares != "equal" && request.shares != "measured")
     refuse(
         fmt::format("--shares {}: unknown; {}", request.shares, nearest_name(request.shares, {"equal", "measured"})));

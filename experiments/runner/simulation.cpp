@@ -100,7 +100,7 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
       sizes.push_back(part_size(what.problem, decomposition, p, is_every_stage ? 1 : what.method.stages));
     for (const HaloStrategy& strategy : halo_strategies()) {
       if (strategy.is_every_stage != is_every_stage || strategy.transport == HaloStrategy::Transport::shared) continue;
-      PlannedStrategy planned{std::string(strategy.name), is_every_stage ? what.method.stages : 1, {}};
+      PlannedStrategy planned{std::string(strategy.name), strategy.exchanges(what.method.stages), {}};
       for (const PartSize& size : sizes)
         planned.parts.push_back(
             plan_part(size, part_times(size, strategy, what.method.stages, what.problem.lattice.row_reach(), speed),

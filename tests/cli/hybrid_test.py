@@ -112,6 +112,11 @@ class MembersOnRanks(ProgramTest):
                     self.assertEqual((several["ranks"], several["halo"]), (ranks, "deep"))
                     self.assertEqual(several["halo_reason"], "members of a hybrid exchange once a step")
                     self.assertEqual(several["state_digest"], one["state_digest"])
+        if len(members) > 1:  # datatypes over packs of other widths; elements of several ranks in one row
+            for option in (("--halo", "sendrecv"), ("--decomposition", "blocks")):
+                with self.subTest(members=members[-1], option=option):
+                    several = record(*PLATE, "--hybrid", members[-1][0], "--ranks", 3, *option, **members[-1][1])
+                    self.assertEqual(several["state_digest"], one["state_digest"])
         weighted = record(*PLATE, "--hybrid", members[0][0], "--ranks", 2)
         self.assertAlmostEqual(weighted["imbalance"], 1.5)  # three quarters on one of two
 

@@ -45,6 +45,23 @@ TEST_F(Hybrid, of_wrong_weights_is_balanced_within_200_steps) {
   }
 }
 
+TEST_F(Hybrid, of_unlinked_bodies_knows_its_times_and_has_the_bits_of_the_whole) {
+  Problem problem = fixture::make_block(16, 12, 1, LinkLaw::paper);
+  Body second = problem.bodies.front();
+  second.origin = {10, 0, 0};
+  fixture::add_block(problem, second, 16, 12, 1);
+  const Method& method = methods().front();
+  const State start = fixture::random_state(problem, 9, 1e-4, 0.02, 0.01);
+  const JointRun made{problem, method, "avx512:1=1,avx2:1=1"};
+  const auto run = made.executor();
+  run->write(0, start);
+  run->advance(100, signal_rows(problem, method, problem.dt, 0, 100));
+  for (const HybridInfo::Entry& member : run->hybrid_info().members) EXPECT_GT(member.step_s, 0) << member.member;
+  EXPECT_EQ(differing_bits(VariantRun{plugin_of("avx512"), problem, method}.after(start, 100), made.after(start, 100),
+                           Precision::f64),
+            0u);
+}
+
 TEST_F(Hybrid, in_balance_or_with_noise_moves_nothing) {
   const Problem problem = fixture::make_plate(40);
   int calls = 0;

@@ -40,12 +40,19 @@ public:
   /// @param has_wrong_bit  one bit of every letter is flipped
   LocalHalo(const Part& part, Mailboxes& mailboxes, bool has_wrong_bit)
       : part_(part), mailboxes_(mailboxes), has_wrong_bit_(has_wrong_bit) {}
-  void attach(Executor& executor) { executor_ = &executor; }
+  /// All layouts are asked for before the first exchange.
+  void attach(Executor& executor) {
+    for (const Neighbour& neighbour : part_.neighbours)
+      for (int copy = 0; copy < executor.halo_copies(); ++copy) {
+        send_[{neighbour.part, copy}] = executor.halo_layout(neighbour.send, copy);
+        receive_[{neighbour.part, copy}] = executor.halo_layout(neighbour.receive, copy);
+      }
+  }
 
   void send(Side side, int copy) override {
     for (const Neighbour& neighbour : part_.neighbours) {
       if (side_of(part_, neighbour) != side) continue;
-      const HaloLayout layout = executor_->halo_layout(neighbour.send, copy);
+      const HaloLayout& layout = send_.at({neighbour.part, copy});
       Mailboxes::Letter letter(layout.size);
       for (const auto& piece : layout.pieces) std::memcpy(&letter[piece.offset], piece.at, piece.count);
       if (has_wrong_bit_) letter.back() ^= std::byte(1);
@@ -55,7 +62,7 @@ public:
   void receive(Side side, int copy) override {
     for (const Neighbour& neighbour : part_.neighbours) {
       if (side_of(part_, neighbour) != side) continue;
-      const HaloLayout layout = executor_->halo_layout(neighbour.receive, copy);
+      const HaloLayout& layout = receive_.at({neighbour.part, copy});
       const Mailboxes::Letter letter = mailboxes_.take(neighbour.part, part_.index);
       if (letter.size() != layout.size) throw std::logic_error("the letter is not as long as the halo");
       for (const auto& piece : layout.pieces) std::memcpy(piece.at, &letter[piece.offset], piece.count);
@@ -66,7 +73,7 @@ private:
   const Part& part_;
   Mailboxes& mailboxes_;
   bool has_wrong_bit_;
-  Executor* executor_ = nullptr;
+  std::map<std::pair<int, int>, HaloLayout> send_, receive_; ///< by part and copy
 };
 
 } // namespace dss::test

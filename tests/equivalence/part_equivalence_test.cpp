@@ -3,6 +3,7 @@
 #include "solver/decomposition/decomposition.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/equivalence/local_halo.hpp"
+#include "tests/equivalence/opencl_run.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -142,6 +143,26 @@ TEST_P(Parts, of_several_threads_make_up_the_whole) {
           EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, 2), start, 12), Precision::f64), 0u)
               << c.name << ' ' << method.name << ' ' << how << (is_every_stage ? ", every stage" : "");
         }
+}
+
+/// Halos then have images, and edges and the rest of a part their own queues, if the halo has no elements among the own rows.
+TEST_F(OpenCl, parts_on_a_device_with_memory_of_its_own_make_up_the_whole) {
+  const Plugin& plugin = load_variant("opencl");
+  const DeviceAs device("discrete");
+  const Problem problem = fixture::make_block(37, 40, 1, LinkLaw::paper), joint = fixture::make_everything();
+  for (const Problem* const p : {&problem, &joint})
+    for (const Method& method : methods()) {
+      const State start = fixture::random_state(*p, 4, 1e-4, 0.02, 0.01);
+      const State whole = VariantRun{packs(), *p, method}.after(start, 30);
+      for (const auto& [how, parts] : {std::pair("strips", 2), std::pair("blocks", 4)})
+        for (const bool is_every_stage : {false, true})
+          for (const bool is_overlapped : {false, true}) {
+            const PartsRun run{plugin, *p, method, Precision::f64, is_every_stage, is_overlapped};
+            EXPECT_EQ(differing_bits(whole, run.after(decompose(*p, how, parts), start, 30), Precision::f64), 0u)
+                << p->name << ' ' << method.name << ' ' << how << (is_every_stage ? ", every stage" : "")
+                << (is_overlapped ? ", overlapped" : "");
+          }
+    }
 }
 
 /// The comparison must be able to fail.

@@ -62,13 +62,13 @@ void JointExecutor::each_member(const Act& act) {
 
 void JointExecutor::build(Decomposition decomposition) {
   const double began_s = now_s();
+  past_use_ = device_use();
   decomposition_ = std::move(decomposition);
   elements_ = part_elements(decomposition_, setup_.problem.lattice);
   parts_.resize(participants_.size());
   int threads = 0;
   for (const Participant& one : participants_) threads += one.member.threads;
   const bool is_crowded = unsigned(threads) > std::thread::hardware_concurrency();
-  past_use_ = device_use();
   team_.run([&](std::size_t m) { parts_[m].reset(); });
   exchange_ = std::make_unique<Exchange>(is_crowded);
   const bool was_broken = std::exchange(is_broken_, true); // until all members are there

@@ -30,13 +30,7 @@ Outcome JointExecutor::advance(long steps, std::span<const double> signals) {
 
 Outcome JointExecutor::run(long steps, std::span<const double> signals) {
   std::vector<Outcome> outcomes(parts_.size());
-  each_member([&](MemberPart& member, std::size_t m) {
-    member.halo().start_steps();
-    outcomes[m] = member.executor().advance(steps, signals);
-    member.halo().end_steps();
-    member.count_steps(steps);
-    if (!outcomes[m].is_finite) outcomes[m].element = member.global_of(outcomes[m].element);
-  });
+  each_member([&](MemberPart& member, std::size_t m) { outcomes[m] = member.advance(steps, signals); });
   Outcome first{true, steps, 0};
   for (const Outcome& one : outcomes)
     if (!one.is_finite && (first.is_finite || std::pair(one.step, one.element) < std::pair(first.step, first.element)))
@@ -102,7 +96,6 @@ void JointExecutor::calibrate() {
     const std::vector<double> speed = speeds(elements_, step_s_);
     const auto [least, most] = std::ranges::minmax_element(step_s_);
     if (*least >= (1 - Balance::tolerated) * *most || round + 1 == rounds) break;
-    if (*least <= 0) break; // a part without neighbours does not know its own time
     build(decompose(setup_.problem, "strips", decomposition_.parts, {speed, {}}));
   }
   each_member([](MemberPart& member, std::size_t) {

@@ -2,6 +2,7 @@
 
 #include "solver/error.hpp"
 #include "variants/hybrid/balance.hpp"
+#include "variants/hybrid/clock.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -28,14 +29,28 @@ MemberPart::MemberPart(const Setup& whole, const Participant& participant, const
       halo_(part_, exchange), part_setup_{part_, halo_, false, true},
       executor_(make_executor(whole, participant, part_setup_)) {}
 
+Outcome MemberPart::advance(long steps, std::span<const double> signals) {
+  const double began_s = now_s();
+  halo_.start_steps();
+  Outcome outcome = executor_->advance(steps, signals);
+  halo_.end_steps();
+  block_s_ += now_s() - began_s;
+  block_steps_ += steps;
+  if (!outcome.is_finite) outcome.element = global_of(outcome.element);
+  return outcome;
+}
+
 double MemberPart::step_s() {
-  const double now_s = executor_->computing_s();
-  return now_s < 0 ? median(halo_.step_s()) : (now_s - computed_s_) / double(std::max(1L, block_steps_));
+  const double steps = double(std::max(1L, block_steps_));
+  if (part_.neighbours.empty()) return block_s_ / steps;
+  const double computed_s = executor_->computing_s();
+  return computed_s < 0 ? median(halo_.step_s()) : (computed_s - computed_s_) / steps;
 }
 
 void MemberPart::begin_block() {
   halo_.step_s().clear();
   computed_s_ = executor_->computing_s();
+  block_s_ = 0;
   block_steps_ = 0;
 }
 

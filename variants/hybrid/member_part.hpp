@@ -36,10 +36,11 @@ public:
   }
   std::size_t global_of(std::size_t local) const;
 
-  /// Its own time of a step since the block began [s]: as the executor says, or the median between receptions.
+  /// Executor::advance, of this block of steps; the element of a failure is a global one.
+  Outcome advance(long steps, std::span<const double> signals);
+  /// Its own time of a step since the block began [s]: as the executor says, the median between receptions, or, without neighbours, all of it.
   double step_s();
   void begin_block();
-  void count_steps(long steps) { block_steps_ += steps; }
 
 private:
   const Part part_;
@@ -47,6 +48,7 @@ private:
   const PartSetup part_setup_;
   const std::unique_ptr<Executor> executor_;
   double computed_s_ = 0; ///< before the block
+  double block_s_ = 0;    ///< in advance
   long block_steps_ = 0;
 };
 

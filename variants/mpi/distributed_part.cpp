@@ -13,7 +13,8 @@ namespace dss {
 DistributedPart::DistributedPart(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition,
                                  const HaloStrategy& strategy, World& world, const Fault& fault)
     : part_(make_part(setup.problem, decomposition, world.rank(), halo_depth(strategy, setup.method))),
-      exchange_(make_exchange(strategy.transport, faces_of(part_), world.comm())), halo_(*exchange_) {
+      exchange_(make_exchange(strategy.transport, faces_of(part_), world.comm())),
+      halo_(*exchange_, [&world](bool is_alone) { world.work_alone(is_alone); }) {
   if (fault.kind != Fault::Kind::none) faulty_halo_.emplace(halo_, fault);
   Halo& halo = faulty_halo_ ? static_cast<Halo&>(*faulty_halo_) : halo_;
   part_setup_.emplace(PartSetup{part_, halo, strategy.is_every_stage, strategy.is_overlapped});
@@ -46,8 +47,8 @@ std::vector<MessageOrder> DistributedPart::neighbours_orders(std::size_t number_
     MPI_Isend(own[n].data(), count_of(own[n].size()), MPI_UNSIGNED_LONG, part_.neighbours[n].part, 0, comm,
               &requests.emplace_back());
   for (const Neighbour& neighbour : part_.neighbours) {
+    theirs.emplace_back(executor_->halo_layout(neighbour.receive, 0).size / number_bytes);
     const Waiting waiting(neighbour.part);
-    theirs.emplace_back(message_order(*executor_, neighbour.receive, 0, number_bytes).size());
     MPI_Recv(theirs.back().data(), count_of(theirs.back().size()), MPI_UNSIGNED_LONG, neighbour.part, 0, comm,
              MPI_STATUS_IGNORE);
   }

@@ -20,6 +20,7 @@ public:
   FaultyHalo(Halo& halo, const Fault& fault) : halo_(halo), fault_(fault) {}
   void send(Side side, int copy) override;
   void receive(Side side, int copy) override;
+  void work_alone(bool is_alone) override { halo_.work_alone(is_alone); }
   /// Computation starts now.
   void start();
 

@@ -4,6 +4,7 @@
 #include "variants/mpi/transports.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace dss {
 
@@ -20,7 +21,8 @@ int count_of(std::size_t bytes) {
   return int(bytes);
 }
 
-TimedHalo::TimedHalo(HaloExchange& exchange) : exchange_(exchange) {
+TimedHalo::TimedHalo(HaloExchange& exchange, std::function<void(bool)> tell_alone)
+    : exchange_(exchange), tell_alone_(std::move(tell_alone)) {
   for (const Face& face : exchange.faces()) has_side_[int(face.side)] = true;
   if (!exchange.faces().empty()) has_side_[int(all_sides[0])] = true; // sendrecv serves all sides on this call
 }

@@ -42,13 +42,16 @@ protected:
 /// Times what an exchange takes of its rank's time, copies included.
 class TimedHalo final : public Halo {
 public:
-  explicit TimedHalo(HaloExchange& exchange);
+  /// @param tell_alone  tells the other ranks what Halo::work_alone says
+  TimedHalo(HaloExchange& exchange, std::function<void(bool)> tell_alone);
   void send(Side side, int copy) override;
   void receive(Side side, int copy) override;
+  void work_alone(bool is_alone) override { tell_alone_(is_alone); }
   double total_s() const { return total_s_; }
 
 private:
   HaloExchange& exchange_;
+  const std::function<void(bool)> tell_alone_;
   bool has_side_[std::size(all_sides)] = {}; ///< sides without neighbours are not worth a look at the clock
   double total_s_ = 0;
 };

@@ -2,7 +2,6 @@
 
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
-#include "solver/nearest_name.hpp"
 #include "variants/mpi/strategy_choice.hpp"
 #include "variants/trial.hpp"
 
@@ -64,13 +63,7 @@ Spread spread(const Setup& setup, const Plugin& plugin, World& world, const Faul
     result.halo = find_halo_strategy("deep");
     result.halo_reason = "members of a hybrid exchange once a step";
   } else if (asked.halo != "auto") {
-    result.halo = find_halo_strategy(asked.halo);
-    std::vector<std::string> known{"auto"};
-    for (const HaloStrategy& strategy : halo_strategies()) known.emplace_back(strategy.name);
-    if (result.halo == nullptr)
-      throw InputError(fmt::format("--halo {}: unknown strategy; {}", asked.halo, nearest_name(asked.halo, known)));
-    if (!is_possible(*result.halo, setup.threads))
-      throw InputError(fmt::format("--halo {}: needs --threads 1; give deep", asked.halo));
+    result.halo = &asked_halo_strategy(asked.halo, setup.threads);
   } else if (world.ranks() == 1) {
     result.halo = find_halo_strategy("deep");
   } else {

@@ -5,6 +5,7 @@
 #include "variants/mpi/distributed_part.hpp"
 #include "variants/mpi/network.hpp"
 #include "variants/mpi/part_json.hpp"
+#include "variants/trial.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,10 +15,8 @@
 namespace dss {
 namespace {
 
-constexpr double trial_s = 4e-3; ///< of each timing
 constexpr int timings = 3, sweeps = 3;
-constexpr long least_steps = 8;            ///< the first exchange hides nothing
-constexpr double large_elements = 500'000; ///< parts that take long to make are tried once
+constexpr long least_steps = 8; ///< the first exchange hides nothing
 constexpr double never = std::numeric_limits<double>::infinity();
 
 using StepTimes = std::map<const HaloStrategy*, double>;
@@ -37,9 +36,9 @@ StepTimes predict(const Setup& setup, const Decomposition& decomposition, const 
   StepTimes step_s;
   for (const HaloStrategy& strategy : halo_strategies()) {
     if (strategy.transport == HaloStrategy::Transport::shared && !world.is_one_node()) continue;
-    if (!is_possible(strategy, setup.threads)) continue;
+    if (!strategy.is_possible(setup.threads)) continue;
     const PlannedPart own = plan_own_part(setup, world, decomposition, strategy, speed);
-    PlannedStrategy planned{std::string(strategy.name), strategy.is_every_stage ? setup.method.stages : 1, {}};
+    PlannedStrategy planned{std::string(strategy.name), strategy.exchanges(setup.method.stages), {}};
     for (const std::string& text : world.gather(nlohmann::json(own).dump()))
       planned.parts.push_back(nlohmann::json::parse(text).get<PlannedPart>());
     step_s[&strategy] = world.largest(predicted_step_s(planned, network));
@@ -81,16 +80,13 @@ std::string text_of(const StepTimes& step_s) {
 
 } // namespace
 
-bool is_possible(const HaloStrategy& strategy, int threads) {
-  return threads == 1 || strategy.is_every_stage || !strategy.is_overlapped;
-}
-
 StrategyChoice choose_strategy(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition,
                                const NodeSpeed& speed, World& world, const Fault& fault) {
   StrategyChoice choice{nullptr, {}, measure_network(world.comm())};
   const StepTimes predicted = predict(setup, decomposition, speed, choice.network, world);
   const Fault slowness = fault.kind == Fault::Kind::slow ? fault : Fault{}; // others wait for the run itself
-  const bool is_large = double(setup.problem.lattice.element_count) / world.ranks() > large_elements;
+  // Parts that take long to make are tried once.
+  const bool is_large = setup.problem.lattice.element_count / std::size_t(world.ranks()) > large_part_elements;
   StepTimes tried;
   for (const auto& [strategy, seconds] : predicted)
     if (seconds <= worth_trying * least_of(predicted)) tried[strategy] = never;

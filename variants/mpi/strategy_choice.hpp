@@ -15,10 +15,6 @@ struct StrategyChoice {
   Network network;    ///< that they are predicted with
 };
 
-/// Whether a strategy does something of its own with so many threads a rank: a team computes all rows at once, so that
-/// there are no edges that could be done before the rest.
-bool is_possible(const HaloStrategy& strategy, int threads);
-
 /// Collective; all ranks choose the same. @param speed  of this rank on its part
 StrategyChoice choose_strategy(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition,
                                const NodeSpeed& speed, World& world, const Fault& fault);

@@ -12,7 +12,7 @@ template <class T, int W>
 HaloRows<T, W>::~HaloRows() {
   mappings_.clear();
   try {
-    queue_.finish();
+    queue().finish();
   } catch (const InputError&) { // told by whoever met it first
   }
 }
@@ -26,10 +26,10 @@ void HaloRows<T, W>::make_images(std::vector<Row> rows) {
   rows.erase(std::ranges::unique(rows).begin(), rows.end());
   std::size_t bytes = 0;
   for (const Row& row : rows) bytes += row.count * sizeof(T);
-  pinned_.push_back(queue_.make_buffer(bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR));
-  queue_.set_counting(false);
-  mappings_.emplace_back(new Mapping(queue_.map(pinned_.back(), 0, bytes, CL_MAP_READ | CL_MAP_WRITE)));
-  queue_.set_counting(true);
+  pinned_.push_back(queue().make_buffer(bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR));
+  queue().set_counting(false);
+  mappings_.emplace_back(new Mapping(queue().map(pinned_.back(), 0, bytes, CL_MAP_READ | CL_MAP_WRITE)));
+  queue().set_counting(true);
   T* image = mappings_.back()->template as<T>().data();
   for (const Row& row : rows) {
     std::copy_n(row.numbers, row.count, image);
@@ -54,29 +54,25 @@ void HaloRows<T, W>::add(Ranges& ranges, Range range) {
 }
 
 template <class T, int W>
-cl::Event HaloRows<T, W>::fetch(const Ranges& ranges, const Events& after) {
+cl::Event HaloRows<T, W>::fetch(const Ranges& ranges) {
   cl::Event done;
   if (problem_.is_shared())
     problem_.to_host({});
   else
     for (const Range& range : ranges)
-      done = queue_.read(problem_.arena(), place(range.from),
-                         std::as_writable_bytes(std::span(range.image, range.to - range.from)), Wait::no, &after);
-  queue_.flush();
+      done = queue().read(problem_.arena(), place(range.from),
+                          std::as_writable_bytes(std::span(range.image, range.to - range.from)), Wait::no);
   return done;
 }
 
 template <class T, int W>
-cl::Event HaloRows<T, W>::bring(const Ranges& ranges) {
-  cl::Event done;
+void HaloRows<T, W>::bring(const Ranges& ranges) {
   if (problem_.is_shared())
     problem_.to_device({});
   else
     for (const Range& range : ranges)
-      done = queue_.write(problem_.arena(), place(range.from),
-                          std::as_bytes(std::span(range.image, range.to - range.from)), Wait::no);
-  queue_.flush();
-  return done;
+      queue().write(problem_.arena(), place(range.from), std::as_bytes(std::span(range.image, range.to - range.from)),
+                    Wait::no);
 }
 
 template <class T, int W>

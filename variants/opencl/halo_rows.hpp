@@ -3,16 +3,17 @@
 #include "variants/opencl/device_problem.hpp"
 
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace dss::opencl {
 
 /// What neighbours are sent lies in rows of the arena, and so does what they send. Where the device has memory of its own, these rows have
-/// an image in pinned memory of the host, and a queue of their own, beside that of the problem. Elsewhere the arena itself is the image.
+/// an image in pinned memory of the host. Elsewhere the arena itself is the image.
 template <class T, int W>
 class HaloRows {
 public:
-  explicit HaloRows(DeviceProblem<T, W>& problem) : problem_(problem), queue_(problem.queue.device()) {}
+  explicit HaloRows(DeviceProblem<T, W>& problem) : problem_(problem) {}
   /// Waits for transfers, which may still use the images after an error.
   ~HaloRows();
   HaloRows(const HaloRows&) = delete;
@@ -34,23 +35,27 @@ public:
   /// Ranges that touch or overlap become one.
   static void add(Ranges& ranges, Range range);
 
-  /// From the device to the images, after these events of the problem's queue. @return comes when it is done, at once if there is none
-  cl::Event fetch(const Ranges& ranges, const Events& after = {});
+  /// From now on by a queue of its own, beside that of the problem.
+  void go_beside() { own_queue_.emplace(problem_.queue.device()); }
+  /// Transfers are done in its order.
+  Queue& queue() { return own_queue_ ? *own_queue_ : problem_.queue; }
+  /// From the device to the images. @return comes when it is done; none if it is
+  cl::Event fetch(const Ranges& ranges);
   /// From the images, which must not change until it is done, to the device.
-  cl::Event bring(const Ranges& ranges);
+  void bring(const Ranges& ranges);
   /// While the host has the arena: between its rows and the images.
   void fetch_from_arena(const Ranges& ranges) const;
   void bring_to_arena(const Ranges& ranges) const;
 
-  /// In order: what is launched by it finds what was brought before, and is fetched afterwards.
-  Queue& queue() { return queue_; }
+  /// Of the own queue.
+  Counts counts() { return own_queue_ ? own_queue_->counts() : Counts{}; }
 
 private:
   std::size_t place(const T* at) const {
     return std::size_t(reinterpret_cast<const std::byte*>(at) - problem_.memory.start());
   }
   DeviceProblem<T, W>& problem_;
-  Queue queue_;
+  std::optional<Queue> own_queue_;
   std::map<const T*, T*> images_; ///< by row
   std::vector<Buffer> pinned_;
   std::vector<std::unique_ptr<Mapping>> mappings_;

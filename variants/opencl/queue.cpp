@@ -132,11 +132,10 @@ cl::Event Queue::write(const Buffer& buffer, std::size_t offset, std::span<const
   });
 }
 
-cl::Event Queue::read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait,
-                      const Events* after) {
+cl::Event Queue::read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait) {
   if (data.empty()) return {};
   return transfer(data.size(), wait, &Counts::from_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
-    queue_.enqueueReadBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), after, done);
+    queue_.enqueueReadBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), nullptr, done);
   });
 }
 
@@ -187,6 +186,14 @@ void Queue::await(const Events& events) const {
 }
 
 double Queue::empty_launch_s() {
+  static std::mutex mutex;
+  static std::map<cl_device_id, double> known_s;
+  const std::lock_guard lock(mutex);
+  if (const auto found = known_s.find(device_.handle()); found != known_s.end()) return found->second;
+  return known_s[device_.handle()] = measured_launch_s();
+}
+
+double Queue::measured_launch_s() {
   const Kernel nothing = make_kernel(build_program(device_, "__kernel void nothing() {}"), "nothing");
   std::array<double, 11> times{};
   const bool was_counting = std::exchange(is_counting_, false);

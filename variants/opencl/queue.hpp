@@ -102,16 +102,16 @@ public:
   Buffer make_buffer(std::size_t bytes, cl_mem_flags flags = CL_MEM_READ_WRITE, void* host = nullptr) const;
   Kernel make_kernel(const Program& program, const char* name) const;
 
-  /// @param after  null, or events of any queue that must have come  @return comes when it is done; none for no data
+  /// @return comes when it is done; none for no data
   cl::Event write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data, Wait wait = Wait::yes);
-  cl::Event read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait = Wait::yes,
-                 const Events* after = nullptr);
+  cl::Event read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait = Wait::yes);
   void copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset, std::size_t bytes);
   /// Sets all bytes to zero.
   void clear(const Buffer& buffer);
   /// @param flags  CL_MAP_READ, CL_MAP_WRITE, both, or CL_MAP_WRITE_INVALIDATE_REGION
   Mapping map(const Buffer& buffer, std::size_t offset, std::size_t bytes, cl_map_flags flags);
 
+  /// @param after  null, or events of any queue that must have come; that queue has been flushed
   cl::Event launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local = cl::NullRange,
                    const Events* after = nullptr);
   /// Begins what is enqueued, without waiting.
@@ -121,10 +121,11 @@ public:
   /// Waits for events; those that are none have come.
   void await(const Events& events) const;
 
-  /// One launch of a kernel that does nothing, and its end: the median of some [s].
+  /// One launch of a kernel that does nothing, and its end: the median of some, measured once for each device of a process [s].
   double empty_launch_s();
 
 private:
+  double measured_launch_s();
   template <class Enqueue>
   cl::Event transfer(std::size_t bytes, Wait wait, double Counts::*counter, Enqueue&& enqueue);
   /// Adds the time of transfers that are done, or of all after waiting for them.

@@ -12,6 +12,7 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout),
       rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }), halo_rows_(problem_) {
+  const PartWorksAlone alone(part_);
   // Work-items of a group read what others update in place: leapfrog takes turns between two states there.
   // Where bands are thinner than their halo, most of what they do is done by others as well.
   const int rows = packed_.own_end - packed_.own_begin, halo = setup_.method.stages * packed_.reach;
@@ -26,13 +27,18 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
   problem_.finish(rows_.is_leapfrog() ? stored_fields() : 0, false);
   make_kernels();
   sent_.resize(std::size_t(halo_copies())), received_ = sent_;
+  if (is_split_) halo_rows_.go_beside();
+  warm_up();
 }
 
 template <class T, int W>
 std::vector<int> ResidentExecutor<T, W>::cut_blocks() {
   const int begin = packed_.own_begin, end = packed_.own_end, halo = setup_.method.stages * packed_.reach;
-  // With shared memory there is nothing to hide, and PoCL takes 20 us for each command.
-  is_split_ = is_part() && part_->is_overlapped && !problem_.is_shared() && end - begin >= 4 * halo;
+  // With shared memory there is nothing to hide, and PoCL takes 20 us for each command. Own rows with halo elements in them are no edges.
+  is_split_ = is_part() && part_->is_overlapped && !problem_.is_shared() && end - begin >= 4 * halo &&
+              std::ranges::none_of(part_->part.neighbours, [&](const Neighbour& neighbour) {
+                return side_of(part_->part, neighbour) == Side::among;
+              });
   has_lower_edge_ = is_split_ && begin > 0;
   has_upper_edge_ = is_split_ && end < int(packed_.rows.size());
   packed_.own_begin += has_lower_edge_ ? halo : 0;
@@ -137,6 +143,24 @@ void ResidentExecutor<T, W>::make_kernels() {
 }
 
 template <class T, int W>
+void ResidentExecutor<T, W>::warm_up() {
+  const opencl::Buffer nothing = problem_.table(std::vector<cl_int2>(std::size_t(bands_)));
+  problem_.queue.set_counting(false);
+  problem_.set_signals(std::vector<double>(signal_count(setup_.problem)), signal_count(setup_.problem));
+  forget_failures();
+  if (staged_) {
+    if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_.front());
+    set_stage_arguments(nothing, 0, 0);
+    problem_.launch(problem_.queue, kernel_, bands_);
+  } else {
+    set_pass_arguments(0);
+    run_to(0, false);
+  }
+  problem_.queue.finish();
+  problem_.queue.set_counting(true);
+}
+
+template <class T, int W>
 T* ResidentExecutor<T, W>::row(int r) {
   return staged_ ? staged_->row(r) : blocks_.row(r, parity_);
 }
@@ -202,8 +226,7 @@ void ResidentExecutor<T, W>::make_images(std::span<const std::size_t> elements, 
     const int r = int(row_of(packed_.lattice, element));
     const auto [first, twin] = copy_row(copy, r);
     for (T* const numbers : {first, twin})
-      if (numbers != nullptr && (rows.empty() || rows.back().numbers != numbers))
-        rows.push_back({numbers, row_size(r)});
+      if (numbers != nullptr) rows.push_back({numbers, row_size(r)});
   }
   halo_rows_.make_images(std::move(rows));
 }
@@ -228,9 +251,9 @@ void ResidentExecutor<T, W>::add_to_halo(int r, std::span<const std::size_t> ele
     layout.pieces.push_back({reinterpret_cast<std::byte*>(range.image), layout.size + piece.offset, piece.count});
   }
   layout.size += of_row.size;
-  if (staged_) return;
   // Whole rows that nobody else writes: few transfers.
-  if (T* const whole = own ? twin : blocks_.of(r).is_remote() ? first : nullptr)
+  const bool is_remote = staged_ ? !packed_.is_computed(r, 0) : blocks_.of(r).is_remote();
+  if (T* const whole = own ? (staged_ ? first : twin) : is_remote ? first : nullptr)
     HaloRows<T, W>::add(ranges, range_of(whole, whole, row_size(r)));
 }
 
@@ -250,7 +273,7 @@ void ResidentExecutor<T, W>::send(int copy) {
   if (is_on_host_)
     halo_rows_.fetch_from_arena(ranges);
   else
-    problem_.queue.await({halo_rows_.fetch(ranges, rest_)});
+    problem_.queue.await({halo_rows_.fetch(ranges)});
   send_all_sides(copy);
 }
 
@@ -262,7 +285,7 @@ void ResidentExecutor<T, W>::receive(int copy) {
   if (is_on_host_)
     halo_rows_.bring_to_arena(ranges);
   else
-    problem_.queue.await({halo_rows_.bring(ranges)});
+    halo_rows_.bring(ranges);
 }
 
 template <class T, int W>
@@ -304,6 +327,7 @@ void ResidentExecutor<T, W>::restore(std::size_t first, std::span<const double> 
 /// Rates of plain rows, at the present state, which is on the host.
 template <class T, int W>
 std::vector<T> ResidentExecutor<T, W>::evaluate(std::span<const double> signals) {
+  const PartWorksAlone alone(rates_ == nullptr ? part_ : nullptr); // some drivers compile at the first launch
   if (is_part()) {
     const int copy = staged_ ? staged_->current_copy() : parity_;
     send(copy);
@@ -345,7 +369,7 @@ std::string ResidentExecutor<T, W>::schedule() const {
 template <class T, int W>
 DeviceUse ResidentExecutor<T, W>::device_use() const {
   Counts counts = problem_.queue.counts();
-  return use_of(problem_, counts += halo_rows_.queue().counts());
+  return use_of(problem_, counts += halo_rows_.counts());
 }
 
 #define DSS_INSTANTIATE(T, W) template class ResidentExecutor<T, W>;

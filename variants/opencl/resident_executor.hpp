@@ -34,7 +34,8 @@ public:
 private:
   /// Places of those arguments of run_passes that change from launch to launch (device/passes.cl).
   static constexpr cl_uint last_pass_argument = DeviceProblem<T, W>::table_arguments + 7,
-                           patience_argument = last_pass_argument + 6, first_block_argument = patience_argument + 1;
+                           patience_argument = last_pass_argument + 6, first_block_argument = patience_argument + 1,
+                           block_stride_argument = first_block_argument + 1;
   using Range = typename DeviceProblem<T, W>::Range;
   bool is_part() const { return part_ != nullptr; }
   int stored_fields() const { return rows_.stored_fields(); }
@@ -42,6 +43,10 @@ private:
   void add_neighbours(const std::vector<int>& cuts, int band, int halo);
   void add_stages();
   void make_kernels();
+  void set_pass_arguments(long steps);
+  void set_stage_arguments(const opencl::Buffer& lists, int stage, long step);
+  /// Some drivers compile a kernel when it is first launched, PoCL for one: launches that do nothing.
+  void warm_up();
   T* row(int r);
   std::pair<T*, T*> copy_row(int copy, int r);
   void publish_all();
@@ -64,8 +69,8 @@ private:
   Outcome run_passes(long steps);
   /// All bands to the end of this pass. Together: without a launch for each, if all bands are computed at the same time.
   void run_to(long last_pass, bool is_together);
-  /// Of blocks that follow one another, counted without remote ones.
-  cl::Event launch_blocks(Queue& by, int first, int count, const Events& after = {});
+  /// Of every stride-th block, counted without remote ones.
+  cl::Event launch_blocks(Queue& by, int first, int count, const Events& after = {}, int stride = 1);
   /// One step of a part that is split: halo, edges and what is sent of them in one queue, the rest in the other.
   void step_overlapped(long pass, bool is_last);
   void count_computing();
@@ -89,7 +94,7 @@ private:
   int bands_ = 1, steps_a_pass_ = 1, most_sweeps_ = 0;
   bool is_split_ = false; ///< part: the edges that neighbours wait for are blocks of their own, first and last
   bool has_lower_edge_ = false, has_upper_edge_ = false;
-  Events rest_, edges_; ///< launches of the last step or stage, edges apart if it is split
+  Events rest_, edges_; ///< split: launches of the last step
   double computing_s_ = 0;
   int parity_ = 0;
   bool is_on_host_ = false, is_changed_ = false; ///< by the host, since the device had it

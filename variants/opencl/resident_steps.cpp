@@ -33,8 +33,7 @@ void ResidentExecutor<T, W>::forget_failures() {
 }
 
 template <class T, int W>
-Outcome ResidentExecutor<T, W>::run_passes(long steps) {
-  const long passes = (steps + steps_a_pass_ - 1) / steps_a_pass_;
+void ResidentExecutor<T, W>::set_pass_arguments(long steps) {
   const std::vector<cl_int> none(std::size_t(bands_), 0);
   problem_.queue.write(progress_, 0, std::as_bytes(std::span(none)));
   cl_uint n = DeviceProblem<T, W>::table_arguments;
@@ -42,8 +41,14 @@ Outcome ResidentExecutor<T, W>::run_passes(long steps) {
     kernel_.set_one(n++, table);
   const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
   for (const int value :
-       {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages, packed_.reach, width, 0, 0}) // 0: see run_to
+       {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages, packed_.reach, width, 0, 0, 1}) // 0: see run_to
     kernel_.set_one(n++, cl_int(value));
+}
+
+template <class T, int W>
+Outcome ResidentExecutor<T, W>::run_passes(long steps) {
+  const long passes = (steps + steps_a_pass_ - 1) / steps_a_pass_;
+  set_pass_arguments(steps);
   const int first_parity = parity_;
   const auto parity_after = [&](long pass) { return (first_parity + int(pass & 1)) & 1; };
   if (is_part()) {
@@ -79,34 +84,33 @@ void ResidentExecutor<T, W>::run_to(long last_pass, bool is_together) {
   constexpr int patience = 1 << 24; // some 10 ms: what it may take a sleeping thread to come
   kernel_.set_one(last_pass_argument, cl_int(last_pass));
   kernel_.set_one(patience_argument, cl_int(is_together ? patience : 0));
-  rest_ = {launch_blocks(problem_.queue, 0, bands_)};
+  launch_blocks(problem_.queue, 0, bands_);
 }
 
 template <class T, int W>
-cl::Event ResidentExecutor<T, W>::launch_blocks(Queue& by, int first, int count, const Events& after) {
+cl::Event ResidentExecutor<T, W>::launch_blocks(Queue& by, int first, int count, const Events& after, int stride) {
   kernel_.set_one(first_block_argument, cl_int(first));
+  kernel_.set_one(block_stride_argument, cl_int(stride));
   return problem_.launch(by, kernel_, count, after);
 }
 
 // Edges and the rest read what the others published in the step before, and overwrite what they read the step before that: each waits for
-// the others' last step. So while a halo is under way, and brought, and the edges are computed and fetched, the rest always has a step to do.
+// the others' last step. So a step of the rest may be computed while edges are computed and fetched, and while the next halo is under way.
 template <class T, int W>
 void ResidentExecutor<T, W>::step_overlapped(long pass, bool is_last) {
   receive_all_sides(parity_);
   halo_rows_.bring(received_[std::size_t(parity_)]);
   parity_ ^= 1;
   kernel_.set_one(last_pass_argument, cl_int(pass + 1));
-  Events edges;
-  if (has_lower_edge_) edges.push_back(launch_blocks(halo_rows_.queue(), 0, 1, rest_));
-  if (has_upper_edge_) edges.push_back(launch_blocks(halo_rows_.queue(), bands_ - 1, 1, rest_));
-  Events here = edges;
-  if (!is_last) here.push_back(halo_rows_.fetch(sent_[std::size_t(parity_)]));
-  const cl::Event rest = launch_blocks(problem_.queue, int(has_lower_edge_), bands_ - int(edges.size()), edges_);
+  const int edges = int(has_lower_edge_) + int(has_upper_edge_), first_edge = has_lower_edge_ ? 0 : bands_ - 1;
+  const cl::Event edges_done = launch_blocks(halo_rows_.queue(), first_edge, edges, rest_, bands_ - 1);
+  const cl::Event fetched = is_last ? cl::Event() : halo_rows_.fetch(sent_[std::size_t(parity_)]);
+  const cl::Event rest_done = launch_blocks(problem_.queue, int(has_lower_edge_), bands_ - edges, edges_);
   halo_rows_.queue().flush();
   problem_.queue.flush();
-  problem_.queue.await(here);
+  problem_.queue.await({edges_done, fetched});
   count_computing(); // of the step before, whose rest the edges waited for
-  rest_ = {rest}, edges_ = std::move(edges);
+  rest_ = {rest_done}, edges_ = {edges_done};
   if (!is_last) send_all_sides(parity_);
 }
 
@@ -121,12 +125,9 @@ void ResidentExecutor<T, W>::count_computing() {
     };
     rest_.front().wait();
     const auto [begin, end] = time(rest_.front());
-    computing_s_ += duration_s(rest_.front());
-    for (const cl::Event& edge : edges_) {
-      const auto [edge_begin, edge_end] = time(edge);
-      const cl_ulong from = std::max(begin, edge_begin), to = std::min(end, edge_end);
-      computing_s_ += duration_s(edge) - (from < to ? 1e-9 * double(to - from) : 0);
-    }
+    const auto [edges_begin, edges_end] = time(edges_.front());
+    const cl_ulong from = std::max(begin, edges_begin), to = std::min(end, edges_end);
+    computing_s_ += 1e-9 * double(end - begin + edges_end - edges_begin - (from < to ? to - from : 0));
   });
 }
 
@@ -149,13 +150,19 @@ void ResidentExecutor<T, W>::launch_stage(int stage, long step) {
   const int stages = setup_.method.stages;
   const std::size_t table = std::size_t((staged_->is_swapped() ? staged_->current_copy() : 0) * stages + stage);
   if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_[table]);
+  set_stage_arguments(list_tables_[table], stage, step);
+  problem_.launch(problem_.queue, kernel_, bands_);
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::set_stage_arguments(const opencl::Buffer& lists, int stage, long step) {
+  const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
   cl_uint n = DeviceProblem<T, W>::table_arguments;
-  kernel_.set_one(n++, list_tables_[table]);
+  kernel_.set_one(n++, lists);
   kernel_.set_one(n++, problem_.signals());
   kernel_.set_one(n++, failed_);
-  const int signal_row = int(step) * stages + stage, width = int(signal_count(setup_.problem)) + 1;
+  const int signal_row = int(step) * stages + stage;
   for (const cl_int value : {signal_row * width, int(step), int(stage + 1 == stages)}) kernel_.set_one(n++, value);
-  rest_ = {problem_.launch(problem_.queue, kernel_, bands_)};
 }
 
 template <class T, int W>

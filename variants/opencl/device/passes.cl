@@ -68,9 +68,9 @@ static bool have_come(volatile global int* progress, const int2 blocks, const in
 kernel void run_passes(TABLES, global const sweep* sweeps, global const int2* neighbours, global const NUMBER* signals,
                        global int* failed, volatile global int* progress, const int most_sweeps, const int first_parity,
                        const int last_pass, const int steps_a_pass, const int steps, const int stages, const int lag,
-                       const int signal_width, const int patience, const int first_block) {
+                       const int signal_width, const int patience, const int first_block, const int block_stride) {
   const device d = DEVICE;
-  const int block = first_block + BLOCK;
+  const int block = first_block + BLOCK * block_stride;
   for (int pass = progress[block]; pass < last_pass; ++pass) {
     const int step = pass * steps_a_pass, parity = (first_parity + pass) & 1;
     if (!have_come(progress, neighbours[block], pass, patience) || failed[0] < step) return;
