@@ -104,7 +104,7 @@ class MembersOnRanks(ProgramTest):
         if not why_no_variant("avx2") and not why_no_variant("avx512"):
             members += [("avx512,avx2", {})]  # 8 and 4 elements in a pack
         if not why_no_variant("opencl") and HAS_CPU_DEVICE:
-            members += [("auto,opencl@cpu", {}), ("auto,opencl@cpu", {"env": {**os.environ, "DSSBENCH_OPENCL_AS": "gpu"}})]  # 16 in a pack
+            members += [("auto,opencl@cpu", {}), ("auto,opencl@cpu", {"env": {**os.environ, "DSSBENCH_OPENCL_AS": "gpu", "DSSBENCH_PATIENCE_S": "3"}})]  # 16 in a pack; compiling takes longer
         for text, options in members:
             for ranks in (2, 3):
                 with self.subTest(members=text, ranks=ranks, as_gpu="env" in options):

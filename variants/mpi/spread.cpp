@@ -13,10 +13,19 @@ namespace {
 
 constexpr double resolution = 1.1; ///< ranks whose measured speeds differ by less count as equal
 
+/// What `measure` gives, which exchanges nothing, but may take long where a device compiles first.
+template <class Measure>
+auto measured_alone(World& world, Measure&& measure) {
+  world.meet(); // ranks that share a memory compute together, as in the run
+  world.work_alone(true);
+  const auto result = measure();
+  world.work_alone(false);
+  return result;
+}
+
 NodeSpeed own_speed(const Setup& setup, const Plugin& plugin, const Decomposition& decomposition, World& world,
                     const Fault& fault) {
-  world.meet(); // ranks that share a memory compute together, as in the run
-  NodeSpeed speed = measure_speed(setup, plugin, decomposition, world.rank());
+  NodeSpeed speed = measured_alone(world, [&] { return measure_speed(setup, plugin, decomposition, world.rank()); });
   speed.at_once /= fault.slowdown();
   speed.stage_by_stage /= fault.slowdown();
   return speed;
@@ -29,9 +38,8 @@ Decomposition decomposition_of(const Setup& setup, const Distribution& asked, co
 /// Every rank's speed on an equal share.
 Weights measured_weights(const Setup& setup, const Plugin& plugin, const Decomposition& equal, World& world,
                          const Fault& fault) {
-  world.meet(); // as above
-  const std::vector<double> speed =
-      world.gather(measure_speed_at_once(setup, plugin, equal, world.rank()) / fault.slowdown());
+  const double own = measured_alone(world, [&] { return measure_speed_at_once(setup, plugin, equal, world.rank()); });
+  const std::vector<double> speed = world.gather(own / fault.slowdown());
   const auto [least, most] = std::minmax_element(speed.begin(), speed.end());
   return {*most > resolution * *least ? speed : std::vector<double>{}, {}};
 }
