@@ -8,6 +8,11 @@ namespace dss {
 /// Where in a message each stored number lies [bytes]: element after element, in each its numbers in their own order.
 using MessageOrder = std::vector<std::size_t>;
 
+/// Size of a stored number.
+inline std::size_t number_bytes(Precision precision) {
+  return precision == Precision::f64 ? sizeof(double) : sizeof(float);
+}
+
 /// @param number_bytes  size of a stored number
 MessageOrder message_order(Executor& executor, std::span<const std::size_t> elements, int copy,
                            std::size_t number_bytes);

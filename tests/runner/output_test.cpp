@@ -2,6 +2,7 @@
 #include "solver/io/state_csv.hpp"
 #include "solver/io/vtu.hpp"
 #include "tests/fixtures/problems.hpp"
+#include "tests/runner/own_directory.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,16 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Output : public ::testing::Test {
-protected:
-  Output() {
-    std::string pattern = (fs::temp_directory_path() / "dssbench-output-XXXXXX").string();
-    directory = ::mkdtemp(pattern.data());
-  }
-  ~Output() override { fs::remove_all(directory); }
-  std::string file(const char* name) const { return (directory / name).string(); }
-  fs::path directory;
-};
+using Output = test::OwnDirectory;
 
 /// Test vectors of RFC 4648, section 10.
 TEST_F(Output, Base64AgreesWithTheStandardsExamples) {

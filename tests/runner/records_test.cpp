@@ -1,6 +1,7 @@
 #include "experiments/runner/records.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "tests/runner/own_directory.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -13,17 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A directory of its own for each test, removed with it.
-class Records : public ::testing::Test {
-protected:
-  Records() {
-    std::string pattern = (fs::temp_directory_path() / "dssbench-records-XXXXXX").string();
-    directory = ::mkdtemp(pattern.data());
-  }
-  ~Records() override { fs::remove_all(directory); }
-  std::string file(const char* name) const { return (directory / name).string(); }
-  fs::path directory;
-};
+using Records = test::OwnDirectory;
 
 TEST_F(Records, NumbersComeBackToTheLastBit) {
   for (const double value : {0.1, 1.0 / 3, 1e-300, -2.5e17})

@@ -2,6 +2,7 @@
 #include "experiments/runner/balance_study.hpp"
 #include "experiments/runner/study.hpp"
 #include "solver/error.hpp"
+#include "tests/runner/own_directory.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -15,17 +16,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class StudyOfDevices : public ::testing::Test {
+class StudyOfDevices : public test::OwnDirectory {
 protected:
   StudyOfDevices() {
-    std::string pattern = (fs::temp_directory_path() / "dssbench-devices-XXXXXX").string();
-    directory = ::mkdtemp(pattern.data());
     study = {{"experiment", "devices"},
              {"title", "Devices"},
              {"base", {"scalar"}},
              {"scales", {{"smoke", {{"set", {{"n", 10}}}, {"steps", 10}}}}}};
   }
-  ~StudyOfDevices() override { fs::remove_all(directory); }
 
   std::string written() {
     std::ofstream(directory / "devices.json") << study;
@@ -47,7 +45,6 @@ protected:
         EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
     }
   }
-  fs::path directory;
   json study;
 };
 

@@ -1,6 +1,7 @@
 #include "experiments/runner/cell_record.hpp"
 #include "experiments/runner/study.hpp"
 #include "solver/error.hpp"
+#include "tests/runner/own_directory.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>
@@ -17,11 +18,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 /// Studies in a directory of their own, of a variant that can compute parts.
-class StudyOfRanks : public ::testing::Test {
+class StudyOfRanks : public test::OwnDirectory {
 protected:
   StudyOfRanks() {
-    std::string pattern = (fs::temp_directory_path() / "dssbench-study-XXXXXX").string();
-    directory = ::mkdtemp(pattern.data());
     for (const VariantStatus& status : variants())
       if (status.name != "reference" && !status.is_by_name) variant = status.name;
     block = {{"scene", "plate_paper"}, {"variants", {variant}}};
@@ -30,7 +29,6 @@ protected:
              {"base", {variant}},
              {"scales", {{"smoke", {{"set", {{"n", 10}}}, {"steps", 10}}}}}};
   }
-  ~StudyOfRanks() override { fs::remove_all(directory); }
 
   Study load(const std::vector<json>& blocks, int cores = 2) {
     study["cells"] = blocks;
@@ -51,7 +49,6 @@ protected:
         EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
     }
   }
-  fs::path directory;
   std::string variant;
   json block, study;
 };

@@ -12,8 +12,6 @@
 namespace dss {
 namespace {
 
-std::size_t number_bytes(Precision precision) { return precision == Precision::f64 ? sizeof(double) : sizeof(float); }
-
 /// Weights of the first shares.
 std::vector<double> first_weights(const std::vector<Participant>& participants) {
   std::vector<double> weights;

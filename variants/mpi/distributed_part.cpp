@@ -23,17 +23,16 @@ DistributedPart::DistributedPart(const Setup& setup, const Plugin& plugin, const
   if (executor_->halo_copies() == 0 && world.ranks() > 1)
     throw InputError(
         fmt::format("variant mpi:{}: {} does not compute parts; give one that does", plugin.name, plugin.name));
-  const std::size_t number_bytes = setup.precision == Precision::f64 ? sizeof(double) : sizeof(float);
+  const std::size_t bytes = number_bytes(setup.precision);
   const auto lanes = world.gather(executor_->halo_lanes());
   const bool is_mixed = std::ranges::any_of(lanes, [&](double other) { return other != lanes.front(); });
   const std::vector<MessageOrder> orders =
-      is_mixed ? neighbours_orders(number_bytes, world.comm()) : std::vector<MessageOrder>{};
+      is_mixed ? neighbours_orders(bytes, world.comm()) : std::vector<MessageOrder>{};
   exchange_->attach(executor_->halo_copies(), [&](const Face& face, Way way, int copy) {
     const Neighbour& neighbour = part_.neighbours[face.number];
     HaloLayout layout = executor_->halo_layout(way == Way::out ? neighbour.send : neighbour.receive, copy);
     if (!is_mixed || way == Way::out) return layout;
-    return reordered(layout, message_order(*executor_, neighbour.receive, copy, number_bytes), orders[face.number],
-                     number_bytes);
+    return reordered(layout, message_order(*executor_, neighbour.receive, copy, bytes), orders[face.number], bytes);
   });
 }
 

@@ -3,6 +3,7 @@
 #include "variants/opencl/device_problem.hpp"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
