@@ -4,6 +4,7 @@
 #include "kernels/compiled_kernel.hpp"
 #include "solver/model/model.hpp"
 #include "solver/model/problem.hpp"
+#include "solver/model/rotation.hpp"
 #include "solver/numerics/method.hpp"
 #include "variants/device.hpp"
 #include "variants/distribution.hpp"
@@ -30,6 +31,7 @@ struct Setup {
   const Distribution* distribution = nullptr; ///< for distributed variants, which take the default without
   std::string device{};                       ///< of a variant on devices: see DeviceEntry; empty: its first
   std::string members{};                      ///< of a hybrid: see parse_members; empty: its own choice, not questioned
+  Rotation rotation = Rotation::quaternion;   ///< others than quaternions: of plug-ins that say has_all
 };
 
 /// Result of advance(): finite, or where the state first was not.
@@ -102,9 +104,10 @@ struct Plugin {
   std::string (*why_unusable)() = nullptr; ///< null, or empty if it can run here, else why not: "no OpenCL platform"
   std::vector<DeviceEntry> (*devices)() = nullptr; ///< null, or the devices that it can use, and those that it cannot
   DeviceCeilings (*ceilings)(const std::string& device) = nullptr; ///< null, or measures a device named as for --device
+  bool has_all = false; ///< implicit methods and every Rotation too; others have the explicit methods, and quaternions
 };
 
-constexpr int plugin_abi = 4;
+constexpr int plugin_abi = 5;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

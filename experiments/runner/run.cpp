@@ -83,7 +83,7 @@ private:
     const auto start = Clock::now();
     auto executor =
         plan_.plugin->create({problem_, *plan_.method, plan_.model, plan_.precision, plan_.dt, request.threads, nullptr,
-                              &plan_.distribution, request.device, request.hybrid});
+                              &plan_.distribution, request.device, request.hybrid, plan_.rotation});
     result_.first_step_s = seconds_since(start);
     return executor;
   }
@@ -212,6 +212,7 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
   result.model = name(plan.model);
   result.precision = name(plan.precision);
   result.integrator = plan.method->name;
+  result.rotation = name(plan.rotation);
   result.threads = request.threads;
   result.elements = plan.scene.problem.lattice.element_count;
   result.links = plan.scene.problem.link_count();

@@ -24,7 +24,7 @@ struct RunRequest {
   std::string decomposition = "strips", halo = "auto", shares = "equal"; ///< see Distribution
   std::string device; ///< of a variant on devices, see choose_device; empty: its first
   std::string hybrid; ///< members, see parse_members, or "auto"; empty: no hybrid
-  std::optional<std::string> model, precision, integrator;
+  std::optional<std::string> model, precision, integrator, rotation;
   std::optional<double> dt; ///< [s]
   std::optional<long> steps;
   bool is_root = true;     ///< of several ranks all do the same, and one writes
@@ -50,7 +50,7 @@ struct CheckResult {
 };
 
 struct RunResult {
-  std::string scene, variant, isa, model, precision, integrator, schedule;
+  std::string scene, variant, isa, model, precision, integrator, rotation, schedule;
   bool has_fma = false; ///< its bits are those of every other variant that has FMA
   int threads = 1;
   int workers = 1; ///< threads that compute, on all ranks: fewer than `threads` each where the scene has too few rows

@@ -125,7 +125,9 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       ->group("Ranks");
   command->add_option("--model", request.model, "spatial or planar (default: the scene's)");
   command->add_option("--precision", request.precision, "f64 or f32 (default: f64)");
-  command->add_option("--integrator", request.integrator, "rk4 or velocity_verlet (default: the scene's)");
+  command->add_option("--integrator", request.integrator, method_names() + " (default: the scene's)");
+  command->add_option("--rotation", request.rotation,
+                      "quaternion (default); of the variant reference also tait_bryan, tait_bryan_raw, linearised");
   command->add_option("--dt", request.dt, "Time step [s] (default: the scene's)");
   command->add_option("--steps", request.steps, "Number of steps (default: the scene's)");
   command->add_flag("--force", request.is_forced, "Run above the predicted stability limit");

@@ -23,6 +23,24 @@ Precision chosen_precision(const std::string& name) {
   throw InputError(fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32"})));
 }
 
+Rotation chosen_rotation(const std::string& text) {
+  if (const auto rotation = find_rotation(text)) return *rotation;
+  std::vector<std::string> known;
+  for (const Rotation rotation : rotations) known.emplace_back(name(rotation));
+  throw InputError(fmt::format("--rotation {}: unknown rotation; {}", text, nearest_name(text, known)));
+}
+
+/// What only the reference has.
+void require_variant_has(const RunPlan& plan) {
+  if (plan.plugin->has_all) return;
+  if (plan.method->is_implicit())
+    throw InputError(fmt::format("--integrator {}: variant {} has the explicit methods alone; give --variant reference",
+                                 plan.method->name, plan.plugin->name));
+  if (plan.rotation != Rotation::quaternion)
+    throw InputError(fmt::format("--rotation {}: variant {} has quaternions alone; give --variant reference",
+                                 name(plan.rotation), plan.plugin->name));
+}
+
 /// The variant of the process, and that of parts on ranks.
 VariantName asked_variant(const RunRequest& request) {
   if (request.hybrid.empty()) return parse_variant(request.variant, request.ranks);
@@ -117,8 +135,16 @@ OracleState expected_state(const RunRequest& request, const RunPlan& plan) {
 const Method& require_method(const std::string& name) {
   if (const Method* method = find_method(name)) return *method;
   std::vector<std::string> known;
-  for (const Method& method : methods()) known.emplace_back(method.name);
+  for (const auto* all : {&methods(), &implicit_methods()})
+    for (const Method& method : *all) known.emplace_back(method.name);
   throw InputError(fmt::format("--integrator {}: unknown integrator; {}", name, nearest_name(name, known)));
+}
+
+std::string method_names() {
+  std::string names;
+  for (const auto* all : {&methods(), &implicit_methods()})
+    for (const Method& method : *all) names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
+  return names;
 }
 
 double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced) {
@@ -143,10 +169,12 @@ RunPlan plan_run(const RunRequest& request) {
   plan.model = chosen_model(request.model.value_or(plan.scene.model));
   plan.precision = chosen_precision(request.precision.value_or("f64"));
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
+  plan.rotation = chosen_rotation(request.rotation.value_or("quaternion"));
   plan.dt = request.dt.value_or(problem.dt);
   plan.steps = request.steps.value_or(problem.steps);
   plan.tail_steps = request.check_tail;
   require_devices(request, plan);
+  require_variant_has(plan);
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
     throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));

@@ -15,6 +15,7 @@ struct RunPlan {
   const Method* method = nullptr;
   Model model = Model::spatial;
   Precision precision = Precision::f64;
+  Rotation rotation = Rotation::quaternion;
   double dt = 0;
   long steps = 0;
   long tail_steps = 0; ///< over which the end of a longer run is compared with the oracle
@@ -32,6 +33,8 @@ RunPlan plan_run(const RunRequest& request);
 
 /// Method by its name. @throws InputError for an unknown one, naming the nearest
 const Method& require_method(const std::string& name);
+/// Names of all methods, for the help.
+std::string method_names();
 
 /// @throws UnstableError if dt exceeds the predicted limit; both numbers are in the message. @return the limit [s]
 double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced);

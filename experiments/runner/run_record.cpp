@@ -53,6 +53,7 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["model"] = result.model;
   json["precision"] = result.precision;
   json["integrator"] = result.integrator;
+  json["rotation"] = result.rotation;
   json["threads"] = result.threads;
   json["workers"] = result.workers;
   json["ranks"] = result.ranks.ranks;

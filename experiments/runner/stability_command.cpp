@@ -32,7 +32,7 @@ void add_stability_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("stability", "Predict the largest stable step of a scene");
   const auto arguments = std::make_shared<StabilityArguments>();
   command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")->required();
-  command->add_option("--integrator", arguments->integrator, "rk4 or velocity_verlet (default: the scene's)");
+  command->add_option("--integrator", arguments->integrator, method_names() + " (default: the scene's)");
   command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
       ->allow_extra_args(false);
   command->footer("Example: dssbench stability plate_paper --set n=50 --integrator velocity_verlet");

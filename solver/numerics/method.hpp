@@ -1,13 +1,12 @@
 #pragma once
 /// Time integration methods as data. One engine runs them all (variants/engine), the oracle runs them in classical
 /// form.
-#include <array>
 #include <string_view>
 #include <vector>
 
 namespace dss {
 
-/// An explicit one-step method with `stages` force evaluations a step.
+/// A one-step method with `stages` force evaluations a step (of implicit_midpoint: in each iteration).
 ///
 /// Family runge_kutta, in increment form: Y_0 = y_n and, for s = 0 .. stages - 1,
 ///     Y_{s+1} = y_n + sum_{m=1..s} alpha[s][m] (Y_m - y_n) + h beta[s] f(t_n + node[s] h, Y_s),   y_{n+1} = Y_stages.
@@ -17,23 +16,33 @@ namespace dss {
 ///     v_{n+1/2} = v_{n-1/2} + h a(x_n, p_n),  x_{n+1} = x_n + h v_{n+1/2},  p_{n+1} = v_{n+1/2} + (h/2) a(x_n, p_n)
 /// where p_n predicts v_n for velocity-dependent terms (damping, gyroscopic), started by v_{-1/2} = v_0 - (h/2) a_0,
 /// p_0 = v_0, and read as v_n = v_{n-1/2} + (h/2) a(x_n, p_n). Rotations move by the Cayley map, which keeps |q| = 1.
+///
+/// Family symplectic_euler: v_{n+1} = v_n + h a(x_n, v_n),  x_{n+1} = x_n + h v_{n+1}, with the same Cayley map.
+///
+/// Family implicit_midpoint: y_{n+1} = y_n + h f(t_n + h/2, (y_n + y_{n+1}) / 2).
 struct Method {
-  static constexpr int max_stages = 4;
-  enum class Family { runge_kutta, leapfrog };
+  enum class Family { runge_kutta, leapfrog, symplectic_euler, implicit_midpoint };
   std::string_view name;
   Family family;
   int order;
   int stages;
-  std::array<double, max_stages> node;
-  std::array<double, max_stages> beta;
-  std::array<std::array<double, max_stages>, max_stages> alpha;
-  double imaginary_limit; ///< largest stable h |lambda| on the imaginary axis (undamped)
-  double real_limit;      ///< largest stable h |lambda| on the negative real axis (0: none by itself)
-  std::string_view note;  ///< what a user must know
+  std::vector<double> node;               ///< stages
+  std::vector<double> beta;               ///< stages
+  std::vector<std::vector<double>> alpha; ///< stages rows, row s of s + 1 numbers of which the first means nothing
+  double imaginary_limit;    ///< largest stable h |lambda| on the imaginary axis (undamped); infinite for implicit ones
+  double real_limit;         ///< largest stable h |lambda| on the negative real axis
+  bool is_symplectic;        ///< its steps of an undamped problem are a symplectic map
+  bool keeps_energy_bounded; ///< the energy of an undamped problem has no trend, however many steps
+  std::string_view note;     ///< what a user must know
+
+  bool is_implicit() const { return family == Family::implicit_midpoint; }
 };
 
-/// All methods; find_method returns nullptr for an unknown name.
+/// All explicit methods: every variant has them.
 const std::vector<Method>& methods();
+/// Methods that solve equations in every step: of the variant `reference` alone.
+const std::vector<Method>& implicit_methods();
+/// Of either kind; nullptr for an unknown name.
 const Method* find_method(std::string_view name);
 
 } // namespace dss

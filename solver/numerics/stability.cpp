@@ -10,13 +10,14 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <vector>
 
 namespace dss {
 namespace {
 
 /// |R(z)| of a Runge-Kutta method: its own table run on y' = z y from y = 1 with h = 1.
 double growth(const Method& method, std::complex<double> z) {
-  std::array<std::complex<double>, Method::max_stages + 1> y;
+  std::vector<std::complex<double>> y(std::size_t(method.stages) + 1);
   y[0] = 1;
   for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
     y[s + 1] = 1.0 + z * method.beta[s] * y[s];

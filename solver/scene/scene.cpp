@@ -64,7 +64,8 @@ void read_run(const Node& node, Scene& scene) {
   scene.problem.dt = run.require("dt").positive();
   scene.problem.steps = run.require("steps").whole(1, max_steps);
   std::vector<std::string> method_names;
-  for (const Method& method : methods()) method_names.emplace_back(method.name);
+  for (const auto* all : {&methods(), &implicit_methods()})
+    for (const Method& method : *all) method_names.emplace_back(method.name);
   const auto integrator = run.find("integrator"), model = run.find("model");
   scene.integrator = integrator ? method_names[integrator->choice("integrator", method_names)] : "rk4";
   scene.problem.integrator = scene.integrator;

@@ -6,15 +6,16 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <vector>
 
 namespace dss {
 namespace {
 
 /// The Butcher table that a Runge-Kutta method's increment form amounts to; row `stages` holds the weights.
-using Table = std::array<std::array<double, Method::max_stages>, Method::max_stages + 1>;
+using Table = std::vector<std::vector<double>>;
 
 Table butcher_table(const Method& method) {
-  Table w{};
+  Table w(std::size_t(method.stages) + 1, std::vector<double>(std::size_t(method.stages)));
   for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
     for (std::size_t m = 1; m <= s; ++m)
       for (std::size_t j = 0; j < m; ++j) w[s + 1][j] += method.alpha[s][m] * w[m][j];

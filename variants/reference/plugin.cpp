@@ -42,7 +42,15 @@ std::unique_ptr<Executor> create(const Setup& setup) {
   return std::make_unique<ReferenceExecutor<double>>(setup);
 }
 
-constexpr Plugin plugin = {plugin_abi, DSS_VARIANT, DSS_ISA, false, false, false, create, nullptr};
+constexpr Plugin plugin = {.abi = plugin_abi,
+                           .name = DSS_VARIANT,
+                           .isa = DSS_ISA,
+                           .has_fma = false,
+                           .is_threaded = false,
+                           .is_distributed = false,
+                           .create = create,
+                           .kernels = nullptr,
+                           .has_all = true};
 
 } // namespace
 } // namespace dss
