@@ -132,9 +132,14 @@ static inline rotor rotor_spun(rotor q, spin w) {
   rotor r = {-(w.z * q.z), w.z * q0};
   return r;
 }
-static inline rotor rotor_cayley(rotor q, spin b) {
+static inline rotor rotor_cayley_change(rotor q, spin b) {
   REAL q0 = q.s + SPLAT(1), n2 = spin_norm2(b), c = SPLAT(2) / (SPLAT(1) + n2), ds = -(c * n2), d = c * b.z;
-  rotor r = {q.s + FMA(ds, q0, -(d * q.z)), q.z + FMA(ds, q.z, d * q0)};
+  rotor r = {FMA(ds, q0, -(d * q.z)), FMA(ds, q.z, d * q0)};
+  return r;
+}
+static inline rotor rotor_cayley(rotor q, spin b) {
+  rotor d = rotor_cayley_change(q, b);
+  rotor r = {q.s + d.s, q.z + d.z};
   return r;
 }
 

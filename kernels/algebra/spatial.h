@@ -139,14 +139,18 @@ static inline rotor rotor_spun(rotor q, spin w) {
   return r;
 }
 /* dq q with dq = (1 - |b|^2, 2 b) / (1 + |b|^2): the Cayley map of the spin 4 b, a rotation by 4 atan |b| that keeps
- * |q| = 1 */
-static inline rotor rotor_cayley(rotor q, spin b) {
+ * |q| = 1; and what it changes of q */
+static inline rotor rotor_cayley_change(rotor q, spin b) {
   REAL q0 = q.s + SPLAT(1), n2 = spin_norm2(b), c = SPLAT(2) / (SPLAT(1) + n2), ds = -(c * n2);
   spin d = spin_scale(c, b);
-  rotor r = {q.s + FMA(ds, q0, -FMA(d.x, q.x, FMA(d.y, q.y, d.z * q.z))),
-             q.x + FMA(ds, q.x, FMA(d.x, q0, FMA(d.y, q.z, -(d.z * q.y)))),
-             q.y + FMA(ds, q.y, FMA(d.y, q0, FMA(d.z, q.x, -(d.x * q.z)))),
-             q.z + FMA(ds, q.z, FMA(d.z, q0, FMA(d.x, q.y, -(d.y * q.x))))};
+  rotor r = {
+      FMA(ds, q0, -FMA(d.x, q.x, FMA(d.y, q.y, d.z * q.z))), FMA(ds, q.x, FMA(d.x, q0, FMA(d.y, q.z, -(d.z * q.y)))),
+      FMA(ds, q.y, FMA(d.y, q0, FMA(d.z, q.x, -(d.x * q.z)))), FMA(ds, q.z, FMA(d.z, q0, FMA(d.x, q.y, -(d.y * q.x))))};
+  return r;
+}
+static inline rotor rotor_cayley(rotor q, spin b) {
+  rotor d = rotor_cayley_change(q, b);
+  rotor r = {q.s + d.s, q.x + d.x, q.y + d.y, q.z + d.z};
   return r;
 }
 

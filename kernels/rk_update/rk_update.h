@@ -33,3 +33,15 @@ static inline leap leapfrog(vec u, rotor q, vec v_half, spin w_half, vec a, spin
   r.w_next = spin_axpy(SPLAT(0.5) * h, alpha, r.w_half);
   return r;
 }
+
+/* Compensated sums (f32c): a state y with a low part, which together stand for y + low; |low| is half a unit in y's last place or less.
+ * An increment D_m = Y_m - y is kept as it was computed, never as a difference of rounded states:
+ *   D = beta f + sum alpha_m D_m,   Y = y + (low + D),   and the step's own D makes the next y and low.
+ * kept_first and kept_later are t = (beta / alpha_1) f + D_1 + sum (alpha_m / alpha_1) D_m, term by term; D = alpha_1 t. */
+static inline REAL kept_first(REAL d, REAL beta, REAL rate) { return FMA(beta, rate, d); }
+static inline REAL kept_later(REAL ratio, REAL d, REAL t) { return FMA(ratio, d, t); }
+/* What is lost in sum = y + s, exactly (Knuth, The Art of Computer Programming 2, 4.2.2, theorem B). */
+static inline REAL lost_of_sum(REAL y, REAL s, REAL sum) {
+  REAL t = sum - y;
+  return (y - (sum - t)) + (s - t);
+}

@@ -1,5 +1,5 @@
 #pragma once
-/// What a stage does with the force and the turn of a pack (kernels/motion/motion.h): the two families of methods. Passed to
+/// What a stage does with the force and the turn of a pack (kernels/motion/motion.h), for every family of methods. Passed to
 /// StageRow::run; turn_scale: w' over turn.
 #include "kernels/physics.hpp"
 #include "kernels/stage_row/row.hpp"
@@ -18,92 +18,191 @@ struct FiniteCheck {
   bool passed() const { return simd::is_zero(sum); }
 };
 
-/// out = base + sum alpha_m (increment_m - base) + beta f(in), as rk_update.h computes it, with three increments or none (a task with
-/// fewer repeats one with the ratio 0). Only a last stage, which has increments in every method, looks for non-finite velocities.
-template <class P, class T, bool has_increments>
-struct RungeKuttaUpdate {
+inline constexpr int any_action = -1;
+
+/// The action of a task on one pack after the other, as rk_update.h computes it. W: numbers from a component of a pack to the next.
+/// fixed_action: the one action of all tasks, which saves a branch a pack; or any.
+template <class P, class T, int W = simd::lanes<T>, int fixed_action = any_action>
+class RowUpdate {
+public:
   using R = typename P::real;
-  static constexpr int W = simd::lanes<T>;
-  const T *const base, *const increment[3];
-  T* const out;
-  const R alpha[3], beta_u, beta_v, beta_q, beta_w;
+  using vec = typename P::vec;
+  using spin = typename P::spin;
+  using rotor = typename P::rotor;
+  using element = typename P::element;
+
+  explicit RowUpdate(const RowTask<T>& task, T scale_of_turn)
+      : task_(task), action_(fixed_action == any_action ? task.action : row_action(fixed_action)),
+        is_last_(task.is_last), base_(task.base), increment_{task.increment[0], task.increment[1], task.increment[2]},
+        out_(task.out), low_(task.low), alpha_{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])},
+        beta_u_(task.beta), beta_v_(task.beta * task.body->inverse_mass), beta_q_(task.beta * T(0.5)),
+        beta_w_(task.beta * scale_of_turn), inverse_mass_(task.body->inverse_mass), turn_scale_(scale_of_turn) {}
+
+  void operator()(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
+    switch (fixed_action == any_action ? action_ : row_action(fixed_action)) {
+    case combined_stage:
+      return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
+        return P::rk_combined(load(base_ + n), beta, rate, load(increment_[0] + n), load(increment_[1] + n),
+                              load(increment_[2] + n), alpha_[0], alpha_[1], alpha_[2]);
+      });
+    case wide_stage:
+      return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return wide(n, beta, rate); });
+    case leapfrog_step:
+      return leapfrog(at, e, e.v, e.w, force, turn, false);
+    case predicted_step: {
+      auto [v_half, w_half] = half_velocities(at);
+      return leapfrog(at, e, v_half, w_half, force, turn, true);
+    }
+    case kept_stage:
+    case kept_step:
+      if constexpr (is_compensated)
+        return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return kept(n, beta, rate); });
+      return;
+    case kept_leapfrog:
+    case kept_predicted:
+      if constexpr (is_compensated) kept_in_place(at, e, force, turn);
+      return;
+    default:
+      return runge_kutta(at, e, force, turn,
+                         [&](std::ptrdiff_t n, R beta, R rate) { return P::rk_first(load(base_ + n), beta, rate); });
+    }
+  }
   FiniteCheck<R, T> check{};
 
-  explicit RungeKuttaUpdate(const RowTask<T>& task, T turn_scale)
-      : base(task.base), increment{task.increment[0], task.increment[1], task.increment[2]},
-        out(task.out), alpha{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, beta_u(task.beta),
-        beta_v(task.beta * task.body->inverse_mass), beta_q(task.beta * T(0.5)), beta_w(task.beta * turn_scale) {}
-
-  /// Rates in, the next stage's fields out.
+private:
+  static constexpr bool is_compensated = sizeof(T) <= sizeof(float); ///< double precision needs no low parts
+  static R load(const T* p) { return simd::load(p); }
   template <class Tuple>
-  Tuple store_next(std::ptrdiff_t& at, R beta, Tuple rates) {
-    each_component(rates, [&](R& k) {
-      const R y = simd::load(base + at);
-      if constexpr (has_increments) {
-        k = P::rk_combined(y, beta, k, simd::load(increment[0] + at), simd::load(increment[1] + at),
-                           simd::load(increment[2] + at), alpha[0], alpha[1], alpha[2]);
-      } else {
-        k = P::rk_first(y, beta, k);
-      }
-      simd::store(out + at, k);
-      at += W;
-    });
-    return rates;
+  static Tuple load_all(const T*& p) {
+    Tuple t;
+    each_component(t, [&](R& c) { c = load(p), p += W; });
+    return t;
   }
-  void operator()(std::ptrdiff_t at, const typename P::element& e, const typename P::vec& force,
-                  const typename P::spin& turn) {
-    store_next(at, beta_u, e.v);
-    const auto v = store_next(at, beta_v, force);
-    store_next(at, beta_q, P::rotor_spun(e.q, e.w));
-    const auto w = store_next(at, beta_w, turn);
-    if constexpr (has_increments) check.add(v), check.add(w);
-  }
-};
-
-/// One leapfrog step in place. With velocity-dependent forces the fields v and w of a row hold the prediction p that
-/// the links see, and the half-step velocities follow the 13 (7) fields of the pack; without them v and w are the
-/// half-step velocities themselves.
-template <class P, class T, bool is_predicted>
-struct LeapfrogUpdate {
-  using R = typename P::real;
-  static constexpr int W = simd::lanes<T>;
-  const T* const half_velocities;
-  T* const out;
-  const R h, inverse_mass, turn_scale;
-  FiniteCheck<R, T> check{};
-
-  explicit LeapfrogUpdate(const RowTask<T>& task, T scale_of_turn)
-      : half_velocities(task.base + P::fields * W), out(task.out), h(task.beta), inverse_mass(task.body->inverse_mass),
-        turn_scale(scale_of_turn) {}
-
   template <class Tuple>
   static void store_all(T*& p, Tuple t) {
     each_component(t, [&](R& c) { simd::store(p, c), p += W; });
   }
-  void operator()(std::ptrdiff_t place, const typename P::element& e, const typename P::vec& force,
-                  const typename P::spin& turn) {
-    T* p = out + place;
-    auto v_half = e.v;
-    auto w_half = e.w;
-    if constexpr (is_predicted) {
-      const T* half = half_velocities + place;
-      const auto load = [&](R& c) { c = simd::load(half), half += W; };
-      each_component(v_half, load);
-      each_component(w_half, load);
+
+  /// next(place, beta, rate) gives what a component becomes.
+  template <class Next>
+  void runge_kutta(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn, Next&& next) {
+    const auto each = [&](R beta, auto rates) {
+      each_component(rates, [&](R& k) {
+        k = next(at, beta, k);
+        simd::store(out_ + at, k);
+        at += W;
+      });
+      return rates;
+    };
+    each(beta_u_, e.v);
+    const vec v = each(beta_v_, force);
+    each(beta_q_, P::rotor_spun(e.q, e.w));
+    const spin w = each(beta_w_, turn);
+    if (is_last_) check.add(v), check.add(w);
+  }
+
+  R wide(std::ptrdiff_t at, R beta, R rate) const {
+    const R y = load(base_ + at);
+    R t = P::rk_first(load(task_.increment[0] + at) - y, beta, rate);
+    for (int m = 1; m < task_.increments; ++m)
+      t = P::rk_increment(R(task_.alpha[m]), load(task_.increment[m] + at), y, t);
+    return P::rk_finish(alpha_[0], t, y);
+  }
+
+  R kept(std::ptrdiff_t at, R beta, R rate) const {
+    R d = beta * rate;
+    if (task_.increments > 0) {
+      d = P::kept_first(load(task_.increment[0] + low_ + at), beta, rate);
+      for (int m = 1; m < task_.increments; ++m)
+        d = P::kept_later(R(task_.alpha[m]), load(task_.increment[m] + low_ + at), d);
+      d = alpha_[0] * d;
     }
-    const auto next =
-        P::leapfrog(e.u, e.q, v_half, w_half, P::vec_scale(inverse_mass, force), P::spin_scale(turn_scale, turn), h);
+    const R y = load(base_ + at), s = load(base_ + low_ + at) + d, sum = y + s;
+    simd::store(out_ + low_ + at, action_ == kept_step ? P::lost_of_sum(y, s, sum) : d);
+    return sum;
+  }
+
+  struct Velocities {
+    vec v;
+    spin w;
+  };
+  Velocities half_velocities(std::ptrdiff_t at) const {
+    const T* p = base_ + at + P::fields * W;
+    Velocities half;
+    half.v = load_all<vec>(p);
+    half.w = load_all<spin>(p);
+    return half;
+  }
+
+  /// One step in place. With velocity-dependent forces the fields v and w of a row hold the prediction p that the links
+  /// see, and the half-step velocities follow the 13 (7) fields of the pack; without them v and w are the velocities themselves.
+  void leapfrog(std::ptrdiff_t at, const element& e, const vec& v_half, const spin& w_half, const vec& force,
+                const spin& turn, bool is_predicted) {
+    T* p = out_ + at;
+    const auto next = P::leapfrog(e.u, e.q, v_half, w_half, P::vec_scale(inverse_mass_, force),
+                                  P::spin_scale(turn_scale_, turn), beta_u_);
     store_all(p, next.u);
     store_all(p, is_predicted ? next.v_next : next.v_half);
     store_all(p, next.q);
     store_all(p, is_predicted ? next.w_next : next.w_half);
-    if constexpr (is_predicted) {
+    if (is_predicted) {
       store_all(p, next.v_half);
       store_all(p, next.w_half);
     }
     check.add(next.v_half);
     check.add(next.w_half);
   }
+
+  /// Sums y + (low + d), and their low parts, component by component.
+  template <class Tuple>
+  struct Sum {
+    Tuple value, low;
+    Sum(const Tuple& y, const Tuple& y_low, const Tuple& d) {
+      const Tuple s = each_pair(y_low, d, [](const R& a, const R& b) { return a + b; });
+      value = each_pair(y, s, [](const R& a, const R& b) { return a + b; });
+      low = each_pair(y, s, [](const R& a, const R& b) { return P::lost_of_sum(a, b, a + b); });
+    }
+  };
+  /// The same with low parts of u, velocities, q and spins behind all else, in the order of the fields.
+  void kept_in_place(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
+    const bool is_predicted = action_ == kept_predicted;
+    const Velocities half = is_predicted ? half_velocities(at) : Velocities{e.v, e.w};
+    const T* from = base_ + low_ + at;
+    const vec u_low = load_all<vec>(from), v_low = load_all<vec>(from);
+    const rotor q_low = load_all<rotor>(from);
+    const spin w_low = load_all<spin>(from);
+    const R h = beta_u_, half_h = R(T(0.5)) * h;
+    const vec a = P::vec_scale(inverse_mass_, force);
+    const spin alpha = P::spin_scale(turn_scale_, turn);
+    const Sum<vec> v(half.v, v_low, P::vec_scale(h, a));
+    const Sum<spin> w(half.w, w_low, P::spin_scale(h, alpha));
+    const Sum<vec> u(e.u, u_low, P::vec_scale(h, v.value));
+    const Sum<rotor> q(e.q, q_low, P::rotor_cayley_change(e.q, P::spin_scale(R(T(0.25)) * h, w.value)));
+    T* p = out_ + at;
+    store_all(p, u.value);
+    store_all(p, is_predicted ? P::vec_axpy(half_h, a, v.value) : v.value);
+    store_all(p, q.value);
+    store_all(p, is_predicted ? P::spin_axpy(half_h, alpha, w.value) : w.value);
+    if (is_predicted) {
+      store_all(p, v.value);
+      store_all(p, w.value);
+    }
+    T* low = out_ + low_ + at;
+    store_all(low, u.low);
+    store_all(low, v.low);
+    store_all(low, q.low);
+    store_all(low, w.low);
+    check.add(v.value);
+    check.add(w.value);
+  }
+
+  const RowTask<T>& task_;
+  const row_action action_;
+  const bool is_last_;
+  const T *const base_, *const increment_[3];
+  T* const out_;
+  const std::ptrdiff_t low_;
+  const R alpha_[3], beta_u_, beta_v_, beta_q_, beta_w_, inverse_mass_, turn_scale_;
 };
 
 } // namespace dss

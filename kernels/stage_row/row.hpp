@@ -4,6 +4,8 @@
 
 namespace dss {
 
+#include "kernels/stage_row/row_action.h"
+
 /// Which lanes of a pack have a link across each face; `below` looks to the lower neighbour row, `link` to the upper
 /// one.
 struct PackMasks {
@@ -36,7 +38,12 @@ struct Applied {
 /// One stage of one row. Pointers start at the row's first pack; neighbours are already aligned with it.
 template <class T>
 struct RowTask {
+  static constexpr int most_increments = 6;
+  row_action action = plain_stage;
+  bool is_last = false; ///< of a step: its velocities are looked at
   int packs = 0;
+  int stride = 0; ///< numbers from pack to pack of all rows but carries
+  int low = 0;    ///< compensated: from a number to its low part, or to its increment
   const PackMasks* masks = nullptr;
   const BodyConstants<T>* body = nullptr;
   const Applied<T>* applied = nullptr; ///< null for most rows
@@ -45,15 +52,15 @@ struct RowTask {
   const T *upper_y = nullptr, *upper_z = nullptr;
   T *carry_y = nullptr, *carry_z = nullptr;     ///< link forces and couples for the upper rows
   const T *from_y = nullptr, *from_z = nullptr; ///< those that the lower rows left; may be the same places
-  // No increments: out = base + beta f(in). With: out = base + alpha_0 [beta f(in) + (increment_0 - base) + sum_{m > 0}
-  // alpha_m (increment_m - base)], so beta and the later alpha are ratios to alpha_0 (rk_update.h). Leapfrog: beta = h,
+  // plain_stage: out = base + beta f(in). With increments: out = base + alpha_0 [beta f(in) + (increment_0 - base) + sum_{m > 0}
+  // alpha_m (increment_m - base)], so beta and the later alpha are ratios to alpha_0 (rk_update.h). In place: beta = h,
   // in == base == out.
   const T* base = nullptr;
   T* out = nullptr;
   T beta = 0;
-  bool has_increments = false;
-  const T* increment[3] = {};
-  T alpha[3] = {};
+  int increments = 0;
+  const T* increment[most_increments] = {}; ///< behind the last of a combined stage the first again, with the ratio 0
+  T alpha[most_increments] = {};
 };
 
 } // namespace dss

@@ -11,9 +11,11 @@
 DSS_INLINE_BEGIN
 namespace dss {
 
-/// P: a model's physics over packs of T. terms: what is compiled in. stride: fields a pack of the rows holds, the
-/// model's or more.
-template <class P, class T, Terms terms, int stride = P::fields>
+inline constexpr int any_fields = 0;
+
+/// P: a model's physics over packs of T. terms: what is compiled in. fixed_fields: numbers of an element in a pack of any row; or
+/// any, as the task says.
+template <class P, class T, Terms terms, int fixed_fields = any_fields>
 struct StageRow {
   using R = typename P::real;
   using element = typename P::element;
@@ -112,7 +114,7 @@ struct StageRow {
   /// Links across y or z. `upper`: the upper row; `carry`, `from`: carry buffers; each may be null where no mask needs it.
   template <bool is_plain>
   void add_across(const prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper,
-                  T* carry, const T* from, int pack, wrench& sum) const {
+                  T* carry, const T* from, int pack, std::ptrdiff_t stride, wrench& sum) const {
     if (!is_plain && (above | below) == 0) return;
     typename P::face own;
     vec upper_face;
@@ -125,8 +127,7 @@ struct StageRow {
     }
     exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
-      up = P::link_across(i.e, upper_face, load_element(upper + std::ptrdiff_t(pack) * (stride * W)), axis, law(axis),
-                          flags);
+      up = P::link_across(i.e, upper_face, load_element(upper + std::ptrdiff_t(pack) * stride), axis, law(axis), flags);
       mask_links<is_plain>(above, up);
     }
     carried low{zero<vec>(), zero<spin>()};
@@ -189,13 +190,12 @@ struct StageRow {
   /// w' over turn (kernels/motion/motion.h). A scalar inertia is the same about every axis; the plane has one about z.
   T turn_scale() const { return terms.is_gyroscopic ? T(1) : body.inverse_inertia[2]; }
 
-  /// Only the links across `axis` from this row to the upper one, into the carry buffer. `fields` a pack of the rows
-  /// holds.
-  void prime(const int axis, int fields) const {
+  /// Only the links across `axis` from this row to the upper one, into the carry buffer.
+  void prime(const int axis) const {
     for (int pack = 0; pack < task.packs; ++pack) {
       const simd::LaneMask above = axis == 1 ? task.masks[pack].link_y : task.masks[pack].link_z;
       if (above == 0) continue;
-      const std::ptrdiff_t place = std::ptrdiff_t(pack) * (fields * W);
+      const std::ptrdiff_t place = std::ptrdiff_t(pack) * task.stride;
       const element i = load_element(task.in + place);
       const element j = load_element((axis == 1 ? task.upper_y : task.upper_z) + place);
       exchange up = P::link_across(i, P::upper_across(i, axis, law(axis), flags), j, axis, law(axis), flags);
@@ -217,6 +217,7 @@ struct StageRow {
     const int applied_first = task.applied != nullptr ? task.applied->first : 0;
     const int applied_packs = task.applied != nullptr ? task.applied->packs : 0;
     const int packs = task.packs;
+    const std::ptrdiff_t stride = fixed_fields != any_fields ? fixed_fields * W : task.stride;
     const bool is_accelerated = body.is_accelerated;
     const vec frame = splat<vec>(task.signals);
     const spin inertia = splat<spin>(body.inertia), inverse_inertia = splat<spin>(body.inverse_inertia);
@@ -225,14 +226,14 @@ struct StageRow {
     carried previous{zero<vec>(), zero<spin>()};
     const auto one_pack = [&]<bool is_plain>(const int pack, const bool is_applied, std::bool_constant<is_plain>) {
       const PackMasks& masks = all_masks[pack];
-      const std::ptrdiff_t place = std::ptrdiff_t(pack) * (stride * W);
+      const std::ptrdiff_t place = std::ptrdiff_t(pack) * stride;
       prepared i = next;
       i.e = load_element(in + place);
-      next = prepare(in + place + stride * W);
+      next = prepare(in + place + stride);
       wrench sum = links_x<is_plain>(i, next, masks.link_x, previous);
-      add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack, sum);
+      add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack, stride, sum);
       if constexpr (!is_planar)
-        add_across<false>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, sum);
+        add_across<false>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, stride, sum);
       sum = P::wrench_finished(sum, i, laws[0], tie, flags);
       if (is_applied) apply_wrenches(pack, sum);
       if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);

@@ -1,11 +1,38 @@
 #include "solver/numerics/method.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dss {
 namespace {
 
 // Made on first use: methods() may be asked for before the objects of this file are.
+
+/// The times at which stages are evaluated: what their increments of y' = 1 amount to.
+std::vector<double> nodes_of(const std::vector<std::vector<double>>& alpha, const std::vector<double>& beta) {
+  std::vector<double> node{0};
+  for (std::size_t s = 0; s + 1 < beta.size(); ++s) {
+    double sum = beta[s];
+    for (std::size_t m = 1; m <= s; ++m) sum += alpha[s][m] * node[m];
+    node.push_back(sum);
+  }
+  return node;
+}
+
+/// Increment form of a Butcher table whose row s gives Y_{s+1} - y = h sum_j rows[s][j] k_j, the last row y_{n+1} - y: k_m is taken
+/// from Y_{m+1}, from the last m on, so rows[s][s] must not be 0.
+void set_butcher(const std::vector<std::vector<double>>& rows, Method& method) {
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    std::vector<double> rest = rows[s], alpha(s + 1);
+    for (std::size_t m = s; m > 0; --m) {
+      alpha[m] = rest[m - 1] / rows[m - 1][m - 1];
+      for (std::size_t j = 0; j < m; ++j) rest[j] -= alpha[m] * rows[m - 1][j];
+    }
+    method.beta.push_back(rows[s][s]);
+    method.alpha.push_back(std::move(alpha));
+  }
+  method.node = nodes_of(method.alpha, method.beta);
+}
 
 /// Classical RK4 without a running sum (DESIGN.md section 3): y1 = y + h/2 k1, y2 = y + h/2 k2, y3 = y + h k3,
 /// y(n+1) = (y1 + 2 y2 + y3 - y)/3 + h/6 k4. Its limits are the roots of |R(z)| = 1, R(z) = 1 + z + z^2/2 + z^3/6 +
@@ -24,6 +51,61 @@ Method rk4() {
           .is_symplectic = false,
           .keeps_energy_bounded = false,
           .note = "classical fourth-order Runge-Kutta; four force evaluations a step"};
+}
+
+/// y1 = y + h/2 k1, y(n+1) = y + h k2.
+Method midpoint() {
+  return {.name = "midpoint",
+          .family = Method::Family::runge_kutta,
+          .order = 2,
+          .stages = 2,
+          .node = {0, 0.5},
+          .beta = {0.5, 1},
+          .alpha = {{0}, {0, 0}},
+          .imaginary_limit = 0,
+          .real_limit = 2,
+          .is_symplectic = false,
+          .keeps_energy_bounded = false,
+          .note = "two force evaluations a step; an undamped mode grows by (h omega)^4 / 8 a step, whatever the step"};
+}
+
+/// Dormand and Prince's method of order 5 (J. Comput. Appl. Math. 6 (1980) 19-26; Hairer, Norsett, Wanner I, table II.5.2).
+Method dopri5() {
+  Method method{.name = "dopri5",
+                .family = Method::Family::runge_kutta,
+                .order = 5,
+                .stages = 6,
+                .node = {},
+                .beta = {},
+                .alpha = {},
+                .imaginary_limit = 0.9971890106932,
+                .real_limit = 3.306567892634,
+                .is_symplectic = false,
+                .keeps_energy_bounded = false,
+                .note = "six force evaluations a step"};
+  set_butcher({{1. / 5},
+               {3. / 40, 9. / 40},
+               {44. / 45, -56. / 15, 32. / 9},
+               {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
+               {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
+               {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}},
+              method);
+  return method;
+}
+
+Method symplectic_euler() {
+  return {.name = "symplectic_euler",
+          .family = Method::Family::symplectic_euler,
+          .order = 1,
+          .stages = 1,
+          .node = {0},
+          .beta = {1},
+          .alpha = {{0}},
+          .imaginary_limit = 2,
+          .real_limit = 2,
+          .is_symplectic = true,
+          .keeps_energy_bounded = true,
+          .note = "one force evaluation a step, no memory of its own; first order, yet its energy stays bounded"};
 }
 
 Method velocity_verlet() {
@@ -45,8 +127,54 @@ Method velocity_verlet() {
 
 } // namespace
 
+// With w0 = 1 + epsilon / s^2, w1 = T_s'(w0) / T_s''(w0), b_j = T_j''(w0) / T_j'(w0)^2, a_j = 1 - b_j T_j(w0):
+//   Y_j = (1 - mu - nu) y + mu Y_{j-1} + nu Y_{j-2} + mu~ h F_{j-1} + gamma~ h F_0, and h F_0 = (Y_1 - y) / mu~_1.
+Method rkc2(int stages) {
+  constexpr double epsilon = 2.0 / 13;
+  const auto s = std::size_t(stages);
+  const double w0 = 1 + epsilon / double(s * s);
+  std::vector<double> t{1, w0}, d{0, 1}, dd{0, 0}; // Chebyshev polynomials and their derivatives at w0
+  for (std::size_t j = 2; j <= s; ++j) {
+    t.push_back(2 * w0 * t[j - 1] - t[j - 2]);
+    d.push_back(2 * t[j - 1] + 2 * w0 * d[j - 1] - d[j - 2]);
+    dd.push_back(4 * d[j - 1] + 2 * w0 * dd[j - 1] - dd[j - 2]);
+  }
+  const double w1 = d[s] / dd[s];
+  const auto b = [&](std::size_t j) {
+    return dd[std::max<std::size_t>(j, 2)] / (d[std::max<std::size_t>(j, 2)] * d[std::max<std::size_t>(j, 2)]);
+  };
+  // R(-x) = 1 - b_s T_s(w0) + b_s T_s(w0 - w1 x) reaches 1 for even s, and -1 for odd s, where the argument is -at_limit.
+  const double at_limit = s % 2 == 0 ? w0 : std::cosh(std::acosh(2 / b(s) - t[s]) / double(s));
+  Method method{.name = "rkc2",
+                .family = Method::Family::runge_kutta,
+                .order = 2,
+                .stages = stages,
+                .node = {},
+                .beta = {b(1) * w1},
+                .alpha = {{0}},
+                .imaginary_limit = 0,
+                .real_limit = (w0 + at_limit) / w1,
+                .is_symplectic = false,
+                .keeps_energy_bounded = false,
+                .note = "Runge-Kutta-Chebyshev for strong damping: as many force evaluations a step as that needs; its "
+                        "limit grows with "
+                        "their square"};
+  for (std::size_t j = 2; j <= s; ++j) {
+    const double mu = 2 * b(j) * w0 / b(j - 1), nu = -b(j) / b(j - 2), mu_tilde = 2 * b(j) * w1 / b(j - 1);
+    const double gamma_tilde = -(1 - b(j - 1) * t[j - 1]) * mu_tilde;
+    std::vector<double> alpha(j);
+    alpha[1] = gamma_tilde / method.beta[0];
+    alpha[j - 1] += mu;
+    if (j > 2) alpha[j - 2] += nu;
+    method.beta.push_back(mu_tilde);
+    method.alpha.push_back(std::move(alpha));
+  }
+  method.node = nodes_of(method.alpha, method.beta);
+  return method;
+}
+
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all = {rk4(), velocity_verlet()};
+  static const std::vector<Method> all = {rk4(), velocity_verlet(), midpoint(), symplectic_euler(), dopri5(), rkc2(5)};
   return all;
 }
 

@@ -36,9 +36,17 @@ struct Method {
   std::string_view note;     ///< what a user must know
 
   bool is_implicit() const { return family == Family::implicit_midpoint; }
+  /// Velocities live half a step before positions.
+  bool is_staggered() const { return family == Family::leapfrog; }
+  /// Explicit, of one stage, which updates velocities and then positions by them.
+  bool is_in_place() const { return family == Family::leapfrog || family == Family::symplectic_euler; }
 };
 
-/// All explicit methods: every variant has them.
+/// Runge-Kutta-Chebyshev of second order with 2 stages or more, for problems that damping makes stiff: its limit on the negative real axis
+/// is about 0.65 (s^2 - 1). B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998) 315-326, eq. (2.7), (2.8).
+Method rkc2(int stages);
+
+/// All explicit methods: every variant has them. Of rkc2 there is one with five stages.
 const std::vector<Method>& methods();
 /// Methods that solve equations in every step: of the variant `reference` alone.
 const std::vector<Method>& implicit_methods();

@@ -35,6 +35,11 @@ double spectral_radius(const Method& method, double omega, double rate) {
     step << 1 - stiffness, 1, -rate, -stiffness, 1, -rate, -1.5 * stiffness, 1, -1.5 * rate;
     return step.eigenvalues().cwiseAbs().maxCoeff();
   }
+  if (method.family == Method::Family::symplectic_euler) {
+    Eigen::Matrix2d step; // of (x, v): v_{n+1} = v + h a(x, v), x_{n+1} = x + h v_{n+1}
+    step << 1 - stiffness, 1 - rate, -stiffness, 1 - rate;
+    return step.eigenvalues().cwiseAbs().maxCoeff();
+  }
   const std::complex<double> root = std::sqrt(std::complex<double>(rate * rate / 4 - stiffness));
   return std::max(growth(method, -rate / 2 + root), growth(method, -rate / 2 - root));
 }
@@ -59,8 +64,9 @@ double worst_step_limit(const Method& method, double omega_max, double rate_max)
 double mode_step_limit(const Method& method, double omega, double rate) {
   const double scale = std::max(omega, rate);
   if (scale == 0) return std::numeric_limits<double>::infinity();
-  // In steps h * scale. No explicit method of four stages reaches h |lambda| = 20.
-  constexpr double increment = 0.02, end = 40;
+  if (rate == 0 && method.imaginary_limit == 0) return 0; // grows however small the step, too slowly to see
+  constexpr double increment = 0.02;                      // in steps h * scale
+  const double end = 10 * std::max({method.imaginary_limit, method.real_limit, 1.0});
   const auto is_stable = [&](double h) {
     return spectral_radius(method, h * omega / scale, h * rate / scale) <= 1 + 1e-12;
   };
@@ -90,7 +96,7 @@ StabilityLimit stable_step(const Problem& problem, const Method& method, bool sh
   }
   if (std::isfinite(limit.omega_max + limit.damping))
     limit.dt = worst_step_limit(method, limit.omega_max, limit.damping);
-  if (!(limit.dt > 0))
+  if (!(limit.dt > 0) && method.imaginary_limit > 0)
     throw InputError(
         fmt::format("{}: no stability limit can be found: stiffness over mass or inertia is beyond the range "
                     "of numbers; give constants in SI units",

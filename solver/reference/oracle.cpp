@@ -78,7 +78,7 @@ std::optional<Breakdown> Oracle<T>::advance(long steps) {
 
 template <class T>
 std::optional<Breakdown> Oracle<T>::advance(long steps, const SignalSource& signals) {
-  const bool is_leapfrog = method_.family == Method::Family::leapfrog;
+  const bool is_leapfrog = method_.is_in_place();
   for (long step = 0; step < steps; ++step) {
     if (is_leapfrog)
       leapfrog_step(step, signals);
@@ -90,7 +90,8 @@ std::optional<Breakdown> Oracle<T>::advance(long steps, const SignalSource& sign
       return Breakdown{step, *element};
     }
   }
-  if (is_leapfrog && steps > 0) finish_leapfrog(signals(steps, 0));
+  if (method_.is_staggered() && steps > 0) finish_leapfrog(signals(steps, 0));
+  if (is_leapfrog && !method_.is_staggered()) state_ = trial_;
   return std::nullopt;
 }
 
@@ -110,12 +111,12 @@ void Oracle<T>::runge_kutta_step(long step, const SignalSource& signals) {
   for (std::size_t n = 0; n < state_.size(); ++n) state_[n] = moved(slopes_.size(), n);
 }
 
-/// v_{-1/2} = v_0 - (h/2) a_0 and p_0 = v_0. Leaves a_0 in the slopes.
+/// v_{-1/2} = v_0 - (h/2) a_0 and p_0 = v_0; symplectic Euler keeps v_0 itself. Leaves a_0 in the slopes.
 template <class T>
 void Oracle<T>::start_leapfrog(std::span<const double> signals) {
   trial_ = state_;
   dynamics_.rates(trial_, signals, slopes_[0]);
-  const T half_dt = T(dt_) / T(2);
+  const T half_dt = method_.is_staggered() ? T(dt_) / T(2) : T(0);
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
     const T *y = &trial_[e * field_count], *a = &slopes_[0][e * field_count];
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -132,7 +133,7 @@ void Oracle<T>::leapfrog_step(long step, const SignalSource& signals) {
     dynamics_.rates(trial_, signals(step, 0), slopes_[0]);
   else
     start_leapfrog(signals(step, 0));
-  const T h = T(dt_);
+  const T h = T(dt_), ahead = method_.is_staggered() ? h / T(2) : T(0); // of the velocities that forces see next
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
     T *y = &trial_[e * field_count], *half = &half_step_[6 * e];
     const T* a = &slopes_[0][e * field_count];
@@ -140,8 +141,8 @@ void Oracle<T>::leapfrog_step(long step, const SignalSource& signals) {
       half[axis] += h * a[vx + axis];
       half[3 + axis] += h * a[wx + axis];
       y[ux + axis] += h * half[axis];
-      y[vx + axis] = half[axis] + h / T(2) * a[vx + axis];
-      y[wx + axis] = half[3 + axis] + h / T(2) * a[wx + axis];
+      y[vx + axis] = half[axis] + ahead * a[vx + axis];
+      y[wx + axis] = half[3 + axis] + ahead * a[wx + axis];
     }
     const reference::Orientation<T> q = {y[qs], {y[qx], y[qy], y[qz]}};
     const reference::Vector<T> w = {half[3], half[4], half[5]};

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -30,8 +29,8 @@ TEST(Methods, are_found_by_their_own_unique_name_and_unknown_names_are_not) {
     EXPECT_TRUE(names.insert(method.name).second) << method.name;
     EXPECT_EQ(find_method(method.name), &method);
   }
-  EXPECT_EQ(names.count("rk4"), 1u);
-  EXPECT_EQ(names.count("velocity_verlet"), 1u);
+  for (const char* name : {"rk4", "velocity_verlet", "midpoint", "symplectic_euler", "dopri5", "rkc2"})
+    EXPECT_EQ(names.count(name), 1u) << name;
   EXPECT_EQ(find_method("rk5"), nullptr);
   EXPECT_EQ(find_method(""), nullptr);
 }
@@ -43,35 +42,84 @@ TEST(Methods, evaluate_each_stage_at_the_time_that_its_state_stands_for) {
     for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
       double sum = 0;
       for (const double weight : w[s]) sum += weight;
-      EXPECT_NEAR(sum, method.node[s], 1e-15) << method.name << " stage " << s;
+      EXPECT_NEAR(sum, method.node[s], 1e-14) << method.name << " stage " << s;
     }
   }
 }
 
-TEST(Methods, of_the_runge_kutta_family_meet_the_order_conditions_of_their_declared_order) {
+/// A rooted tree, by the subtrees of its root (Hairer, Norsett, Wanner I, section II.2).
+struct Tree {
+  std::vector<Tree> children;
+  int order() const {
+    int sum = 1;
+    for (const Tree& child : children) sum += child.order();
+    return sum;
+  }
+  double density() const {
+    double product = order();
+    for (const Tree& child : children) product *= child.density();
+    return product;
+  }
+  /// Elementary weight of stage i: the product over the subtrees of sum_j a_ij times theirs.
+  double weight(const Table& a, std::size_t i) const {
+    double product = 1;
+    for (const Tree& child : children) {
+      double sum = 0;
+      for (std::size_t j = 0; j < a[i].size(); ++j)
+        if (a[i][j] != 0) sum += a[i][j] * child.weight(a, j);
+      product *= sum;
+    }
+    return product;
+  }
+};
+
+/// All trees of an order: its root's subtrees in descending place of `all`, the smaller trees by order.
+std::vector<Tree> trees_of(int order) {
+  std::vector<Tree> smaller;
+  for (int n = 1; n < order; ++n)
+    for (Tree& tree : trees_of(n)) smaller.push_back(std::move(tree));
+  std::vector<Tree> found;
+  const auto add = [&](const auto& self, Tree tree, int left, std::size_t last) -> void {
+    if (left == 0) return found.push_back(tree);
+    for (std::size_t n = 0; n < last; ++n)
+      if (smaller[n].order() <= left) {
+        Tree longer = tree;
+        longer.children.push_back(smaller[n]);
+        self(self, longer, left - smaller[n].order(), n + 1);
+      }
+  };
+  add(add, Tree{}, order - 1, smaller.size());
+  return found;
+}
+
+TEST(RootedTrees, are_as_many_as_known) {
+  for (const auto& [order, count] : {std::pair{1, 1}, {2, 1}, {3, 2}, {4, 4}, {5, 9}, {6, 20}})
+    EXPECT_EQ(trees_of(order).size(), std::size_t(count)) << order;
+}
+
+TEST(Methods, of_the_runge_kutta_family_meet_the_order_conditions_of_their_order_and_no_more) {
   for (const Method& method : methods()) {
     if (method.family != Method::Family::runge_kutta) continue;
     const Table w = butcher_table(method);
-    const auto stages = std::size_t(method.stages);
-    const auto& b = w[stages];
-    const auto& c = method.node;
-    // Sums over rooted trees up to order 4 (Hairer, Norsett, Wanner I, table II.2.2).
-    std::array<double, 8> sum{};
-    for (std::size_t i = 0; i < stages; ++i) {
-      double ac = 0, acc = 0, aac = 0;
-      for (std::size_t j = 0; j < i; ++j) {
-        ac += w[i][j] * c[j];
-        acc += w[i][j] * c[j] * c[j];
-        for (std::size_t k = 0; k < j; ++k) aac += w[i][j] * w[j][k] * c[k];
-      }
-      const std::array<double, 8> terms = {1, c[i], c[i] * c[i], ac, c[i] * c[i] * c[i], c[i] * ac, acc, aac};
-      for (std::size_t t = 0; t < terms.size(); ++t) sum[t] += b[i] * terms[t];
-    }
-    const std::array<double, 8> exact = {1, 1. / 2, 1. / 3, 1. / 6, 1. / 4, 1. / 8, 1. / 12, 1. / 24};
-    const std::array<std::size_t, 5> conditions = {0, 1, 2, 4, 8};
-    ASSERT_LE(method.order, 4) << method.name << ": conditions beyond order 4 are not listed here";
-    for (std::size_t t = 0; t < conditions[std::size_t(method.order)]; ++t)
-      EXPECT_NEAR(sum[t], exact[t], 1e-15) << method.name << " condition " << t;
+    const auto error = [&](const Tree& tree) {
+      double sum = 0;
+      for (std::size_t i = 0; i < std::size_t(method.stages); ++i) sum += w.back()[i] * tree.weight(w, i);
+      return std::abs(sum - 1 / tree.density());
+    };
+    for (int order = 1; order <= method.order; ++order)
+      for (const Tree& tree : trees_of(order)) EXPECT_LT(error(tree), 1e-14) << method.name << " order " << order;
+    double next = 0;
+    for (const Tree& tree : trees_of(method.order + 1)) next = std::max(next, error(tree));
+    EXPECT_GT(next, 1e-6) << method.name;
+  }
+}
+
+TEST(Rkc2, has_a_limit_that_grows_with_the_square_of_its_stages) {
+  for (int stages = 2; stages <= 20; ++stages) {
+    const Method method = rkc2(stages);
+    EXPECT_NEAR(mode_step_limit(method, 0, 1), method.real_limit, 1e-6 * method.real_limit) << stages;
+    EXPECT_GE(method.real_limit, 0.65 * (stages * stages - 1)) << stages;
+    EXPECT_EQ(method.stages, stages);
   }
 }
 

@@ -14,10 +14,9 @@ public:
   void make(const PackedRows<T, W>& packed, const Method& method, const std::vector<int>& cuts, int fields, int halo,
             bool is_alone) {
     const int rows = int(packed.rows.size());
-    const bool has_rings = method.family != Method::Family::leapfrog;
     if (packed.own_begin > 0) blocks_.emplace_back(packed, 0, packed.own_begin, fields, halo);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-      blocks_.emplace_back(packed, cuts[b], cuts[b + 1], fields, halo, has_rings,
+      blocks_.emplace_back(packed, method, cuts[b], cuts[b + 1], fields, halo,
                            WavefrontStep<T, W>::sweeps(packed, method, is_alone));
     if (packed.own_end < rows) blocks_.emplace_back(packed, packed.own_end, rows, fields, halo);
   }

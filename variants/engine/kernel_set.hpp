@@ -41,17 +41,11 @@ struct ExtraLinkConstants {
 template <class T>
 struct KernelSet {
   Terms terms;
-  /// One Runge-Kutta stage of a row, without and with increments; false if a stage with increments left a non-finite
-  /// velocity.
-  bool (*first_stage)(const RowTask<T>& task);
-  bool (*later_stage)(const RowTask<T>& task);
-  auto stage_kernel(bool has_increments) const { return has_increments ? later_stage : first_stage; }
-  bool stage(const RowTask<T>& task) const { return stage_kernel(task.has_increments)(task); }
-  /// One leapfrog step of a row in place; false if it left a non-finite velocity.
-  bool (*leapfrog)(const RowTask<T>& task);
+  /// One stage of a row, whatever its action; false if the last of a step left a velocity that is not finite.
+  bool (*stage)(const RowTask<T>& task);
   /// Only the links from a row (its `in`, `upper_*`, `carry_*`) across an axis (1 or 2): what a block of rows needs
-  /// from the row before it. `fields`: fields a pack of the rows holds.
-  void (*prime)(const RowTask<T>& task, int axis, int fields);
+  /// from the row before it.
+  void (*prime)(const RowTask<T>& task, int axis);
   /// A link outside the grid: fields of both elements in, wrenches (force then moment) added to both.
   void (*extra_link)(const ExtraLinkConstants<T>& link, const T* i, const T* j, T* wrench_i, T* wrench_j);
 };

@@ -40,10 +40,10 @@ template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part),
-      rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }) {
+      rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows) row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
   if (!setup_.problem.extra_links.empty() || (part_ != nullptr && part_->is_every_stage))
-    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, stored_fields(), setup_.threads, part_);
+    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(), setup_.threads, part_);
   else
     make_blocks();
 }
@@ -63,7 +63,7 @@ void RowExecutor<T>::make_blocks() {
   std::vector<Block<T>>& blocks = blocks_.all();
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (!blocks[b].is_remote())
-      steps_.emplace_back(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks, b);
+      steps_.emplace_back(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem), blocks, b);
 }
 
 template <class T>
@@ -184,7 +184,7 @@ template <class T>
 Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
   const std::size_t width = signal_count(setup_.problem);
-  if (is_leapfrog() && !is_started_) start_leapfrog(signals.first(width)), is_started_ = true;
+  if (rows_.is_staggered() && !is_started_) start_leapfrog(signals.first(width)), is_started_ = true;
   end_rates_ = {};
   end_signals_.assign(signals.end() - std::ptrdiff_t(width), signals.end());
   return staged_ ? run_staged(steps, signals) : run_blocks(steps, signals);
@@ -299,7 +299,7 @@ std::size_t RowExecutor<T>::bytes() const {
 }
 
 std::unique_ptr<Executor> create_row_executor(const Setup& setup) {
-  if (setup.precision == Precision::f32) return std::make_unique<RowExecutor<float>>(setup);
+  if (is_single(setup.precision)) return std::make_unique<RowExecutor<float>>(setup);
   return std::make_unique<RowExecutor<double>>(setup);
 }
 

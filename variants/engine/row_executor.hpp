@@ -31,7 +31,6 @@ public:
 
 private:
   static constexpr int W = simd::lanes<T>;
-  bool is_leapfrog() const { return rows_.is_leapfrog(); }
   int stored_fields() const { return rows_.stored_fields(); }
   bool is_part() const { return part_ != nullptr; }
   void make_blocks();

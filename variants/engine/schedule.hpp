@@ -43,6 +43,7 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
     return upper < 0 ? nullptr : input(upper) + (p.first_pack - packed.rows[std::size_t(upper)].first_pack) * pack_size;
   };
   task.packs = p.packs;
+  task.stride = int(pack_size);
   task.masks = p.masks;
   task.body = p.body;
   task.applied = p.applied;
@@ -56,10 +57,10 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
 
 /// Computes only the links that a row leaves for its upper neighbours.
 template <class T, int W>
-void prime_upper(const PackedRows<T, W>& packed, int row, const RowTask<T>& task, int fields) {
+void prime_uppers(const PackedRows<T, W>& packed, int row, const RowTask<T>& task) {
   const KernelSet<T>& kernels = *packed.rows[std::size_t(row)].kernels;
-  if (task.upper_y != nullptr) kernels.prime(task, 1, fields);
-  if (task.upper_z != nullptr) kernels.prime(task, 2, fields);
+  if (task.upper_y != nullptr) kernels.prime(task, 1);
+  if (task.upper_z != nullptr) kernels.prime(task, 2);
 }
 
 /// Calls visit(row number, task, axis) for the links that rows before `begin` leave for rows from `begin` on: what a block needs before its
@@ -82,7 +83,7 @@ void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRing
 template <class T, int W, class Input>
 void prime_links(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input) {
   each_prime(packed, begin, fields, carry, input, [&](int row, const RowTask<T>& task, int axis) {
-    packed.rows[std::size_t(row)].kernels->prime(task, axis, fields);
+    packed.rows[std::size_t(row)].kernels->prime(task, axis);
   });
 }
 

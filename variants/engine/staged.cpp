@@ -6,10 +6,11 @@ namespace dss {
 
 template <class T, int W>
 StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt,
-                             int fields, int threads, const PartSetup* exchange)
-    : packed_(packed), method_(method), exchange_(exchange), fields_(fields),
-      pack_size_(std::size_t(fields) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
-      failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, dt)), extra_links_(problem, packed) {
+                             const RowStorage& storage, int threads, const PartSetup* exchange)
+    : packed_(packed), method_(method), exchange_(exchange), fields_(storage.stored()),
+      pack_size_(std::size_t(fields_) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
+      failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, storage, W, dt)),
+      extra_links_(problem, packed) {
   const int copies = std::max(method.stages, 2);
   for (int m = 0; m < copies; ++m) stages_.emplace_back(packed.readable_packs() * pack_size_, packed.memory);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
@@ -63,18 +64,16 @@ RowTask<T> StagedRows<T, W>::task_of(int thread, int stage, int r, bool is_whole
 
 template <class T, int W>
 void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows) {
-  const bool is_leapfrog = method_.family == Method::Family::leapfrog, is_last = stage + 1 == method_.stages;
   for (const RowAction& action : rows) {
     const int r = action.row;
     RowTask<T> task = task_of(thread, stage, r, action.is_whole);
     if (!action.is_whole) {
-      prime_upper(packed_, r, task, fields_);
+      prime_uppers(packed_, r, task);
       continue;
     }
     task.signals = signals.stage(stage);
-    const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
-    const bool is_finite = is_leapfrog ? kernels.leapfrog(task) : kernels.stage(task);
-    if (!is_finite && is_last && failed_rows_[std::size_t(thread)] < 0 && packed_.first_failed(r, task.out, fields_))
+    const bool is_finite = packed_.rows[std::size_t(r)].kernels->stage(task);
+    if (!is_finite && failed_rows_[std::size_t(thread)] < 0 && packed_.first_failed(r, task.out, fields_))
       failed_rows_[std::size_t(thread)] = r;
   }
 }

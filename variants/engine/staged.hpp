@@ -36,8 +36,8 @@ template <class T, int W = simd::lanes<T>>
 class StagedRows {
 public:
   /// @param exchange  null, or how the halo of the part is exchanged
-  StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt, int fields, int threads,
-             const PartSetup* exchange);
+  StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt,
+             const RowStorage& storage, int threads, const PartSetup* exchange);
   T* row(int r) { return stage_row(0, r); }
   /// Row r of a copy that parts exchange: an input of a stage, or the present and the next state of a method of one stage.
   T* copy_row(int copy, int r) { return buffer_row(std::size_t(copy), r); }

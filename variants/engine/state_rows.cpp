@@ -28,7 +28,7 @@ void StateRows<T, W>::each_velocity(Visit&& visit) const {
   int half = packed_.fields();
   for (int f = 0; f < packed_.fields(); ++f) {
     const Field field = packed_.layout.fields[std::size_t(f)];
-    if ((field >= vx && field <= vz) || field >= wx) visit(f, is_predicted() ? half++ : f);
+    if ((field >= vx && field <= vz) || field >= wx) visit(f, storage_.is_predicted() ? half++ : f);
   }
 }
 
@@ -36,7 +36,7 @@ template <class T, int W>
 void StateRows<T, W>::write(std::size_t first, std::span<const double> fields) {
   each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
     const double* from = &fields[(element - first) * field_count];
-    for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
+    for (int f = 0; f < packed_.fields(); ++f) keep(from[packed_.layout.fields[std::size_t(f)]], lane, f, f);
   });
 }
 
@@ -47,14 +47,15 @@ void StateRows<T, W>::read(std::size_t first, std::span<double> fields, const T*
   each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
     const std::span<double> out = fields.subspan((element - first) * field_count, field_count);
     for (int f = 0; f < packed_.fields(); ++f)
-      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
+      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = value(lane, f, f);
     if (end_rates == nullptr) return;
     const Place place = place_of(packed_, element);
     const std::size_t pack = packed_.rows[place.row].pack_offset + std::size_t(place.pack);
     const T* const rates = end_rates + pack * std::size_t(packed_.fields() * W) + place.lane;
     each_velocity([&](int f, int half) {
       out[std::size_t(packed_.layout.fields[std::size_t(f)])] =
-          double(simd::fma(half_step_, rates[f * W], lane[half * W]));
+          storage_.is_compensated() ? value(lane, f, half) + double(half_step_) * double(rates[f * W])
+                                    : double(simd::fma(half_step_, rates[f * W], lane[half * W]));
     });
   });
 }
@@ -67,7 +68,9 @@ void StateRows<T, W>::save(std::size_t first, std::span<double> kept, bool is_st
     const std::span<double> out = kept.subspan((element - first) * count, count);
     for (int f = 0; f < packed_.fields(); ++f)
       out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
-    if (!is_leapfrog()) return;
+    for (int f = 0; f < storage_.lows; ++f)
+      out[std::size_t(kept_first_low(method_) + packed_.layout.fields[std::size_t(f)])] = double(*low(lane, f));
+    if (!is_staggered()) return;
     each_velocity([&](int f, int half) {
       out[std::size_t(kept_half_velocity(packed_.layout.fields[std::size_t(f)]))] = double(lane[half * W]);
     });
@@ -82,7 +85,9 @@ bool StateRows<T, W>::restore(std::size_t first, std::span<const double> kept) {
   each_element(first, kept.size() / count, [&](std::size_t element, T* lane) {
     const double* from = &kept[(element - first) * count];
     for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
-    if (!is_leapfrog()) return;
+    for (int f = 0; f < storage_.lows; ++f)
+      *low(lane, f) = T(from[kept_first_low(method_) + packed_.layout.fields[std::size_t(f)]]);
+    if (!is_staggered()) return;
     each_velocity(
         [&](int f, int half) { lane[half * W] = T(from[kept_half_velocity(packed_.layout.fields[std::size_t(f)])]); });
     is_started = from[kept_is_started] != 0;
@@ -96,11 +101,11 @@ std::size_t StateRows<T, W>::plain_size() const {
 }
 
 template <class T, int W>
-void StateRows<T, W>::copy_plain(T* plain) {
+void StateRows<T, W>::copy_plain(T* plain, const RowAddress& row) {
   const std::size_t pack_size = std::size_t(packed_.fields() * W), stored_size = std::size_t(stored_fields() * W);
   for (int r = 0; r < int(packed_.rows.size()); ++r)
     for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
-      std::copy_n(row_(r) + std::size_t(p) * stored_size, pack_size,
+      std::copy_n(row(r) + std::size_t(p) * stored_size, pack_size,
                   plain + plain_offset(r) + std::size_t(p) * pack_size);
 }
 
@@ -122,7 +127,12 @@ void StateRows<T, W>::start(const T* rates) {
       for (int l = 0; l < W; ++l) {
         T* const lane = row_(r) + std::ptrdiff_t(p) * stored_fields() * W + l;
         const T* const rate = rates + plain_offset(r) + std::size_t(p) * std::size_t(packed_.fields() * W) + l;
-        each_velocity([&](int f, int half) { lane[half * W] = simd::fma(-half_step_, rate[f * W], lane[f * W]); });
+        each_velocity([&](int f, int half) {
+          if (storage_.is_compensated())
+            keep(value(lane, f, f) - double(half_step_) * double(rate[f * W]), lane, f, half);
+          else
+            lane[half * W] = simd::fma(-half_step_, rate[f * W], lane[f * W]);
+        });
       }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The state of an executor, held as rows of packs, in and out: as fields, as what a method keeps, as messages.
 #include "solver/numerics/method.hpp"
-#include "variants/engine/packed_rows.hpp"
+#include "variants/engine/row_storage.hpp"
 #include "variants/halo.hpp"
 #include "variants/kept_state.hpp"
 
@@ -15,21 +15,21 @@ class StateRows {
 public:
   using RowAddress = std::function<T*(int)>;
   /// @param row  address of any row's present state  @param packed, method  outlive it
-  StateRows(const PackedRows<T, W>& packed, const Method& method, double dt, RowAddress row)
-      : packed_(packed), method_(method), half_step_(T(dt / 2)), row_(std::move(row)) {}
+  StateRows(const PackedRows<T, W>& packed, const Method& method, Precision precision, double dt, RowAddress row)
+      : packed_(packed), method_(method), precision_(precision), storage_(packed, method, precision),
+        half_step_(T(dt / 2)), row_(std::move(row)) {}
 
-  bool is_leapfrog() const { return method_.family == Method::Family::leapfrog; }
-  /// Leapfrog rows of velocity-dependent problems hold half-step velocities behind the model's fields.
-  bool is_predicted() const { return is_leapfrog() && packed_.leapfrog_fields > packed_.fields(); }
-  /// Fields that a pack of the state holds.
-  int stored_fields() const { return is_leapfrog() ? packed_.leapfrog_fields : packed_.fields(); }
+  bool is_staggered() const { return method_.is_staggered(); }
+  const RowStorage& storage() const { return storage_; }
+  /// Numbers of an element that a pack of the state holds.
+  int stored_fields() const { return storage_.stored(); }
 
-  /// As Executor::write and read. `end_rates`: null, or rates at the end of a leapfrog's last step, whose velocities are those of the
-  /// half step before: v_n = v_{n-1/2} + (h / 2) a(x_n, p_n).
+  /// As Executor::write and read. `end_rates`: null, or rates at the end of a staggered method's last step, whose velocities are those of
+  /// the half step before: v_n = v_{n-1/2} + (h / 2) a(x_n, p_n).
   void write(std::size_t first, std::span<const double> fields);
   void read(std::size_t first, std::span<double> fields, const T* end_rates);
-  /// As Executor::save and restore; `is_started`: the leapfrog has its half-step velocities.
-  int kept_fields() const { return kept_field_count(method_); }
+  /// As Executor::save and restore; `is_started`: a staggered method has its half-step velocities.
+  int kept_fields() const { return kept_field_count(method_, precision_); }
   void save(std::size_t first, std::span<double> kept, bool is_started);
   bool restore(std::size_t first, std::span<const double> kept);
 
@@ -38,10 +38,11 @@ public:
   std::size_t plain_offset(int r) const {
     return packed_.rows[std::size_t(r)].pack_offset * std::size_t(packed_.fields() * W);
   }
-  void copy_plain(T* plain);
+  void copy_plain(T* plain) { copy_plain(plain, row_); }
+  void copy_plain(T* plain, const RowAddress& row);
   /// Of plain rates: all fields of all elements.
   void rates_out(const T* rates, std::span<double> out) const;
-  /// Leapfrog's first half step back: v_{-1/2} = v_0 - (h / 2) a_0, and p_0 = v_0, which the rows hold already.
+  /// A staggered method's first half step back: v_{-1/2} = v_0 - (h / 2) a_0, and p_0 = v_0, which the rows hold already.
   void start(const T* rates);
 
   /// Where elements lie in rows, as whole packs lie in memory: pack after pack, field after field, the elements' lanes.
@@ -61,8 +62,23 @@ private:
     return plain + pack * std::size_t(packed_.fields() * W) + x % W;
   }
 
+  /// A number in double, its low part included; and how it is kept. `f`: of the model's fields.
+  double value(const T* lane, int f, int stored_at) const {
+    return double(lane[stored_at * W]) + (storage_.is_compensated() ? double(*low(lane, f)) : 0);
+  }
+  void keep(double value, T* lane, int f, int stored_at) const {
+    lane[stored_at * W] = T(value);
+    if (storage_.is_compensated()) *low(lane, f) = T(value - double(T(value)));
+  }
+  template <class Lane>
+  Lane low(Lane lane, int f) const {
+    return lane + (storage_.first_low() + f) * W;
+  }
+
   const PackedRows<T, W>& packed_;
   const Method& method_;
+  const Precision precision_;
+  const RowStorage storage_;
   const T half_step_;
   const RowAddress row_;
 };

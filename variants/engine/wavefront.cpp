@@ -25,8 +25,18 @@ std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts) {
   return cuts;
 }
 
+static row_action action_of(const Method& method, const RowStorage& storage, std::size_t increments, bool is_last) {
+  const bool is_kept = storage.is_compensated();
+  if (method.is_in_place()) {
+    if (storage.is_predicted()) return is_kept ? kept_predicted : predicted_step;
+    return is_kept ? kept_leapfrog : leapfrog_step;
+  }
+  if (is_kept) return is_last ? kept_step : kept_stage;
+  return increments == 0 ? plain_stage : increments <= 3 ? combined_stage : wide_stage;
+}
+
 template <class T>
-std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
+std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage, int lanes, double dt) {
   std::vector<StageUpdate<T>> updates;
   for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
     StageUpdate<T> update;
@@ -37,17 +47,25 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt) {
       update.increments.push_back({int(m) - 1, T(first == 0 ? alpha : alpha / first)});
       if (first == 0) first = alpha;
     }
-    if (update.increments.empty() && int(s) + 1 == method.stages) update.increments.push_back({-1, T(1)});
+    update.is_last = int(s) + 1 == method.stages;
+    update.action = action_of(method, storage, update.increments.size(), update.is_last);
+    update.low = storage.first_low() * lanes;
     update.beta = T(dt * method.beta[s] / (first == 0 ? 1 : first));
-    if (update.increments.size() > std::size(RowTask<T>{}.alpha))
+    if (update.increments.size() > RowTask<T>::most_increments)
       throw std::logic_error("method with more increments than a row task holds");
     updates.push_back(std::move(update));
   }
   return updates;
 }
 
+int last_reader(const Method& method, int s) {
+  for (int reader = method.stages - 1; reader > s + 1; --reader)
+    if (method.alpha[std::size_t(reader)][std::size_t(s) + 1] != 0) return reader;
+  return s + 1;
+}
+
 template <class T, int W>
-Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fields, int halo, bool has_rings,
+Block<T, W>::Block(const PackedRows<T, W>& packed, const Method& method, int first, int last, int fields, int halo,
                    int sweeps)
     : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)),
       row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo) {
@@ -57,12 +75,9 @@ Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fiel
   state_ = Buffer<T>((packs + 1) * pack_size_, packed.memory); // one pack more: rows look one pack ahead
   make_published();
   for (int s = 0; s < sweeps; ++s) carry.emplace_back(packed);
-  if (!has_rings) return;
-  const int stages = sweeps; // rings are for methods of several stages, whose pass is one step
-  for (int s = 0; s + 1 < stages; ++s) {
-    // Y_{s + 1} is written by stage s and last read by the final stage, (stages - 1 - s) reaches behind; priming reads
-    // two reaches back.
-    const int reaches = begin > 0 ? std::max(stages - 1 - s, 2) : stages - 1 - s;
+  for (int stage = 0; stage + 1 < method.stages; ++stage) {
+    // Y_{s + 1} is written by stage s and last read (reader - s) reaches behind; priming reads two reaches back.
+    const int reaches = std::max(last_reader(method, stage) - stage, begin > 0 ? 2 : 1);
     const int rows = std::min(reaches * packed.reach + 1, int(packed.rows.size()));
     rings_.emplace_back(std::size_t(rows) * row_size_ + pack_size_, packed.memory);
     ring_rows_.emplace_back();
@@ -104,15 +119,16 @@ std::size_t Block<T, W>::bytes() const {
 }
 
 template <class T, int W>
-WavefrontStep<T, W>::WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt, int fields,
-                                   std::size_t signal_count, std::vector<Block<T, W>>& blocks, std::size_t index)
-    : packed_(packed), fields_(fields), stages_(method.stages), block_(blocks[index]),
+WavefrontStep<T, W>::WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt,
+                                   const RowStorage& storage, std::size_t signal_count,
+                                   std::vector<Block<T, W>>& blocks, std::size_t index)
+    : packed_(packed), fields_(storage.stored()), stages_(method.stages), block_(blocks[index]),
       signals_(signal_count, sweeps(packed, method, blocks.size() == 1 && !packed.is_part())) {
   find_state_rows(method, blocks);
-  const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, dt);
+  const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, storage, W, dt);
   const int steps = steps_a_pass(packed, method, blocks.size() == 1 && !packed.is_part());
-  sweeps_[0] = make_sweeps(method, steps, updates, 0);
-  if (blocks.size() > 1) sweeps_[1] = make_sweeps(method, steps, updates, 1);
+  sweeps_[0] = make_sweeps(steps, updates, 0);
+  if (blocks.size() > 1) sweeps_[1] = make_sweeps(steps, updates, 1);
 }
 
 template <class T, int W>
@@ -128,9 +144,8 @@ void WavefrontStep<T, W>::find_state_rows(const Method& method, std::vector<Bloc
 }
 
 template <class T, int W>
-auto WavefrontStep<T, W>::make_sweeps(const Method& method, int steps, const std::vector<StageUpdate<T>>& updates,
-                                      int parity) -> std::vector<Sweep> {
-  const bool is_leapfrog = method.family == Method::Family::leapfrog;
+auto WavefrontStep<T, W>::make_sweeps(int steps, const std::vector<StageUpdate<T>>& updates, int parity)
+    -> std::vector<Sweep> {
   std::vector<Sweep> sweeps;
   for (int n = 0; n < steps * stages_; ++n) {
     const int s = n % stages_, halo = (stages_ - 1 - s) * packed_.reach;
@@ -145,11 +160,7 @@ auto WavefrontStep<T, W>::make_sweeps(const Method& method, int steps, const std
       T* const base = state_row(r, parity);
       updates[std::size_t(s)].set(task, base, is_last ? base : block_.ring_row(s, r),
                                   [&](int m) { return block_.ring_row(m, r); });
-      const KernelSet<T>* kernels = packed_.rows[std::size_t(r)].kernels;
-      const RowKernel kernel = kernels == nullptr ? nullptr
-                               : is_leapfrog      ? kernels->leapfrog
-                                                  : kernels->stage_kernel(task.has_increments);
-      sweep.rows.push_back({packed_.is_computed(r, stages_ - 1 - s), kernel, task});
+      sweep.rows.push_back({packed_.is_computed(r, stages_ - 1 - s), task});
     }
     sweeps.push_back(std::move(sweep));
   }
@@ -182,8 +193,9 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
       const RowStage& row = sweep.rows[std::size_t(r - sweep.begin)];
       const bool is_last = s + 1 == stages_;
       if (!row.is_whole) {
-        prime_upper(packed_, r, row.task, fields_);
-      } else if (!row.kernel(row.task) && is_last && packed_.first_failed(r, block_.row(r), fields_)) {
+        prime_uppers(packed_, r, row.task);
+      } else if (!packed_.rows[std::size_t(r)].kernels->stage(row.task) &&
+                 packed_.first_failed(r, block_.row(r), fields_)) {
         block_.failed_row = r, block_.failed_step = n / stages_, count = n;
       }
       if (is_last && block_.is_published(r)) block_.publish(r, parity ^ 1);
@@ -198,7 +210,7 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
   template class WavefrontStep<T, W>;
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE
-template std::vector<StageUpdate<double>> stage_updates(const Method&, double);
-template std::vector<StageUpdate<float>> stage_updates(const Method&, double);
+template std::vector<StageUpdate<double>> stage_updates(const Method&, const RowStorage&, int, double);
+template std::vector<StageUpdate<float>> stage_updates(const Method&, const RowStorage&, int, double);
 
 } // namespace dss

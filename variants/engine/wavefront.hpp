@@ -2,6 +2,7 @@
 /// The wavefront over rows (DESIGN.md section 4): stage s runs `reach` rows behind stage s - 1, intermediate stages
 /// live in rings of a few rows, the state is updated in place, threads recompute a halo of stages * reach rows and meet
 /// once a step.
+#include "variants/engine/row_storage.hpp"
 #include "variants/engine/schedule.hpp"
 
 #include <functional>
@@ -14,7 +15,7 @@ namespace dss {
 template <class T, int W = simd::lanes<T>>
 class Block {
 public:
-  Block(const PackedRows<T, W>& packed, int begin, int end, int fields, int halo, bool has_rings, int sweeps);
+  Block(const PackedRows<T, W>& packed, const Method& method, int begin, int end, int fields, int halo, int sweeps);
   /// A remote block.
   Block(const PackedRows<T, W>& packed, int begin, int end, int fields, int halo);
 
@@ -72,45 +73,51 @@ private:
 /// (kernels/stage_row/row.hpp).
 template <class T>
 struct StageUpdate {
+  row_action action = plain_stage;
+  bool is_last = false;
+  int low = 0; ///< as in RowTask
   T beta = 0;
-  std::vector<std::pair<int, T>> increments; ///< (stage whose output Y_m is, or -1 for y itself; alpha or ratio)
+  std::vector<std::pair<int, T>> increments; ///< (stage whose output Y_m is; alpha or ratio)
   /// The part of a task that it determines; `stage_output(m)` is the row of the output of stage m.
   template <class StageOutput>
   void set(RowTask<T>& task, T* base, T* out, StageOutput&& stage_output) const {
+    task.action = action;
+    task.is_last = is_last;
+    task.low = low;
     task.base = base;
     task.out = out;
     task.beta = beta;
-    task.has_increments = !increments.empty();
-    for (std::size_t m = 0; task.has_increments && m < std::size(task.alpha); ++m) {
+    task.increments = int(increments.size());
+    for (std::size_t m = 0; !increments.empty() && m < std::size(task.alpha); ++m) {
       const bool is_used = m < increments.size();
-      const int stage = increments[is_used ? m : 0].first;
-      task.increment[m] = stage < 0 ? base : stage_output(stage);
+      task.increment[m] = stage_output(increments[is_used ? m : 0].first);
       task.alpha[m] = is_used ? increments[m].second : T(0);
     }
   }
 };
-/// One for each stage of the method; a last stage without increments gets y - y, for its check. @throws
-/// std::logic_error for more terms in a stage than the three that a task holds.
+/// One for each stage of the method; `lanes` of a pack. @throws std::logic_error for more terms in a stage than a task holds.
 template <class T>
-std::vector<StageUpdate<T>> stage_updates(const Method& method, double dt);
+std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage, int lanes, double dt);
+/// The last stage of a method that reads the output of stage s.
+int last_reader(const Method& method, int s);
 
-/// Steps one block; `blocks` are all blocks. A pass over the rows makes one sweep for each stage of a step or, with leapfrog on
+/// Steps one block; `blocks` are all blocks. A pass over the rows makes one sweep for each stage of a step or, with a method in place on
 /// one block, for several steps. What a sweep does to a row is the same in every pass but for the parity of what
 /// neighbours publish, so all row tasks are made once: making them anew would cost as much as several packs of a row.
 template <class T, int W = simd::lanes<T>>
 class WavefrontStep {
 public:
-  WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt, int fields, std::size_t signal_count,
-                std::vector<Block<T, W>>& blocks, std::size_t index);
+  WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt, const RowStorage& storage,
+                std::size_t signal_count, std::vector<Block<T, W>>& blocks, std::size_t index);
   /// Sweeps that a block needs carry buffers for. `is_alone`: nothing but this block computes any of the problem.
   static int sweeps(const PackedRows<T, W>& packed, const Method& method, bool is_alone) {
     return method.stages * steps_a_pass(packed, method, is_alone);
   }
-  /// Leapfrog updates in place, so a step can follow `reach` rows behind the one before: several steps for one trip
+  /// Some methods update in place, so a step can follow `reach` rows behind the one before: several steps for one trip
   /// through memory. Measured: eight for a plate; four where a link reaches over a plane of rows, of which eight leave L2.
   /// Several blocks would need halos as many times deeper, and take one step a pass.
   static int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, bool is_alone) {
-    if (method.family != Method::Family::leapfrog || !is_alone) return 1;
+    if (!method.is_in_place() || !is_alone) return 1;
     return packed.reach == 1 ? 8 : 4;
   }
 
@@ -130,10 +137,8 @@ public:
   void describe(int parity, OnSweep&& on_sweep, OnPrime&& on_prime, OnRow&& on_row);
 
 private:
-  using RowKernel = bool (*)(const RowTask<T>&);
   struct RowStage {
-    bool is_whole;    ///< else this stage needs no more of the row than its links to upper rows
-    RowKernel kernel; ///< null on devices
+    bool is_whole; ///< else this stage needs no more of the row than its links to upper rows
     RowTask<T> task;
   };
   /// One stage of one step over rows [begin, end): the block, and what the step's later stages read on either side.
@@ -146,8 +151,7 @@ private:
     return stage == 0 ? state_row(r, parity) : block_.ring_row(stage - 1, r);
   }
   void find_state_rows(const Method& method, std::vector<Block<T, W>>& blocks);
-  std::vector<Sweep> make_sweeps(const Method& method, int steps, const std::vector<StageUpdate<T>>& updates,
-                                 int parity);
+  std::vector<Sweep> make_sweeps(int steps, const std::vector<StageUpdate<T>>& updates, int parity);
 
   const PackedRows<T, W>& packed_;
   const int fields_, stages_;

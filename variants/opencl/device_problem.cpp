@@ -39,7 +39,7 @@ int DeviceProblem<T, W>::shape_of(const Terms& terms) {
 }
 
 template <class T, int W>
-int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, int action, int fields, const T* published) {
+int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, int fields, const T* published) {
   const PackedRow<T>& packed_row = packed.rows[std::size_t(r)];
   Row row{};
   row.in = offset(task.in);
@@ -47,9 +47,12 @@ int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, int action, int fiel
   row.carry_y = offset(task.carry_y), row.carry_z = offset(task.carry_z);
   row.from_y = offset(task.from_y), row.from_z = offset(task.from_z);
   row.base = offset(task.base), row.out = offset(task.out);
-  for (std::size_t m = 0; m < 3; ++m) row.increment[m] = offset(task.increment[m]), row.alpha[m] = task.alpha[m];
+  for (std::size_t m = 0; m < std::size(task.alpha); ++m)
+    row.increment[m] = offset(task.increment[m]), row.alpha[m] = task.alpha[m];
   row.published = offset(published);
   row.action = action;
+  actions_.insert(action);
+  row.is_last = task.is_last, row.low = task.low, row.increments = task.increments;
   row.shape = shape_of(packed_row.shape.terms);
   row.body = packed.lattice.rows[std::size_t(r)].body;
   row.applied = packed_row.applied == nullptr ? -1 : r;
@@ -107,13 +110,10 @@ void DeviceProblem<T, W>::make_constant_tables() {
 }
 
 template <class T, int W>
-void DeviceProblem<T, W>::finish(int leapfrog_fields, bool has_rates) {
+void DeviceProblem<T, W>::finish() {
   const Device& device = queue.device();
-  ProgramKind kind{
-      model_, sizeof(T) == 8 ? Precision::f64 : Precision::f32, W, layout.has_items, false, has_rates, packed.fields(),
-      terms_};
-  kind.has_leapfrog = leapfrog_fields > 0;
-  if (kind.has_leapfrog) kind.leapfrog_fields = leapfrog_fields;
+  const ProgramKind kind{model_, sizeof(T) == 8 ? Precision::f64 : Precision::f32, W, layout.has_items, actions_,
+                         terms_};
   program_ = build_program(device, row_program(kind));
   build_s_ += program_.build_s, is_cached_ &= program_.is_cached;
   if (has_extra_links()) {

@@ -49,17 +49,10 @@ public:
 
   long offset(const T* at) const { return at == nullptr ? -1 : at - reinterpret_cast<const T*>(memory.start()); }
   /// Adds to the table of row stages. @return its place there
-  int add(const RowTask<T>& task, int row, int action, int fields, const T* published = nullptr);
+  int add(const RowTask<T>& task, int row, row_action action, int fields, const T* published = nullptr);
   int next_place() const { return int(rows_.size()); }
-  /// Action of a whole row of a stage.
-  static int action_of(const RowTask<T>& task, const Method& method) {
-    if (method.family == Method::Family::leapfrog) return Tables<T>::leapfrog_step;
-    return task.has_increments ? Tables<T>::later_stage : Tables<T>::first_stage;
-  }
-
   /// Everything is in the arena and the tables: makes the program, gives the device its memory.
-  /// @param leapfrog_fields  0: no leapfrog  @param has_rates  rows with the action `rates` are in the table
-  void finish(int leapfrog_fields, bool has_rates);
+  void finish();
   /// A kernel with the tables as its first arguments.
   Kernel kernel(const char* name) const;
   static constexpr cl_uint table_arguments = 7;
@@ -99,6 +92,7 @@ private:
   const bool is_shared_; ///< arena and device are one memory
   std::vector<Terms> terms_;
   std::vector<Row> rows_;
+  std::set<row_action> actions_; ///< of them
   std::vector<typename Tables<T>::extra_link> extra_;
   opencl::Buffer arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_, extra_table_, signals_;
   Program program_, extra_program_;

@@ -25,7 +25,7 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
     const int begin = device_.next_place();
     if (cuts[b] > 0)
       each_prime(packed, cuts[b], fields, carry, in, [&](int r, const RowTask<T>& task, int axis) {
-        device_.add(task, r, axis == 1 ? Tables<T>::prime_y : Tables<T>::prime_z, fields);
+        device_.add(task, r, axis == 1 ? prime_y : prime_z, fields);
       });
     for (int r = cuts[b]; r < cuts[b + 1]; ++r) {
       RowTask<T> task;
@@ -33,12 +33,12 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
       task.base = zero_.data(); // out = 0 + 1 f
       task.out = row_of(rates_, r);
       task.beta = 1;
-      device_.add(task, r, is_scaled ? Tables<T>::first_stage : Tables<T>::rates, fields);
+      device_.add(task, r, is_scaled ? plain_stage : bare_rates, fields);
     }
     lists_.push_back({{begin, device_.next_place()}});
   }
   device_.add_extra_links(problem, fields);
-  device_.finish(0, !is_scaled);
+  device_.finish();
   list_table_ = device_.table(lists_);
   std::vector<cl_long> starts;
   for (int r = 0; r < int(packed.rows.size()); ++r) starts.push_back(device_.offset(in(r)));
@@ -61,7 +61,7 @@ void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals
   kernel_.set_one(n++, list_table_);
   kernel_.set_one(n++, device_.signals());
   kernel_.set_one(n++, failed_);
-  for (const cl_int value : {0, 0, 0}) kernel_.set_one(n++, value); // first list, step, is_last_stage
+  for (const cl_int value : {0, 0}) kernel_.set_one(n++, value); // first signal, step
   device_.launch(device_.queue, kernel_, bands());
   queue.read(device_.arena(), place(rates_), {reinterpret_cast<std::byte*>(rates), bytes});
 }

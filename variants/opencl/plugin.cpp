@@ -17,7 +17,7 @@ std::unique_ptr<Executor> create_for(const Setup& setup, const opencl::Device& d
 std::unique_ptr<Executor> create(const Setup& setup) {
   const opencl::Device device = opencl::narrowed(opencl::find_device(setup.device, setup.precision), setup.threads);
   const opencl::Layout layout = opencl::layout_on(device, setup.precision, setup.threads);
-  if (setup.precision == Precision::f32) return create_for<float>(setup, device, layout);
+  if (is_single(setup.precision)) return create_for<float>(setup, device, layout);
   return create_for<double>(setup, device, layout);
 }
 

@@ -11,20 +11,21 @@ template <class T, int W>
 ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout),
-      rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }), halo_rows_(problem_) {
+      rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }),
+      halo_rows_(problem_) {
   const PartWorksAlone alone(part_);
-  // Work-items of a group read what others update in place: leapfrog takes turns between two states there.
+  // Work-items of a group read what others update in place: methods in place take turns between two states there.
   // Where bands are thinner than their halo, most of what they do is done by others as well.
   const int rows = packed_.own_end - packed_.own_begin, halo = setup_.method.stages * packed_.reach;
   const bool is_staged = (layout.has_items && rows < layout.bands * halo) || !setup_.problem.extra_links.empty() ||
-                         (is_part() && part_->is_every_stage) || (layout.has_items && rows_.is_leapfrog());
+                         (is_part() && part_->is_every_stage) || (layout.has_items && setup_.method.is_in_place());
   if (is_staged)
-    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, stored_fields(), layout.bands, part_);
+    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(), layout.bands, part_);
   else
     make_blocks();
   if (staged_) add_stages();
   problem_.add_extra_links(setup_.problem, stored_fields());
-  problem_.finish(rows_.is_leapfrog() ? stored_fields() : 0, false);
+  problem_.finish();
   make_kernels();
   sent_.resize(std::size_t(halo_copies())), received_ = sent_;
   if (is_split_) halo_rows_.go_beside();
@@ -65,7 +66,7 @@ void ResidentExecutor<T, W>::make_blocks() {
   for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
     if (blocks[b].is_remote()) continue;
     add_neighbours(cuts, int(band++), halo);
-    WavefrontStep<T, W> step(packed_, method, setup_.dt, stored_fields(), signal_count(setup_.problem), blocks, b);
+    WavefrontStep<T, W> step(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem), blocks, b);
     for (const int parity : {0, 1}) {
       int n = 0;
       const auto is_last = [&] { return n % method.stages == 0; }; // n counts from 1 here
@@ -76,14 +77,13 @@ void ResidentExecutor<T, W>::make_blocks() {
             ++n;
           },
           [&](int r, const RowTask<T>& task, int axis) {
-            problem_.add(task, r, axis == 1 ? Tables<T>::prime_y : Tables<T>::prime_z, stored_fields());
+            problem_.add(task, r, axis == 1 ? prime_y : prime_z, stored_fields());
             ++sweeps_.back().prime_count;
           },
           [&](int r, bool is_whole, const RowTask<T>& task) {
             const bool is_published = is_last() && blocks[b].is_published(r) && blocks[b].owns(r);
-            const int place =
-                problem_.add(task, r, is_whole ? problem_.action_of(task, method) : Tables<T>::prime_upper,
-                             stored_fields(), is_published ? blocks[b].published(r, parity ^ 1) : nullptr);
+            const int place = problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields(),
+                                           is_published ? blocks[b].published(r, parity ^ 1) : nullptr);
             if (sweeps_.back().rows < 0) sweeps_.back().rows = place;
           });
     }
@@ -110,8 +110,7 @@ void ResidentExecutor<T, W>::add_stages() {
       for (int band = 0; band < bands_; ++band) {
         const int begin = problem_.next_place();
         staged_->each_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& task) {
-          problem_.add(task, r, is_whole ? problem_.action_of(task, setup_.method) : Tables<T>::prime_upper,
-                       stored_fields());
+          problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields());
         });
         lists.push_back({{begin, problem_.next_place()}});
       }

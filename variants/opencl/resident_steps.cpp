@@ -11,7 +11,7 @@ template <class T, int W>
 Outcome ResidentExecutor<T, W>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
   const std::size_t width = signal_count(setup_.problem);
-  if (rows_.is_leapfrog() && !is_started_) {
+  if (rows_.is_staggered() && !is_started_) {
     to_host();
     rows_.start(evaluate(signals.first(width)).data());
     publish_all();
@@ -162,7 +162,7 @@ void ResidentExecutor<T, W>::set_stage_arguments(const opencl::Buffer& lists, in
   kernel_.set_one(n++, problem_.signals());
   kernel_.set_one(n++, failed_);
   const int signal_row = int(step) * stages + stage;
-  for (const cl_int value : {signal_row * width, int(step), int(stage + 1 == stages)}) kernel_.set_one(n++, value);
+  for (const cl_int value : {signal_row * width, int(step)}) kernel_.set_one(n++, value);
 }
 
 template <class T, int W>
@@ -200,8 +200,13 @@ Outcome ResidentExecutor<T, W>::outcome(long steps) {
   return {false, failed[0], first.value_or(0)};
 }
 
-// With all that it calls; the rest of the class is in resident_executor.cpp.
-#define DSS_INSTANTIATE(T, W) template Outcome ResidentExecutor<T, W>::advance(long, std::span<const double>);
+// What the rest of the class, in resident_executor.cpp, calls.
+#define DSS_INSTANTIATE(T, W)                                                                                          \
+  template Outcome ResidentExecutor<T, W>::advance(long, std::span<const double>);                                     \
+  template void ResidentExecutor<T, W>::forget_failures();                                                             \
+  template void ResidentExecutor<T, W>::set_pass_arguments(long);                                                      \
+  template void ResidentExecutor<T, W>::run_to(long, bool);                                                            \
+  template void ResidentExecutor<T, W>::set_stage_arguments(const opencl::Buffer&, int, long);
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE
 

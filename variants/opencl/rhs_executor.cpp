@@ -1,6 +1,6 @@
 #include "variants/opencl/rhs_executor.hpp"
 
-#include "kernels/physics.hpp"
+#include "kernels/rk_update/update.hpp"
 #include "solver/numerics/denormals.hpp"
 #include "variants/engine/packs.hpp"
 
@@ -12,17 +12,18 @@ namespace dss::opencl {
 template <class T, int W>
 RhsExecutor<T, W>::RhsExecutor(const Setup& setup, const Device& device, const Layout& layout)
     : setup_(setup), rates_(setup.problem, setup.model, nullptr, device, layout, false),
-      rows_(packed_, setup_.method, setup_.dt, [this](int r) { return row(r); }),
-      updates_(stage_updates<T>(setup_.method, setup_.dt)) {
-  state_ = dss::Buffer<T>(packed_.readable_packs() * std::size_t(rows_.stored_fields() * W));
+      rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }),
+      updates_(stage_updates<T>(setup_.method, rows_.storage(), W, setup_.dt)) {
+  const std::size_t stored = packed_.readable_packs() * std::size_t(rows_.stored_fields() * W);
+  state_ = dss::Buffer<T>(stored);
   plain_ = dss::Buffer<T>(rates_.size());
   sums_ = dss::Buffer<T>(rates_.size());
-  for (int s = 0; s + 1 < setup_.method.stages; ++s) stages_.emplace_back(rates_.size());
+  for (int s = 0; s + 1 < setup_.method.stages; ++s) stages_.emplace_back(stored);
 }
 
 template <class T, int W>
-T* RhsExecutor<T, W>::row(int r) {
-  return state_.data() + packed_.rows[std::size_t(r)].pack_offset * std::size_t(rows_.stored_fields() * W);
+T* RhsExecutor<T, W>::row_of(dss::Buffer<T>& rows, int r) {
+  return rows.data() + packed_.rows[std::size_t(r)].pack_offset * std::size_t(rows_.stored_fields() * W);
 }
 
 template <class T, int W>
@@ -59,16 +60,15 @@ struct RateScales {
   struct Part {
     int fields;
     T factor;
-    bool is_velocity; ///< what blows up first, and alone is looked at, as in kernels/rk_update/update.hpp
   };
   Part parts[4];
   RateScales(const BodyConstants<T>& body, const ModelLayout& layout, bool is_gyroscopic) {
     const int force = layout.vec_size, turn = int(layout.wrench.size()) - force,
               rotor = int(layout.fields.size()) - 2 * force - turn;
-    parts[0] = {force, T(1), false};
-    parts[1] = {force, body.inverse_mass, true};
-    parts[2] = {rotor, T(0.5), false};
-    parts[3] = {turn, is_gyroscopic ? T(1) : body.inverse_inertia[2], true};
+    parts[0] = {force, T(1)};
+    parts[1] = {force, body.inverse_mass};
+    parts[2] = {rotor, T(0.5)};
+    parts[3] = {turn, is_gyroscopic ? T(1) : body.inverse_inertia[2]};
   }
 };
 
@@ -108,71 +108,31 @@ int RhsExecutor<T, W>::each_row(Update&& update) {
   return failed == rows ? -1 : failed;
 }
 
+// The engine's own update, lane by lane.
 template <class T, int W>
 template <class Physics>
 int RhsExecutor<T, W>::update_stage(int stage) {
   const bool is_last = stage + 1 == setup_.method.stages;
   return each_row([&](int r) {
+    const PackedRow<T>& packed_row = packed_.rows[std::size_t(r)];
     RowTask<T> task;
     updates_[std::size_t(stage)].set(task, row(r), is_last ? row(r) : stage_row(stage, r),
                                      [&](int m) { return stage_row(m, r); });
-    const RateScales<T> scales = scales_of(packed_, r);
+    task.body = packed_row.body;
+    RowUpdate<Physics, T, W> update(task, scales_of(packed_, r).parts[3].factor);
+    const T* const in = stage == 0 ? row(r) : stage_row(stage - 1, r);
     const T* const sums = sums_.data() + rows_.plain_offset(r);
-    T check = 0; // 0 * x is 0 unless x is infinite or NaN
-    std::size_t at = 0;
-    for (int pack = 0; pack < packed_.rows[std::size_t(r)].packs; ++pack)
-      for (const auto& part : scales.parts) {
-        const T beta = task.beta * part.factor;
-        for (const std::size_t end = at + std::size_t(part.fields * W); at < end; ++at) {
-          const T y = task.base[at];
-          task.out[at] = task.has_increments
-                             ? Physics::rk_combined(y, beta, sums[at], task.increment[0][at], task.increment[1][at],
-                                                    task.increment[2][at], task.alpha[0], task.alpha[1], task.alpha[2])
-                             : Physics::rk_first(y, beta, sums[at]);
-          if (part.is_velocity) check += task.out[at] * T(0);
-        }
-      }
-    return !is_last || check == 0 || !packed_.first_failed(r, row(r), rows_.stored_fields());
-  });
-}
-
-template <class T, int W>
-template <class Physics>
-int RhsExecutor<T, W>::leapfrog() {
-  const T h = T(setup_.dt);
-  return each_row([&](int r) {
-    const RateScales<T> scales = scales_of(packed_, r);
-    const PackedRow<T>& packed_row = packed_.rows[std::size_t(r)];
-    const std::size_t stored = std::size_t(rows_.stored_fields() * W), plain = std::size_t(packed_.fields() * W);
-    T check = 0;
-    for (std::size_t lane = 0; lane < std::size_t(packed_row.packs * W); ++lane) {
-      T* const y = row(r) + lane / W * stored + lane % W;
-      const T* const sum = sums_.data() + rows_.plain_offset(r) + lane / W * plain + lane % W;
-      typename Physics::element e, f;
-      std::size_t at = 0;
-      each_component(e, [&](T& c) { c = y[W * at++]; });
-      at = 0;
-      each_component(f, [&](T& c) { c = sum[W * at++]; });
-      auto v_half = e.v;
-      auto w_half = e.w;
-      if (rows_.is_predicted()) {
-        at = std::size_t(packed_.fields());
-        each_component(v_half, [&](T& c) { c = y[W * at++]; });
-        each_component(w_half, [&](T& c) { c = y[W * at++]; });
-      }
-      const auto next = Physics::leapfrog(e.u, e.q, v_half, w_half, Physics::vec_scale(scales.parts[1].factor, f.v),
-                                          Physics::spin_scale(scales.parts[3].factor, f.w), h);
-      at = 0;
-      const auto store = [&](const T& c) { y[W * at++] = c; };
-      const auto look = [&](const T& c) { check += c * T(0); }; // at what packs look at
-      each_component(next.v_half, look), each_component(next.w_half, look);
-      each_component(next.u, store);
-      each_component(rows_.is_predicted() ? next.v_next : next.v_half, store);
-      each_component(next.q, store);
-      each_component(rows_.is_predicted() ? next.w_next : next.w_half, store);
-      if (rows_.is_predicted()) each_component(next.v_half, store), each_component(next.w_half, store);
+    const auto element_at = [](const T* at) {
+      typename Physics::element e;
+      each_component(e, [&](T& c) { c = *at, at += W; });
+      return e;
+    };
+    for (int lane = 0; lane < packed_row.packs * W; ++lane) {
+      const std::ptrdiff_t at = lane / W * rows_.stored_fields() * W + lane % W;
+      const auto sum = element_at(sums + lane / W * packed_.fields() * W + lane % W); // in the place of the rates
+      update(at, element_at(in + at), sum.v, sum.w);
     }
-    return check == 0 || !packed_.first_failed(r, row(r), rows_.stored_fields());
+    return update.check.passed() || !packed_.first_failed(r, row(r), rows_.stored_fields());
   });
 }
 
@@ -182,13 +142,11 @@ int RhsExecutor<T, W>::step(std::span<const double> signals) {
   const bool is_planar = setup_.model == Model::planar;
   int failed = -1;
   for (int s = 0; s < setup_.method.stages; ++s) {
-    const T* in = s == 0 ? state_.data() : stages_[std::size_t(s - 1)].data();
-    if (s == 0 && rows_.stored_fields() != packed_.fields()) rows_.copy_plain(plain_.data()), in = plain_.data();
-    evaluate(in, signals.subspan(std::size_t(s) * width, width));
-    if (rows_.is_leapfrog())
-      failed = is_planar ? leapfrog<PlanarPhysics<T>>() : leapfrog<SpatialPhysics<T>>();
-    else
-      failed = is_planar ? update_stage<PlanarPhysics<T>>(s) : update_stage<SpatialPhysics<T>>(s);
+    dss::Buffer<T>& in = s == 0 ? state_ : stages_[std::size_t(s - 1)];
+    const bool is_plain = rows_.stored_fields() == packed_.fields();
+    if (!is_plain) rows_.copy_plain(plain_.data(), [&](int r) { return row_of(in, r); });
+    evaluate(is_plain ? in.data() : plain_.data(), signals.subspan(std::size_t(s) * width, width));
+    failed = is_planar ? update_stage<PlanarPhysics<T>>(s) : update_stage<SpatialPhysics<T>>(s);
   }
   return failed;
 }
@@ -197,7 +155,7 @@ template <class T, int W>
 Outcome RhsExecutor<T, W>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
   const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
-  if (rows_.is_leapfrog() && !is_started_) rows_.start(scaled_rates(signals.first(width)).data()), is_started_ = true;
+  if (rows_.is_staggered() && !is_started_) rows_.start(scaled_rates(signals.first(width)).data()), is_started_ = true;
   end_rates_.clear();
   end_signals_.assign(signals.end() - std::ptrdiff_t(width), signals.end());
   for (long n = 0; n < steps; ++n)

@@ -23,8 +23,9 @@ public:
   DeviceUse device_use() const override;
 
 private:
-  T* row(int r);
-  T* stage_row(int stage, int r) { return stages_[std::size_t(stage)].data() + rows_.plain_offset(r); }
+  T* row_of(dss::Buffer<T>& rows, int r);
+  T* row(int r) { return row_of(state_, r); }
+  T* stage_row(int stage, int r) { return row_of(stages_[std::size_t(stage)], r); }
   /// Sums over the links, as the device leaves them, of plain rows.
   void evaluate(const T* plain, std::span<const double> signals) { rates_.evaluate(plain, signals, sums_.data()); }
   /// Rates of the state itself.
@@ -33,8 +34,6 @@ private:
   /// The first row that the update leaves with a velocity that is not finite, or -1.
   template <class Physics>
   int update_stage(int stage);
-  template <class Physics>
-  int leapfrog();
   template <class Update>
   int each_row(Update&& update);
   /// One step; as update_stage.

@@ -61,6 +61,7 @@ std::string head(const ProgramKind& kind, bool has_items) {
        {is_planar ? "kernels/algebra/planar.h" : "kernels/algebra/spatial.h", "kernels/link_force/link_force.h",
         "kernels/motion/motion.h", "kernels/wrench/wrench.h", "kernels/rk_update/rk_update.h"})
     text += text_of(file);
+  text += text_of("kernels/stage_row/row_action.h");
   for (const char* file : {"tables.h", "tables_of_device.h", "tuples.cl"}) text += device_text(file);
   return text;
 }
@@ -69,9 +70,11 @@ std::string head(const ProgramKind& kind, bool has_items) {
 
 std::string row_program(const ProgramKind& kind) {
   std::string text = head(kind, kind.has_items);
-  text += fmt::format("#define HAS_LEAPFROG {}\n#define HAS_RATES {}\n#define LEAPFROG_FIELDS {}\n",
-                      int(kind.has_leapfrog), int(kind.has_rates), kind.leapfrog_fields);
+  std::string actions;
+  for (const row_action action : kind.actions) actions += fmt::format(" | ((action) == {})", int(action));
+  text += fmt::format("#define HAS(action) ((0{}) != 0)\n", actions);
   if (!kind.has_items) text += device_text("shifts_of_vectors.cl");
+  text += device_text("row_update.cl");
   std::string cases;
   for (std::size_t n = 0; n < kind.terms.size(); ++n) {
     const Terms& t = kind.terms[n];

@@ -3,6 +3,8 @@
 #include "kernels/physics.hpp"
 #include "solver/model/model.hpp"
 
+#include "kernels/stage_row/row.hpp"
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,11 +15,9 @@ struct ProgramKind {
   Model model = Model::spatial;
   Precision precision = Precision::f64;
   int lanes = 1;
-  bool has_items = false;    ///< a work-item is a lane (GPUs), else a work-item goes along rows of packs (CPUs)
-  bool has_leapfrog = false; ///< steps of leapfrog, else stages of Runge-Kutta methods
-  bool has_rates = false;    ///< and rates for a host that updates
-  int leapfrog_fields = 0;   ///< of a pack
-  std::vector<Terms> terms;  ///< the combinations that rows name by their place here
+  bool has_items = false;       ///< a work-item is a lane (GPUs), else a work-item goes along rows of packs (CPUs)
+  std::set<row_action> actions; ///< what rows ask for: nothing else is compiled
+  std::vector<Terms> terms;     ///< the combinations that rows name by their place here
 };
 
 /// Kernels run_passes and run_rows.

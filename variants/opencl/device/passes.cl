@@ -42,7 +42,7 @@ static void run_sweeps(device d, global const sweep* own, global const NUMBER* s
       global const row_stage* task = d.tasks + own[n].rows + (r - own[n].begin);
       const bool is_finite = run_task(d, task, signals + n * signal_width);
       if ((n + 1) % stages == 0) {
-        if (!is_finite && task->action >= first_stage && has_failed(d, task)) {
+        if (!is_finite && has_failed(d, task)) {
           record_failure(failed, block, first_step + n / stages, r);
           STOP_AT(n) /* only sweeps of earlier steps go on, which may fail as well */
         }
@@ -85,13 +85,13 @@ kernel void run_passes(TABLES, global const sweep* sweeps, global const int2* ne
 
 /* Lists of rows, in their order: a stage of all rows, or their rates. `lists`: places of first and last plus one in tasks. */
 kernel void run_rows(TABLES, global const int2* lists, global const NUMBER* signals, global int* failed,
-                     const int first_signal, const int step, const int is_last_stage) {
+                     const int first_signal, const int step) {
   const device d = DEVICE;
   const int2 list = lists[BLOCK];
   if (failed[0] < step) return;
   for (int n = list.x; n < list.y; ++n) {
     const bool is_finite = run_task(d, tasks + n, signals + first_signal);
-    if (is_last_stage && !is_finite && tasks[n].action > first_stage && has_failed(d, tasks + n))
+    if (!is_finite && has_failed(d, tasks + n))
       record_failure(failed, BLOCK, step, tasks[n].row);
   }
 }

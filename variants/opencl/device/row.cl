@@ -80,8 +80,8 @@ static inline void NAME(hold)(device d, global const row_stage* task, const int 
 
 /* From the sum over the links to the update; `place`: of the pack's first field in its row. Adds to the check for finite
  * numbers. */
-static inline REAL NAME(update)(device d, global const row_stage* task, global const NUMBER* signals, const int action,
-                                const int pack, const long place, prepared i, wrench sum, REAL check) {
+static inline REAL NAME(update)(device d, global const row_stage* task, global const NUMBER* signals, const int pack,
+                                const long place, prepared i, wrench sum, REAL check) {
   global const body_constants* body = d.bodies + task->body;
   const bool is_applied =
       task->applied >= 0 && pack >= d.applied[task->applied].first &&
@@ -93,57 +93,8 @@ static inline REAL NAME(update)(device d, global const row_stage* task, global c
   spin angular =
       turn(sum.moment, i.e, spin_splat(body->inertia), spin_splat(body->inverse_inertia), FLAGS.is_gyroscopic);
   if (is_applied) NAME(hold)(d, task, pack, &sum.force, &angular);
-  const NUMBER turn_scale = FLAGS.is_gyroscopic ? 1 : body->inverse_inertia[2];
-  global NUMBER* p = d.arena + task->out + place;
-#if HAS_LEAPFROG
-  if (action == leapfrog_step) {
-    vec v_half = i.e.v;
-    spin w_half = i.e.w;
-    global const NUMBER* halves = d.arena + task->base + place + FIELDS * W;
-    if (LEAPFROG_FIELDS > FIELDS) v_half = vec_at(halves), w_half = spin_at(halves + VEC_SIZE * W);
-    const leap next = leapfrog(i.e.u, i.e.q, v_half, w_half, vec_scale(SPLAT(body->inverse_mass), sum.force),
-                               spin_scale(SPLAT(turn_scale), angular), SPLAT(task->beta));
-    const bool is_predicted = LEAPFROG_FIELDS > FIELDS;
-    put_vec(next.u, p);
-    put_vec(is_predicted ? next.v_next : next.v_half, p + VEC_SIZE * W);
-    put_rotor(next.q, p + 2 * VEC_SIZE * W);
-    put_spin(is_predicted ? next.w_next : next.w_half, p + (FIELDS - SPIN_SIZE) * W);
-    if (is_predicted) put_vec(next.v_half, p + FIELDS * W), put_spin(next.w_half, p + (FIELDS + VEC_SIZE) * W);
-    return finite_check(next.v_half, next.w_half, check);
-  }
-#endif
-#if HAS_RATES
-  if (action == rates) {
-    put_vec(i.e.v, p);
-    put_vec(sum.force, p + VEC_SIZE * W);
-    put_rotor(rotor_spun(i.e.q, i.e.w), p + 2 * VEC_SIZE * W);
-    put_spin(angular, p + (FIELDS - SPIN_SIZE) * W);
-    return check;
-  }
-#endif
-  global const NUMBER* y = d.arena + task->base + place;
-  vec next_v = sum.force;
-  spin next_w = angular;
-  if (action == later_stage) {
-    global const NUMBER *y1 = d.arena + task->increment[0] + place, *y2 = d.arena + task->increment[1] + place,
-                        *y3 = d.arena + task->increment[2] + place;
-    const REAL a1 = SPLAT(task->alpha[0]), a2 = SPLAT(task->alpha[1]), a3 = SPLAT(task->alpha[2]);
-#define COMBINE(c) c = rk_combined(LOAD(y), beta, c, LOAD(y1), LOAD(y2), LOAD(y3), a1, a2, a3), STORE(c, p), \
-                   p += W, y += W, y1 += W, y2 += W, y3 += W;
-#define NEXT(factor, act, each, t) { const REAL beta = SPLAT(factor); each(act, t) }
-#define STORE_NEXT(act) \
-    vec next_u = i.e.v; \
-    rotor next_q = rotor_spun(i.e.q, i.e.w); \
-    NEXT(task->beta, act, EACH_OF_VEC, next_u) \
-    NEXT(task->beta * body->inverse_mass, act, EACH_OF_VEC, next_v) \
-    NEXT(task->beta * (NUMBER)0.5, act, EACH_OF_ROTOR, next_q) \
-    NEXT(task->beta * turn_scale, act, EACH_OF_SPIN, next_w)
-    STORE_NEXT(COMBINE)
-    return finite_check(next_v, next_w, check);
-  }
-#define ADVANCE(c) c = rk_first(LOAD(y), beta, c), STORE(c, p), p += W, y += W;
-  STORE_NEXT(ADVANCE)
-  return check;
+  return row_update(d, task, place, i.e, sum.force, SPLAT(body->inverse_mass), angular,
+                    SPLAT(FLAGS.is_gyroscopic ? 1 : body->inverse_inertia[2]), check);
 }
 
 /* Only the links across an axis, for the rows above. */

@@ -6,14 +6,14 @@ static inline exchange NAME(exchange_x)(prepared i, prepared j, axis_law law) {
                        FLAGS.is_material ? i.e.u : j.lower_x, 0, law, FLAGS);
 }
 
-static inline int NAME(run_row)(device d, global const row_stage* task, global const NUMBER* signals, const int action) {
+static inline int NAME(run_row)(device d, global const row_stage* task, global const NUMBER* signals) {
   global const body_constants* body = d.bodies + task->body;
   global const pack_masks* masks = d.masks + task->masks;
   const axis_law x = NAME(law_of)(body, 0), y = NAME(law_of)(body, 1);
 #ifndef PLANAR
   const axis_law z = NAME(law_of)(body, 2);
 #endif
-  const int stride = (action == leapfrog_step ? LEAPFROG_FIELDS : FIELDS) * W, carry_size = CARRY_SIZE(FLAGS) * W;
+  const int stride = task->fields * W, carry_size = CARRY_SIZE(FLAGS) * W;
   const int lane = LANE;
   global const NUMBER* in = d.arena + task->in;
   REAL check = 0;
@@ -39,7 +39,7 @@ static inline int NAME(run_row)(device d, global const row_stage* task, global c
     sum = NAME(add_across)(sum, i, 2, z, masks[pack].link_z, masks[pack].below_z, d.arena + task->upper_z + place,
                            d.arena + task->carry_z + carry, d.arena + task->from_z + carry);
 #endif
-    const REAL checked = NAME(update)(d, task, signals, action, pack, place, i, sum, check);
+    const REAL checked = NAME(update)(d, task, signals, pack, place, i, sum, check);
     if (masks[pack].own >> lane & 1) check = checked;
   }
   return IS_ZERO(check);

@@ -22,14 +22,14 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, cons
 }
 
 /* True if what a last stage left is finite. */
-static inline int NAME(run_row)(device d, global const row_stage* task, global const NUMBER* signals, const int action) {
+static inline int NAME(run_row)(device d, global const row_stage* task, global const NUMBER* signals) {
   global const body_constants* body = d.bodies + task->body;
   global const pack_masks* masks = d.masks + task->masks;
   const axis_law x = NAME(law_of)(body, 0), y = NAME(law_of)(body, 1);
 #ifndef PLANAR
   const axis_law z = NAME(law_of)(body, 2);
 #endif
-  const int stride = (action == leapfrog_step ? LEAPFROG_FIELDS : FIELDS) * W, carry_size = CARRY_SIZE(FLAGS) * W;
+  const int stride = task->fields * W, carry_size = CARRY_SIZE(FLAGS) * W;
   global const NUMBER* in = d.arena + task->in;
   REAL check = SPLAT(0);
   carried previous = nothing_carried();
@@ -46,7 +46,7 @@ static inline int NAME(run_row)(device d, global const row_stage* task, global c
     sum = NAME(add_across)(sum, i, 2, z, masks[pack].link_z, masks[pack].below_z, d.arena + task->upper_z + place,
                            d.arena + task->carry_z + carry, d.arena + task->from_z + carry);
 #endif
-    check = NAME(update)(d, task, signals, action, pack, place, i, sum, check);
+    check = NAME(update)(d, task, signals, pack, place, i, sum, check);
   }
   return IS_ZERO(check);
 }

@@ -1,4 +1,4 @@
-/* What to do with a row, for one combination of terms. */
+/* What to do with a row, for one combination of terms. False: the last stage of a step left what is not finite. */
 static int NAME(run)(device d, global const row_stage* task, global const NUMBER* signals) {
   switch (task->action) {
   case prime_upper:
@@ -15,18 +15,7 @@ static int NAME(run)(device d, global const row_stage* task, global const NUMBER
     NAME(prime)(d, task, 2);
     return 1;
 #endif
-#if HAS_LEAPFROG
-  case leapfrog_step:
-    return NAME(run_row)(d, task, signals, leapfrog_step);
-#else
-  case later_stage:
-    return NAME(run_row)(d, task, signals, later_stage);
-#endif
-#if HAS_RATES
-  case rates:
-    return NAME(run_row)(d, task, signals, rates);
-#endif
   default:
-    return NAME(run_row)(d, task, signals, first_stage);
+    return NAME(run_row)(d, task, signals);
   }
 }

@@ -5,26 +5,17 @@ typedef struct {
 #include "kernels/stage_row/body_constants.h"
 } body_constants;
 
-/* What to do with a row. */
-enum row_action {
-  prime_y, /* its links to the upper rows across y, or z, or both: what a block needs of a row before it */
-  prime_z,
-  prime_upper,
-  first_stage, /* as RowTask (kernels/stage_row/row.hpp) without increments, and with */
-  later_stage,
-  leapfrog_step,
-  rates /* out = rates, forces and moments unscaled: for a host that updates */
-};
-
 /* One row of one stage. */
 typedef struct {
   long in, upper_y, upper_z;
   long carry_y, carry_z, from_y, from_z;
-  long base, out, increment[3];
-  long published;                   /* where else the new state goes */
-  int action, shape, body, applied; /* shape: of the compiled terms; applied: -1 for most rows */
+  long base, out, increment[6];
+  long published; /* where else the new state goes */
+  int action, shape, body,
+      applied; /* action: of enum row_action; shape: of the compiled terms; applied: -1 for most rows */
   int packs, first_pack, masks, fields, row;
-  NUMBER beta, alpha[3];
+  int is_last, low, increments; /* as in RowTask */
+  NUMBER beta, alpha[6];
 } row_stage;
 
 /* One stage of one step over a block's rows [begin, end). */

@@ -1,0 +1,129 @@
+/* What a stage does with the force and the turn of a pack, for every action that rows of this program ask for: HAS(action), a
+ * constant. As kernels/rk_update/update.hpp does it. */
+
+/* Calls act on all components of what the fields' rates are, with their factor to the increment as `beta`. */
+#define NEXT(factor, each, act, t) { const REAL beta = factor; each(act, t) }
+#define EACH_NEXT(act) \
+    NEXT(SPLAT(task->beta), EACH_OF_VEC, act, next_u) \
+    NEXT(SPLAT(task->beta) * inverse_mass, EACH_OF_VEC, act, next_v) \
+    NEXT(SPLAT(task->beta * (NUMBER)0.5), EACH_OF_ROTOR, act, next_q) \
+    NEXT(SPLAT(task->beta) * turn_scale, EACH_OF_SPIN, act, next_w)
+
+static inline REAL wide_sum(device d, global const row_stage* task, const long at, REAL y, REAL beta, REAL rate) {
+  REAL t = rk_first(LOAD(d.arena + task->increment[0] + at) - y, beta, rate);
+  for (int m = 1; m < task->increments; ++m)
+    t = rk_increment(SPLAT(task->alpha[m]), LOAD(d.arena + task->increment[m] + at), y, t);
+  return rk_finish(SPLAT(task->alpha[0]), t, y);
+}
+
+/* Leaves the increment, or of a last stage the state's low part, behind the field. */
+static inline REAL kept_sum(device d, global const row_stage* task, const long at, REAL beta, REAL rate) {
+  const int low = task->low;
+  REAL t = beta * rate;
+  if (task->increments > 0) {
+    t = kept_first(LOAD(d.arena + task->increment[0] + low + at), beta, rate);
+    for (int m = 1; m < task->increments; ++m)
+      t = kept_later(SPLAT(task->alpha[m]), LOAD(d.arena + task->increment[m] + low + at), t);
+    t = SPLAT(task->alpha[0]) * t;
+  }
+  const REAL y = LOAD(d.arena + task->base + at), s = LOAD(d.arena + task->base + low + at) + t, sum = y + s;
+  STORE(task->action == kept_step ? lost_of_sum(y, s, sum) : t, d.arena + task->out + low + at);
+  return sum;
+}
+
+static inline REAL leapfrog_update(device d, global const row_stage* task, const long place, element e, vec force,
+                                   REAL inverse_mass, spin angular, REAL turn_scale, const int is_predicted, REAL check) {
+  global NUMBER* p = d.arena + task->out + place;
+  global const NUMBER* halves = d.arena + task->base + place + FIELDS * W;
+  vec v_half = e.v;
+  spin w_half = e.w;
+  if (is_predicted) v_half = vec_at(halves), w_half = spin_at(halves + VEC_SIZE * W);
+  const leap next = leapfrog(e.u, e.q, v_half, w_half, vec_scale(inverse_mass, force), spin_scale(turn_scale, angular),
+                             SPLAT(task->beta));
+  put_vec(next.u, p);
+  put_vec(is_predicted ? next.v_next : next.v_half, p + VEC_SIZE * W);
+  put_rotor(next.q, p + 2 * VEC_SIZE * W);
+  put_spin(is_predicted ? next.w_next : next.w_half, p + (FIELDS - SPIN_SIZE) * W);
+  if (is_predicted) put_vec(next.v_half, p + FIELDS * W), put_spin(next.w_half, p + (FIELDS + VEC_SIZE) * W);
+  return finite_check(next.v_half, next.w_half, check);
+}
+
+/* y becomes y + (low + change); `low` moves to the next component. */
+#define SUM_UP(c) \
+    { \
+      const REAL s = LOAD(low) + c, y = LOAD(from), sum = y + s; \
+      STORE(lost_of_sum(y, s, sum), low_out); \
+      c = sum, from += W, low += W, low_out += W; \
+    }
+static inline REAL kept_leapfrog_update(device d, global const row_stage* task, const long place, element e, vec force,
+                                        REAL inverse_mass, spin angular, REAL turn_scale, const int is_predicted,
+                                        REAL check) {
+  const REAL h = SPLAT(task->beta), half_h = SPLAT(0.5) * h;
+  global const NUMBER* const in = d.arena + task->base + place;
+  global NUMBER* const out = d.arena + task->out + place;
+  const int v_at = VEC_SIZE * W, q_at = 2 * VEC_SIZE * W, w_at = (FIELDS - SPIN_SIZE) * W;
+  const vec a = vec_scale(inverse_mass, force);
+  const spin alpha = spin_scale(turn_scale, angular);
+  vec v = vec_scale(h, a);
+  spin w = spin_scale(h, alpha);
+  global const NUMBER *from = is_predicted ? in + FIELDS * W : in + v_at, *low = in + task->low + v_at;
+  global NUMBER* low_out = out + task->low + v_at;
+  EACH_OF_VEC(SUM_UP, v)
+  from = is_predicted ? in + (FIELDS + VEC_SIZE) * W : in + w_at, low = in + task->low + w_at;
+  low_out = out + task->low + w_at;
+  EACH_OF_SPIN(SUM_UP, w)
+  vec u = vec_scale(h, v);
+  from = in, low = in + task->low, low_out = out + task->low;
+  EACH_OF_VEC(SUM_UP, u)
+  rotor q = rotor_cayley_change(e.q, spin_scale(SPLAT(0.25) * h, w));
+  from = in + q_at, low = in + task->low + q_at, low_out = out + task->low + q_at;
+  EACH_OF_ROTOR(SUM_UP, q)
+  put_vec(u, out);
+  put_vec(is_predicted ? vec_axpy(half_h, a, v) : v, out + v_at);
+  put_rotor(q, out + q_at);
+  put_spin(is_predicted ? spin_axpy(half_h, alpha, w) : w, out + w_at);
+  if (is_predicted) put_vec(v, out + FIELDS * W), put_spin(w, out + (FIELDS + VEC_SIZE) * W);
+  return finite_check(v, w, check);
+}
+
+static inline REAL row_update(device d, global const row_stage* task, const long place, element e, vec force,
+                              REAL inverse_mass, spin angular, REAL turn_scale, REAL check) {
+  const int action = task->action;
+  global NUMBER* p = d.arena + task->out + place;
+  if (HAS(bare_rates) && action == bare_rates) {
+    put_vec(e.v, p);
+    put_vec(force, p + VEC_SIZE * W);
+    put_rotor(rotor_spun(e.q, e.w), p + 2 * VEC_SIZE * W);
+    put_spin(angular, p + (FIELDS - SPIN_SIZE) * W);
+    return check;
+  }
+  if ((HAS(leapfrog_step) && action == leapfrog_step) || (HAS(predicted_step) && action == predicted_step))
+    return leapfrog_update(d, task, place, e, force, inverse_mass, angular, turn_scale, action == predicted_step, check);
+  if ((HAS(kept_leapfrog) && action == kept_leapfrog) || (HAS(kept_predicted) && action == kept_predicted))
+    return kept_leapfrog_update(d, task, place, e, force, inverse_mass, angular, turn_scale, action == kept_predicted,
+                                check);
+  global const NUMBER* y = d.arena + task->base + place;
+  vec next_u = e.v, next_v = force;
+  rotor next_q = rotor_spun(e.q, e.w);
+  spin next_w = angular;
+  if (HAS(combined_stage) && action == combined_stage) {
+    global const NUMBER *y1 = d.arena + task->increment[0] + place, *y2 = d.arena + task->increment[1] + place,
+                        *y3 = d.arena + task->increment[2] + place;
+    const REAL a1 = SPLAT(task->alpha[0]), a2 = SPLAT(task->alpha[1]), a3 = SPLAT(task->alpha[2]);
+#define COMBINE(c) c = rk_combined(LOAD(y), beta, c, LOAD(y1), LOAD(y2), LOAD(y3), a1, a2, a3), STORE(c, p), \
+                   p += W, y += W, y1 += W, y2 += W, y3 += W;
+    EACH_NEXT(COMBINE)
+  } else if (HAS(wide_stage) && action == wide_stage) {
+    long at = place;
+#define COMBINE_ALL(c) c = wide_sum(d, task, at, LOAD(y), beta, c), STORE(c, p), p += W, y += W, at += W;
+    EACH_NEXT(COMBINE_ALL)
+  } else if ((HAS(kept_stage) && action == kept_stage) || (HAS(kept_step) && action == kept_step)) {
+    long at = place;
+#define KEEP_SUM(c) c = kept_sum(d, task, at, beta, c), STORE(c, p), p += W, at += W;
+    EACH_NEXT(KEEP_SUM)
+  } else {
+#define ADVANCE(c) c = rk_first(LOAD(y), beta, c), STORE(c, p), p += W, y += W;
+    EACH_NEXT(ADVANCE)
+  }
+  return task->is_last ? finite_check(next_v, next_w, check) : check;
+}
