@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-constexpr double rounding = 1e-12; ///< what of a norm is none of a rigid motion's
+constexpr double rounding = 1e-12; ///< share of a norm that stands for zero
 
 /// Degrees of freedom that depend on one another, their inertia scaled to 1: x'' + C x' + K x = 0. Time is in units in
 /// which no number of K or C exceeds 1.
@@ -94,20 +94,35 @@ bool has_single_modes(const Coupled& piece) {
   return (product - product.transpose()).norm() <= 1e-10 * piece.k.norm() * piece.c.norm();
 }
 
-/// Runge-Kutta, where stiffness and damping have the same eigenvectors.
-ExactLimit limit_of_single_modes(const Coupled& piece, const Method& method) {
+/// Where stiffness and damping have the same eigenvectors; by falling frequency, without rigid motions.
+std::vector<Mode> single_modes(const Coupled& piece) {
   // Eigenvectors of K alone need not be those of C where a frequency is multiple; of a general sum of both they are.
-  const double share = 0.6180339887498949 * piece.k.norm() / std::max(piece.c.norm(), 1e-300);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> both(piece.c.norm() > 0 ? MatrixXd(piece.k + share * piece.c)
-                                                                        : piece.k);
+  const double k = piece.k.norm(), c = piece.c.norm();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> both(c > 0 ? MatrixXd(piece.k + 0.618 * k / c * piece.c) : piece.k);
+  std::vector<Mode> modes;
+  for (Index n = piece.k.rows() - 1; n >= 0; --n)
+    if (const Mode mode = mode_of(piece, both.eigenvectors().col(n));
+        mode.omega * mode.omega > rounding * k || mode.rate > rounding * c)
+      modes.push_back(mode);
+  return modes;
+}
+
+ExactLimit limit_of_single_modes(const std::vector<Mode>& modes, const Method& method) {
   ExactLimit limit;
-  for (Index n = piece.k.rows() - 1; n >= 0; --n) {
-    const Mode mode = mode_of(piece, both.eigenvectors().col(n));
-    if (mode.omega * mode.omega <= rounding * piece.k.norm() && mode.rate <= rounding * piece.c.norm()) continue;
-    const double dt = mode_step_limit(method, mode.omega, mode.rate, limit.dt);
-    if (dt < limit.dt) limit = {dt, mode};
-  }
+  for (const Mode& mode : modes)
+    if (const double dt = mode_step_limit(method, mode.omega, mode.rate, limit.dt); dt < limit.dt) limit = {dt, mode};
   return limit;
+}
+
+/// Eigenvalues of (omega x, x')' = (omega x', -K/omega (omega x) - C x'), without rigid motions.
+Eigen::VectorXcd roots_of(const Coupled& piece) {
+  const Index size = piece.k.rows();
+  const double omega = std::sqrt(std::max(piece.k.norm(), 1e-300));
+  MatrixXd matrix = MatrixXd::Zero(2 * size, 2 * size);
+  matrix.topRightCorner(size, size).diagonal().setConstant(omega);
+  matrix.bottomLeftCorner(size, size) = -piece.k / omega;
+  matrix.bottomRightCorner(size, size) = -piece.c;
+  return matrix.eigenvalues();
 }
 
 /// Eigenvector of lambda^2 x + lambda C x + K x = 0, by inverse iteration.
@@ -121,22 +136,14 @@ Eigen::VectorXcd eigenvector(const Coupled& piece, Complex lambda) {
   return x;
 }
 
-/// Runge-Kutta, any damping: the eigenvalues of (omega x, x')' = (omega x', -K/omega (omega x) - C x').
-ExactLimit limit_of_first_order_form(const Coupled& piece, const Method& method) {
-  const Index size = piece.k.rows();
-  const double omega = std::sqrt(std::max(piece.k.norm(), 1e-300));
-  MatrixXd matrix = MatrixXd::Zero(2 * size, 2 * size);
-  matrix.topRightCorner(size, size).diagonal().setConstant(omega);
-  matrix.bottomLeftCorner(size, size) = -piece.k / omega;
-  matrix.bottomRightCorner(size, size) = -piece.c;
-  const Eigen::VectorXcd roots = matrix.eigenvalues();
+ExactLimit limit_of_roots(const Coupled& piece, const Eigen::VectorXcd& roots, const Method& method) {
   const double largest = roots.cwiseAbs().maxCoeff();
   double dt = std::numeric_limits<double>::infinity();
   Complex worst = 0;
   for (Complex root : roots) {
     // Rigid motions have a double root of zero, which comes out as about the root of rounding.
     if (std::abs(root) <= 1e-6 * largest || root.imag() < 0) continue;
-    if (std::abs(root.real()) <= 1e-12 * largest) root.real(0); // undamped but for rounding
+    if (std::abs(root.real()) <= rounding * largest) root.real(0); // undamped
     if (const double own = root_step_limit(method, root, dt); own < dt) dt = own, worst = root;
   }
   return std::isfinite(dt) ? ExactLimit{dt, mode_of(piece, eigenvector(piece, worst))} : ExactLimit{};
@@ -164,26 +171,56 @@ ExactLimit limit_of_flipping_mode(const Coupled& piece, const Method& method) {
 
 } // namespace
 
-std::optional<ExactLimit> exact_step_limit(const Problem& problem, const Method& method) {
-  if (problem.lattice.element_count > exact_elements || problem.lattice.element_count == 0) return {};
-  double rate = 0;
-  const std::vector<Coupled> pieces = decoupled(assembled(problem, rate));
+/// A piece, and what of it does not depend on the method.
+struct Modes::Piece {
+  Coupled coupled;
+  bool has_single_modes = false; ///< stiffness and damping have the same eigenvectors
+  std::vector<Mode> modes{};     ///< single ones, by falling frequency; made when first asked for
+  Eigen::VectorXcd roots{};      ///< of the first-order form; likewise
+
+  bool is_too_large(bool is_runge_kutta) const {
+    const bool is_symmetric = !is_runge_kutta || has_single_modes;
+    return coupled.dof.size() > (is_symmetric ? most_symmetric_unknowns : most_damped_unknowns);
+  }
+  ExactLimit step_limit(const Method& method) {
+    if (method.family != Method::Family::runge_kutta) return limit_of_flipping_mode(coupled, method);
+    if (!has_single_modes) {
+      if (roots.size() == 0) roots = roots_of(coupled);
+      return limit_of_roots(coupled, roots, method);
+    }
+    if (modes.empty()) modes = single_modes(coupled);
+    return limit_of_single_modes(modes, method);
+  }
+};
+
+Modes::Modes(const Problem& problem) {
+  // Dense matrices of larger problems are not worth their memory, however well they decouple.
+  if (6 * problem.lattice.element_count > 2 * most_symmetric_unknowns) {
+    pieces_.push_back({{std::vector<Index>(6 * problem.lattice.element_count), {}, {}}});
+    return;
+  }
+  for (Coupled& piece : decoupled(assembled(problem, rate_))) {
+    const bool commutes = has_single_modes(piece);
+    pieces_.push_back({std::move(piece), commutes});
+  }
+}
+
+Modes::~Modes() = default;
+
+std::optional<ExactLimit> Modes::step_limit(const Method& method) {
   const bool is_runge_kutta = method.family == Method::Family::runge_kutta;
   ExactLimit least;
-  for (const Coupled& piece : pieces)
-    if (piece.dof.size() > (piece.c.norm() == 0 ? 2 : 1) * exact_unknowns) return {};
   std::size_t unknowns = 0;
-  for (const Coupled& piece : pieces) {
-    unknowns += piece.dof.size();
-    const ExactLimit own = !is_runge_kutta           ? limit_of_flipping_mode(piece, method)
-                           : has_single_modes(piece) ? limit_of_single_modes(piece, method)
-                                                     : limit_of_first_order_form(piece, method);
-    if (own.dt < least.dt) least = own;
+  for (const Piece& piece : pieces_) {
+    if (piece.is_too_large(is_runge_kutta)) return {};
+    unknowns += piece.coupled.dof.size();
   }
+  for (Piece& piece : pieces_)
+    if (const ExactLimit own = piece.step_limit(method); own.dt < least.dt) least = own;
   least.unknowns = unknowns;
-  least.mode.omega *= rate;
-  least.mode.rate *= rate;
-  if (std::isfinite(least.dt)) least.dt /= rate;
+  least.mode.omega *= rate_;
+  least.mode.rate *= rate_;
+  if (std::isfinite(least.dt)) least.dt /= rate_;
   return least;
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace dss {
 
@@ -24,13 +25,11 @@ struct ExactLimit {
   std::size_t unknowns = 0; ///< free degrees of freedom that a link or a tie moves
 };
 
-/// Problems of up to this many elements may get exact figures,
-constexpr std::size_t exact_elements = 200;
-/// if no more damped degrees of freedom than this depend on one another, or twice as many undamped ones: such a dense
-/// eigenproblem costs seconds.
-constexpr std::size_t exact_unknowns = 450;
+/// Largest pieces of a problem (degrees of freedom that depend on one another) whose dense eigenproblem is solved: a
+/// symmetric one, or one of twice the size without symmetry. Both cost some seconds.
+constexpr std::size_t most_symmetric_unknowns = 900, most_damped_unknowns = 700;
 
-/// Largest stable step of an explicit method on a problem linearised at rest. Nothing for problems that are too large.
+/// The modes of a problem linearised at rest, and the step limits that they set.
 ///
 /// Runge-Kutta methods: |R(h lambda)| <= 1 for every eigenvalue lambda of the first-order form, of single modes where
 /// stiffness and damping commute (as without damping), of the whole matrix else.
@@ -39,6 +38,18 @@ constexpr std::size_t exact_unknowns = 450;
 /// limits on the two axes (mode_step_limit says the same: tested). An eigenvector x of their step matrix, whatever the
 /// damping, obeys the recurrence of the mode with omega^2 = x* K x and rate = x* C x, so all are stable if the largest
 /// eigenvalue of (h/I)^2 K + (h/R) C is at most 1; and if it exceeds 1, its eigenvector flips its sign and grows.
-std::optional<ExactLimit> exact_step_limit(const Problem& problem, const Method& method);
+class Modes {
+public:
+  explicit Modes(const Problem& problem);
+  ~Modes();
+  /// Largest stable step of an explicit method. Nothing if the problem is too large. What the methods of a family share
+  /// is found once.
+  std::optional<ExactLimit> step_limit(const Method& method);
+
+private:
+  struct Piece;
+  double rate_ = 0; ///< one over the unit of time in the pieces [1/s]
+  std::vector<Piece> pieces_;
+};
 
 } // namespace dss

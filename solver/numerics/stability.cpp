@@ -34,43 +34,48 @@ ExactLimit worst_pairing(const Method& method, const Spectrum& spectrum) {
   return worst;
 }
 
-StabilityLimit of_exact(const ExactLimit& exact, const Problem& problem, const Spectrum& bound) {
-  const Spectrum found = krylov_spectrum(problem);
-  return {exact.dt,
-          std::min(found.omega_max, bound.omega_max),
-          std::min(found.damping, bound.damping),
-          fmt::format("exact: all modes of {} degrees of freedom", exact.unknowns),
-          true,
-          exact.mode};
-}
-
 StabilityLimit limit_within(const Method& method, const Spectrum& spectrum, std::string how) {
   const ExactLimit worst = worst_pairing(method, spectrum);
   return {worst.dt, spectrum.omega_max, spectrum.damping, std::move(how), false, worst.mode};
 }
 
-StabilityLimit sharp_limit(const Problem& problem, const Method& method, const Spectrum& bound) {
-  if (problem.lattice.element_count > sharp_stability_elements)
-    return limit_within(
-        method, bound,
-        fmt::format("bound from single links (more than {} elements: no sharp figure)", sharp_stability_elements));
-  if (const auto exact = exact_step_limit(problem, method)) return of_exact(*exact, problem, bound);
-  Spectrum found = krylov_spectrum(problem);
-  found.omega_max = std::min(found.omega_max, bound.omega_max);
-  found.damping = std::min(found.damping, bound.damping);
-  return limit_within(method, found, fmt::format("Krylov iteration, {} products", found.products));
-}
-
-} // namespace
-
-StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp) {
+/// @throws InputError
+Spectrum finite_bound(const Problem& problem) {
   const Spectrum bound = spectrum_bound(problem);
   if (!std::isfinite(bound.omega_max + bound.damping))
     throw InputError(
         fmt::format("{}: no stability limit can be found: stiffness over mass or inertia is beyond the range "
                     "of numbers; give constants in SI units",
                     problem.name));
-  return sharp ? sharp_limit(problem, method, bound) : limit_within(method, bound, "bound from single links");
+  return bound;
+}
+
+} // namespace
+
+std::vector<StabilityLimit> stable_steps(const Problem& problem, std::span<const Method* const> methods) {
+  const Spectrum bound = finite_bound(problem);
+  const bool is_large = problem.lattice.element_count > sharp_stability_elements;
+  Spectrum found = is_large ? bound : krylov_spectrum(problem);
+  found.omega_max = std::min(found.omega_max, bound.omega_max);
+  found.damping = std::min(found.damping, bound.damping);
+  const std::string how = is_large ? fmt::format("bound from single links (more than {} elements: no sharp figure)",
+                                                 sharp_stability_elements)
+                                   : fmt::format("Krylov iteration, {} products", found.products);
+  Modes modes(problem);
+  std::vector<StabilityLimit> limits;
+  for (const Method* method : methods)
+    if (const auto exact = modes.step_limit(*method))
+      limits.push_back({exact->dt, found.omega_max, found.damping,
+                        fmt::format("exact: all modes of {} degrees of freedom", exact->unknowns), true, exact->mode});
+    else
+      limits.push_back(limit_within(*method, found, how));
+  return limits;
+}
+
+StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp) {
+  if (!sharp) return limit_within(method, finite_bound(problem), "bound from single links");
+  const Method* const one = &method;
+  return stable_steps(problem, {&one, 1})[0];
 }
 
 } // namespace dss

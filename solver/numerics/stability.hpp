@@ -5,7 +5,9 @@
 #include "solver/numerics/modes.hpp"
 #include "solver/numerics/step_growth.hpp"
 
+#include <span>
 #include <string>
+#include <vector>
 
 namespace dss {
 
@@ -30,5 +32,8 @@ constexpr std::size_t sharp_stability_elements = 20'000;
 /// damping within them, which no mode may have. Gyroscopic terms and what large rotations change are not in it.
 /// @throws InputError for constants whose ratios leave the range of numbers
 StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp = false);
+
+/// The sharp figures of several methods; the problem's modes are found once.
+std::vector<StabilityLimit> stable_steps(const Problem& problem, std::span<const Method* const> methods);
 
 } // namespace dss
