@@ -5,9 +5,11 @@
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/simulation_study.hpp"
+#include "experiments/runner/stability_study.hpp"
 #include "experiments/runner/text_table.hpp"
 
 #include "solver/io/atomic_file.hpp"
+#include "solver/numerics/denormals.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -67,8 +69,29 @@ int model(const BalanceStudy& study, const ExperimentArguments& arguments) {
   return exit_success;
 }
 
+int find_limits(const StabilityStudy& study, const ExperimentArguments& arguments) {
+  if (arguments.is_dry) {
+    fmt::print("{}: step limits of every explicit method on {} problems\n", study.name, study.cases.size());
+    return exit_success;
+  }
+  const std::string path = experiment_paths(arguments.out, study.name).table;
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+  require_writable(path);
+  flush_denormals();
+  const Table limits = stability_table(study), energy = stability_energy_table(study);
+  write_csv(path, limits);
+  write_csv(experiment_paths(arguments.out, study.name + "_energy").table, energy);
+  write_csv(experiment_paths(arguments.out, study.name + "_map").table, stability_map_table(study));
+  fmt::print("{}\nTable: {}\n", stability_text(study, limits, energy), path);
+  const auto has_failed = [](const Record& row) { return text_in(row, "status") == "failed"; };
+  const bool is_fine = std::ranges::none_of(limits.rows, has_failed) && std::ranges::none_of(energy.rows, has_failed);
+  return is_fine ? exit_success : exit_check_failed;
+}
+
 int experiment(const ExperimentArguments& arguments) {
   if (const auto balance = load_balance(arguments.file)) return model(*balance, arguments);
+  if (const auto limits = load_stability(arguments.file, arguments.scale)) return find_limits(*limits, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
   const std::string simulated_only = name_if_simulated_only(arguments.file);
   if (!simulated_only.empty() && arguments.is_dry) {

@@ -8,7 +8,9 @@ namespace dss {
 struct Spectrum {
   double omega_max = 0; ///< square root of the largest eigenvalue of (K, M) [rad/s]
   double damping = 0;   ///< largest eigenvalue of (C, M) [1/s]
-  long products = 0;    ///< matrix-vector products spent
+  double least_damping =
+      0; ///< b [s] such that C - b K has no negative eigenvalue: no mode of frequency omega is damped at less than b omega^2
+  long products = 0; ///< matrix-vector products spent
 };
 
 /// Upper bounds by the element-by-element theorem: with each element's inertia shared out among its links, no

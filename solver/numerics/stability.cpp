@@ -3,105 +3,79 @@
 #include "solver/error.hpp"
 #include "solver/numerics/spectrum.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <limits>
-#include <vector>
+#include <utility>
 
 namespace dss {
 namespace {
 
-/// |R(z)| of a Runge-Kutta method: its own table run on y' = z y from y = 1 with h = 1.
-double growth(const Method& method, std::complex<double> z) {
-  std::vector<std::complex<double>> y(std::size_t(method.stages) + 1);
-  y[0] = 1;
-  for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
-    y[s + 1] = 1.0 + z * method.beta[s] * y[s];
-    for (std::size_t m = 1; m <= s; ++m) y[s + 1] += method.alpha[s][m] * (y[m] - 1.0);
-  }
-  return std::abs(y[std::size_t(method.stages)]);
-}
-
-/// Spectral radius of one step on x'' + rate x' + omega^2 x = 0 with h = 1.
-double spectral_radius(const Method& method, double omega, double rate) {
-  const double stiffness = omega * omega;
-  if (method.family == Method::Family::leapfrog) {
-    // One step of (x, v_half, p): a = -stiffness x - rate p.
-    Eigen::Matrix3d step;
-    step << 1 - stiffness, 1, -rate, -stiffness, 1, -rate, -1.5 * stiffness, 1, -1.5 * rate;
-    return step.eigenvalues().cwiseAbs().maxCoeff();
-  }
-  if (method.family == Method::Family::symplectic_euler) {
-    Eigen::Matrix2d step; // of (x, v): v_{n+1} = v + h a(x, v), x_{n+1} = x + h v_{n+1}
-    step << 1 - stiffness, 1 - rate, -stiffness, 1 - rate;
-    return step.eigenvalues().cwiseAbs().maxCoeff();
-  }
-  const std::complex<double> root = std::sqrt(std::complex<double>(rate * rate / 4 - stiffness));
-  return std::max(growth(method, -rate / 2 + root), growth(method, -rate / 2 - root));
-}
-
-/// Smallest limit over every mode with frequency <= omega_max and damping <= rate_max. A limit scales as 1 / omega
-/// along a ray of constant damping ratio, so the worst mode lies on the outer edges omega = omega_max and rate =
-/// rate_max of that rectangle.
-double worst_step_limit(const Method& method, double omega_max, double rate_max) {
+/// The smallest limit over every mode with omega <= omega_max and least_damping omega^2 <= rate <= damping: no
+/// eigenvalue of the problem, whatever its damping, lies outside the modes of that region (its eigenvector's omega^2 =
+/// x* K x and rate = x* C x are in it). A limit scales as 1 / omega along a ray of constant damping ratio, so the worst
+/// mode lies on the region's outer edges: the curve of least damping, omega = omega_max, or rate = damping.
+ExactLimit worst_pairing(const Method& method, const Spectrum& spectrum) {
   constexpr int points = 64;
-  double limit = std::min(mode_step_limit(method, omega_max, rate_max), mode_step_limit(method, omega_max, 0));
-  if (rate_max == 0) return limit;
-  for (int n = 0; n < points; ++n) {
-    const double part = double(n) / points;
-    limit = std::min({limit, mode_step_limit(method, omega_max, part * rate_max),
-                      mode_step_limit(method, part * omega_max, rate_max)});
-  }
-  return limit;
-}
-
-} // namespace
-
-double mode_step_limit(const Method& method, double omega, double rate) {
-  const double scale = std::max(omega, rate);
-  if (scale == 0) return std::numeric_limits<double>::infinity();
-  if (rate == 0 && method.imaginary_limit == 0) return 0; // grows however small the step, too slowly to see
-  constexpr double increment = 0.02;                      // in steps h * scale
-  const double end = 10 * std::max({method.imaginary_limit, method.real_limit, 1.0});
-  const auto is_stable = [&](double h) {
-    return spectral_radius(method, h * omega / scale, h * rate / scale) <= 1 + 1e-12;
+  ExactLimit worst;
+  const auto consider = [&](double omega, double rate) {
+    if (const double dt = mode_step_limit(method, omega, rate); dt < worst.dt) worst = {dt, {omega, rate}};
   };
-  double stable = 0, unstable = increment;
-  while (is_stable(unstable)) {
-    if (unstable > end) return std::numeric_limits<double>::infinity();
-    stable = unstable;
-    unstable += increment;
+  // The bounds are not of one mode: the least damping of the largest frequency may exceed the largest damping.
+  const double omega_max = spectrum.omega_max, most = spectrum.damping;
+  const auto least = [&](double omega) { return std::min(most, spectrum.least_damping * omega * omega); };
+  for (int n = 0; n <= points; ++n) {
+    const double part = double(n) / points;
+    consider(part * omega_max, least(part * omega_max));
+    consider(omega_max, least(omega_max) + part * (most - least(omega_max)));
+    consider(part * omega_max, most);
   }
-  while (unstable - stable > 1e-12 * unstable) {
-    const double middle = (stable + unstable) / 2;
-    (is_stable(middle) ? stable : unstable) = middle;
-  }
-  return stable / scale;
+  return worst;
 }
 
-StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp) {
+StabilityLimit limit_within(const Method& method, const Spectrum& spectrum, std::string how) {
+  const ExactLimit worst = worst_pairing(method, spectrum);
+  return {worst.dt, spectrum.omega_max, spectrum.damping, std::move(how), false, worst.mode};
+}
+
+/// @throws InputError
+Spectrum finite_bound(const Problem& problem) {
   const Spectrum bound = spectrum_bound(problem);
-  StabilityLimit limit{0, bound.omega_max, bound.damping, "bound from single links"};
-  if (sharp && problem.lattice.element_count > sharp_stability_elements) {
-    limit.how += fmt::format(" (more than {} elements: no sharp figure)", sharp_stability_elements);
-  } else if (sharp) {
-    const Spectrum found = krylov_spectrum(problem);
-    limit.omega_max = std::min(found.omega_max, bound.omega_max);
-    limit.damping = std::min(found.damping, bound.damping);
-    limit.how = fmt::format("Krylov iteration, {} products", found.products);
-  }
-  if (std::isfinite(limit.omega_max + limit.damping))
-    limit.dt = worst_step_limit(method, limit.omega_max, limit.damping);
-  if (!(limit.dt > 0) && method.imaginary_limit > 0)
+  if (!std::isfinite(bound.omega_max + bound.damping))
     throw InputError(
         fmt::format("{}: no stability limit can be found: stiffness over mass or inertia is beyond the range "
                     "of numbers; give constants in SI units",
                     problem.name));
-  return limit;
+  return bound;
+}
+
+} // namespace
+
+std::vector<StabilityLimit> stable_steps(const Problem& problem, std::span<const Method* const> methods) {
+  const Spectrum bound = finite_bound(problem);
+  const bool is_large = problem.lattice.element_count > sharp_stability_elements;
+  Spectrum found = is_large ? bound : krylov_spectrum(problem);
+  found.omega_max = std::min(found.omega_max, bound.omega_max);
+  found.damping = std::min(found.damping, bound.damping);
+  const std::string how = is_large ? fmt::format("bound from single links (more than {} elements: no sharp figure)",
+                                                 sharp_stability_elements)
+                                   : fmt::format("Krylov iteration, {} products", found.products);
+  Modes modes(problem);
+  std::vector<StabilityLimit> limits;
+  for (const Method* method : methods)
+    if (const auto exact = modes.step_limit(*method))
+      limits.push_back({exact->dt, found.omega_max, found.damping,
+                        fmt::format("exact: all modes of {} degrees of freedom", exact->unknowns), true, exact->mode});
+    else
+      limits.push_back(limit_within(*method, found, how));
+  return limits;
+}
+
+StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp) {
+  if (!sharp) return limit_within(method, finite_bound(problem), "bound from single links");
+  const Method* const one = &method;
+  return stable_steps(problem, {&one, 1})[0];
 }
 
 } // namespace dss

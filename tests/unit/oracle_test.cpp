@@ -1,4 +1,5 @@
 #include "solver/numerics/signal_rows.hpp"
+#include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
 #include "tests/fixtures/problems.hpp"
 
@@ -188,7 +189,7 @@ TEST(Oracle, says_where_and_when_a_run_stops_being_finite) {
     ASSERT_TRUE(breakdown) << method.name;
     EXPECT_EQ(breakdown->step, 0) << method.name;
 
-    Oracle<double> unstable(problem, method, 1);
+    Oracle<double> unstable(problem, method, 8 * stable_step(problem, *find_method("rk4")).dt);
     unstable.write(fixture::random_state(problem, 1));
     const auto growth = unstable.advance(100000);
     ASSERT_TRUE(growth) << method.name;

@@ -1,0 +1,188 @@
+#include "experiments/runner/stability_limit.hpp"
+#include "experiments/runner/state_access.hpp"
+#include "experiments/runner/verify.hpp"
+#include "solver/numerics/signal_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace dss {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double tiny = 1e-9;         ///< displacements in edges, rotations [rad]: motion is linear to rounding
+constexpr double seen_above = 1.002;  ///< growth is to be seen at this many times the prediction
+constexpr double several = 4;         ///< a rigid body drifts to twice as far in its second half
+constexpr double element_steps = 3e7; ///< budget of a run
+constexpr long least_steps = 100, most_steps = 1'000'000;
+constexpr long looks = 32; ///< at the state, in each run
+
+/// What a random state is scaled by, so that no mode begins far below the others.
+struct Scale {
+  double edge, omega;
+};
+
+Scale scale_of(const Problem& problem, double omega) {
+  double edge = infinite;
+  for (const Body& body : problem.bodies) edge = std::min({edge, body.edge[0], body.edge[1], body.edge[2]});
+  return {edge, omega > 0 ? omega : 1};
+}
+
+std::vector<double> tiny_state(const Problem& problem, const Scale& scale) {
+  std::vector<double> state = random_state(problem, Model::spatial, Precision::f64, 20220617);
+  for (std::size_t at = 0; at < state.size(); at += field_count) {
+    double* const y = &state[at];
+    for (int axis = 0; axis < 3; ++axis) {
+      y[ux + axis] *= 100 * tiny; // from hundredths of an edge
+      y[qx + axis] *= tiny;
+      y[vx + axis] *= tiny * scale.edge * scale.omega;
+      y[wx + axis] *= 0.1 * tiny * scale.omega; // from 10 rad/s
+    }
+    y[qs] = -(y[qx] * y[qx] + y[qy] * y[qy] + y[qz] * y[qz]) / 2; // sqrt(1 - v^2) - 1, to rounding
+  }
+  return state;
+}
+
+/// Largest field in units of the state's own scale; infinite where one is not finite.
+double amplitude(const std::vector<double>& state, const Scale& scale) {
+  const std::array<double, 4> units = {scale.edge, scale.edge * scale.omega, 1, scale.omega}; // u v q w
+  double most = 0;
+  for (std::size_t n = 0; n < state.size(); ++n) {
+    const std::size_t field = n % field_count;
+    const double own = std::abs(state[n]) / units[field < vx ? 0 : field < qs ? 1 : field < wx ? 2 : 3];
+    if (!std::isfinite(own)) return infinite;
+    most = std::max(most, own);
+  }
+  return most;
+}
+
+class LimitSearch {
+public:
+  LimitSearch(const Plugin& plugin, const Problem& problem, const Method& method, const StabilityLimit& predicted)
+      : plugin_(plugin), problem_(problem), method_(method), scale_(scale_of(problem, predicted.omega_max)),
+        start_(tiny_state(problem, scale_)), signal_width_(signal_count(problem)) {
+    steps_ = steps_to_see(predicted);
+    no_signals_.assign((std::size_t(steps_ / looks) * std::size_t(method.stages) + 1) * signal_width_, 0.0);
+  }
+
+  LimitMeasurement around(double guess) {
+    double bounded = 0.8 * guess, growing = 1.25 * guess;
+    for (int n = 0; !is_bounded(bounded); ++n) {
+      if (n == most_tries) return {0, bounded, steps_, runs_};
+      growing = std::exchange(bounded, bounded / 2);
+    }
+    for (int n = 0; is_bounded(growing); ++n) {
+      if (n == most_tries) return {growing, infinite, steps_, runs_};
+      bounded = std::exchange(growing, 1.5 * growing);
+    }
+    while (growing > (1 + limit_resolution) * bounded) {
+      const double middle = (bounded + growing) / 2;
+      (is_bounded(middle) ? bounded : growing) = middle;
+    }
+    return {bounded, growing, steps_, runs_};
+  }
+
+private:
+  static constexpr int most_tries = 3;
+
+  /// Of a run: both halves together grow by e^16 at seen_above.
+  long steps_to_see(const StabilityLimit& predicted) const {
+    const double growth =
+        spectral_radius(method_, seen_above * predicted.dt, predicted.mode.omega, predicted.mode.rate) - 1;
+    const double wanted = predicted.dt > 0 && growth > 0 ? 16 / growth : double(most_steps);
+    const double affordable = element_steps / double(problem_.lattice.element_count);
+    const double steps = std::clamp(std::min(wanted, affordable), double(least_steps), double(most_steps));
+    return looks * long(std::ceil(steps / double(looks)));
+  }
+
+  bool is_bounded(double dt) {
+    ++runs_;
+    const auto executor = plugin_.create({problem_, method_, Model::spatial, Precision::f64, dt});
+    executor->write(0, start_);
+    const double begin = amplitude(start_, scale_);
+    std::array<double, 2> most = {0, 0}; // of each half
+    for (long look = 0; look < looks; ++look) {
+      if (!executor->advance(steps_ / looks, no_signals_).is_finite) return false;
+      const double now = amplitude(whole_state(*executor, problem_.lattice.element_count), scale_);
+      // Free motion goes no farther than begin * (1 + omega t); a thousand times that is blow-up, still linear.
+      const double travelled = scale_.omega * dt * double((look + 1) * (steps_ / looks));
+      if (!(now <= 1000 * begin * (1 + travelled))) return false;
+      double& half = most[look < looks / 2 ? 0 : 1];
+      half = std::max(half, now);
+    }
+    return most[1] <= several * most[0];
+  }
+
+  const Plugin& plugin_;
+  const Problem& problem_;
+  const Method& method_;
+  Scale scale_;
+  std::vector<double> start_, no_signals_;
+  std::size_t signal_width_;
+  long steps_ = 0;
+  int runs_ = 0;
+};
+
+/// Where no limit is predicted every step is tried that a mode would notice.
+double guess_of(const StabilityLimit& predicted) { return predicted.dt > 0 ? predicted.dt : 1 / predicted.omega_max; }
+
+void judge(LimitComparison& row) {
+  const double limit = row.predicted.dt, ratio = row.ratio();
+  row.status = "ok";
+  if (limit == 0) {
+    row.reason = "grows however small the step";
+    if (row.measured.dt == 0) return;
+    row.status = "failed";
+    row.reason = fmt::format("should grow at every step, but is bounded at {:.4g} s", row.measured.dt);
+    return;
+  }
+  if (ratio < 1 - limit_tolerance) {
+    row.status = "failed";
+    row.reason = fmt::format("runs grow at {:.4g} of the predicted limit", row.measured.growing_dt / limit);
+  } else if (row.predicted.is_exact && ratio > 1 + limit_tolerance) {
+    const double growth =
+        spectral_radius(*row.method, (1 + limit_tolerance) * limit, row.predicted.mode.omega, row.predicted.mode.rate) -
+        1;
+    const bool is_slow = growth * double(row.measured.steps) / 2 < 2 * std::log(several);
+    row.status = is_slow ? "unresolved" : "failed";
+    row.reason = is_slow ? fmt::format("{:.2g} % above the limit a step grows by {:.2g}, which {} steps do not show",
+                                       100 * limit_tolerance, growth, row.measured.steps)
+                         : fmt::format("runs are bounded at {:.4g} of the predicted limit, which is exact", ratio);
+  }
+}
+
+} // namespace
+
+LimitMeasurement measure_limit(const Plugin& plugin, const Problem& problem, const Method& method,
+                               const StabilityLimit& predicted) {
+  return LimitSearch(plugin, problem, method, predicted).around(guess_of(predicted));
+}
+
+LimitComparison compare_limit(const Plugin& plugin, const Problem& problem, const Method& method,
+                              const StabilityLimit& predicted) {
+  if (!std::isfinite(predicted.dt))
+    return predicted_alone(method, predicted,
+                           method.is_implicit() ? "implicit: no step is too large" : "nothing vibrates or is damped");
+  LimitComparison row{&method, predicted, measure_limit(plugin, problem, method, predicted), {}, {}};
+  judge(row);
+  return row;
+}
+
+LimitComparison predicted_alone(const Method& method, const StabilityLimit& predicted, const std::string& why) {
+  return {&method, predicted, {}, "not measured", why};
+}
+
+std::string mode_text(const StabilityLimit& limit) {
+  constexpr const char* names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+  const Mode& mode = limit.mode;
+  const std::string shape =
+      mode.omega > 0 ? fmt::format("{:.4g} rad/s, damping ratio {:.3g}", mode.omega, mode.rate / (2 * mode.omega))
+                     : fmt::format("a decay of {:.4g} 1/s", mode.rate);
+  return limit.is_exact ? fmt::format("{}, most in {} of element {}", shape, names[mode.dof], mode.element)
+                        : shape + ", the worst that the bounds allow";
+}
+
+} // namespace dss
