@@ -104,6 +104,7 @@ struct Plugin {
   std::string (*why_unusable)() = nullptr; ///< null, or empty if it can run here, else why not: "no OpenCL platform"
   std::vector<DeviceEntry> (*devices)() = nullptr; ///< null, or the devices that it can use, and those that it cannot
   DeviceCeilings (*ceilings)(const std::string& device) = nullptr; ///< null, or measures a device named as for --device
+  bool is_compensated = true;                                      ///< has Precision::f32c
   bool has_all = false; ///< implicit methods and every Rotation too; others have the explicit methods, and quaternions
 };
 

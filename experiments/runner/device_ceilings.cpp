@@ -37,7 +37,7 @@ void DeviceCeilingsHere::put(const nlohmann::json& run, Record& row) const {
   const Ceilings& ceilings = found->second;
   row["triad_bytes_per_s"] = number_text(ceilings.triad_bytes_per_s);
   row["peak_flops_per_s"] =
-      number_text(run.value("precision", "") == "f32" ? ceilings.f32_flops_per_s : ceilings.f64_flops_per_s);
+      number_text(run.value("precision", "") != "f64" ? ceilings.f32_flops_per_s : ceilings.f64_flops_per_s);
 }
 
 } // namespace dss

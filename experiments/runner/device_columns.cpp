@@ -108,6 +108,7 @@ double of_sum(const Study& study, const StudySamples& samples, const Cell& cell,
 } // namespace
 
 double state_bytes(const std::string& model, const std::string& precision) {
+  // f32c keeps two numbers of four bytes a field
   return (model == "planar" ? planar_fields : spatial_fields) * (precision == "f32" ? 4.0 : 8.0);
 }
 

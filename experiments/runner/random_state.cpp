@@ -53,7 +53,7 @@ std::vector<double> random_state(const Problem& problem, Model model, Precision 
       if (clamp.dofs & (dof_ux << a)) fields[vx + a] = 0;
       if (clamp.dofs & (dof_rx << a)) fields[wx + a] = 0;
     }
-  if (precision == Precision::f32)
+  if (is_single(precision))
     for (double& field : state) field = double(float(field));
   return state;
 }

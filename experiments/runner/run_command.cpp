@@ -124,7 +124,8 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       ->capture_default_str()
       ->group("Ranks");
   command->add_option("--model", request.model, "spatial or planar (default: the scene's)");
-  command->add_option("--precision", request.precision, "f64 or f32 (default: f64)");
+  command->add_option("--precision", request.precision,
+                      "f64, f32, or f32c: f32 whose state is summed with its low parts kept (default: f64)");
   command->add_option("--integrator", request.integrator, method_names() + " (default: the scene's)");
   command->add_option("--rotation", request.rotation,
                       "quaternion (default); of the variant reference also tait_bryan, tait_bryan_raw, linearised");

@@ -20,7 +20,8 @@ Model chosen_model(const std::string& name) {
 
 Precision chosen_precision(const std::string& name) {
   if (const auto precision = find_precision(name)) return *precision;
-  throw InputError(fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32"})));
+  throw InputError(
+      fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32", "f32c"})));
 }
 
 Rotation chosen_rotation(const std::string& text) {
@@ -30,8 +31,11 @@ Rotation chosen_rotation(const std::string& text) {
   throw InputError(fmt::format("--rotation {}: unknown rotation; {}", text, nearest_name(text, known)));
 }
 
-/// What only the reference has.
+/// What not every variant has.
 void require_variant_has(const RunPlan& plan) {
+  if (plan.precision == Precision::f32c && !plan.plugin->is_compensated)
+    throw InputError(
+        fmt::format("--precision f32c: variant {} has f64 and f32 alone; give another --variant", plan.plugin->name));
   if (plan.plugin->has_all) return;
   if (plan.method->is_implicit())
     throw InputError(fmt::format("--integrator {}: variant {} has the explicit methods alone; give --variant reference",
@@ -172,6 +176,10 @@ RunPlan plan_run(const RunRequest& request) {
   plan.rotation = chosen_rotation(request.rotation.value_or("quaternion"));
   plan.dt = request.dt.value_or(problem.dt);
   plan.steps = request.steps.value_or(problem.steps);
+  if (plan.dt > 0 && std::isfinite(plan.dt)) {
+    plan.fitted = std::make_shared<const Method>(fitted(problem, *plan.method, plan.dt));
+    plan.method = plan.fitted.get();
+  }
   plan.tail_steps = request.check_tail;
   require_devices(request, plan);
   require_variant_has(plan);

@@ -4,6 +4,7 @@
 #include "experiments/runner/run.hpp"
 #include "variants/loader.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace dss {
@@ -11,8 +12,9 @@ namespace dss {
 struct RunPlan {
   Scene scene;
   const Plugin* plugin = nullptr;
-  Distribution distribution; ///< of a distributed variant
-  const Method* method = nullptr;
+  Distribution distribution;            ///< of a distributed variant
+  std::shared_ptr<const Method> fitted; ///< to the problem and its step
+  const Method* method = nullptr;       ///< fitted.get()
   Model model = Model::spatial;
   Precision precision = Precision::f64;
   Rotation rotation = Rotation::quaternion;

@@ -140,7 +140,7 @@ Block read_block(const JsonPlace& place, const Sets& scale_sets, int cores) {
   read_variants(place, cores, block);
   block.threads = place.has("threads") ? counts(place["threads"], cores, "threads") : std::vector<int>{1};
   block.models = known_names(place, "models", "spatial", "model", {"spatial", "planar"});
-  block.precisions = known_names(place, "precisions", "f64", "precision", {"f64", "f32"});
+  block.precisions = known_names(place, "precisions", "f64", "precision", {"f64", "f32", "f32c"});
   block.integrators = known_names(place, "integrators", "rk4", "integrator", method_names());
   read_ranks(place, cores, block);
   return block;

@@ -54,9 +54,10 @@ public:
       return leapfrog(at, e, v_half, w_half, force, turn, true);
     }
     case kept_stage:
+      if constexpr (is_compensated) kept_runge_kutta<false>(at, e, force, turn);
+      return;
     case kept_step:
-      if constexpr (is_compensated)
-        return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return kept(n, beta, rate); });
+      if constexpr (is_compensated) kept_runge_kutta<true>(at, e, force, turn);
       return;
     case kept_leapfrog:
     case kept_predicted:
@@ -109,17 +110,29 @@ private:
     return P::rk_finish(alpha_[0], t, y);
   }
 
-  R kept(std::ptrdiff_t at, R beta, R rate) const {
-    R d = beta * rate;
-    if (task_.increments > 0) {
-      d = P::kept_first(load(task_.increment[0] + low_ + at), beta, rate);
-      for (int m = 1; m < task_.increments; ++m)
-        d = P::kept_later(R(task_.alpha[m]), load(task_.increment[m] + low_ + at), d);
-      d = alpha_[0] * d;
-    }
-    const R y = load(base_ + at), s = load(base_ + low_ + at) + d, sum = y + s;
-    simd::store(out_ + low_ + at, action_ == kept_step ? P::lost_of_sum(y, s, sum) : d);
-    return sum;
+  /// Leaves the increment, or of a last stage the state's low part, behind the field.
+  template <bool is_step>
+  void kept_runge_kutta(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
+    const auto with = [&](auto&& increment) {
+      runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
+        const R d = increment(n, beta, rate), y = load(base_ + n), s = load(base_ + low_ + n) + d, sum = y + s;
+        simd::store(out_ + low_ + n, is_step ? P::lost_of_sum(y, s, sum) : d);
+        return sum;
+      });
+    };
+    const int count = task_.increments;
+    if (count == 0) return with([](std::ptrdiff_t, R beta, R rate) { return beta * rate; });
+    if (count <= 3)
+      return with([&](std::ptrdiff_t n, R beta, R rate) {
+        R t = P::kept_first(load(increment_[0] + low_ + n), beta, rate);
+        t = P::kept_later(alpha_[1], load(increment_[1] + low_ + n), t);
+        return alpha_[0] * P::kept_later(alpha_[2], load(increment_[2] + low_ + n), t);
+      });
+    with([&](std::ptrdiff_t n, R beta, R rate) {
+      R t = P::kept_first(load(increment_[0] + low_ + n), beta, rate);
+      for (int m = 1; m < count; ++m) t = P::kept_later(R(task_.alpha[m]), load(task_.increment[m] + low_ + n), t);
+      return alpha_[0] * t;
+    });
   }
 
   struct Velocities {

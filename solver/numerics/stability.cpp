@@ -78,4 +78,24 @@ StabilityLimit stable_step(const Problem& problem, const Method& method, bool sh
   return stable_steps(problem, {&one, 1})[0];
 }
 
+Method fitted(const Problem& problem, const Method& method, double dt) {
+  if (method.name != "rkc2") return method;
+  constexpr int most_stages = 200, tried = 12;
+  const Spectrum bound = finite_bound(problem);
+  int least = 2;
+  while (least < most_stages && rkc2(least).real_limit < dt * bound.damping) ++least;
+  std::vector<Method> candidates;
+  std::vector<const Method*> pointers;
+  for (int stages = least; stages < least + tried && stages <= most_stages; ++stages)
+    candidates.push_back(rkc2(stages));
+  for (const Method& candidate : candidates) {
+    if (limit_within(candidate, bound, "").dt >= dt) return candidate;
+    pointers.push_back(&candidate);
+  }
+  const std::vector<StabilityLimit> limits = stable_steps(problem, pointers);
+  for (std::size_t n = 0; n < limits.size(); ++n)
+    if (limits[n].dt >= dt) return candidates[n];
+  return candidates.front();
+}
+
 } // namespace dss

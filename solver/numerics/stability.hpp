@@ -36,4 +36,8 @@ StabilityLimit stable_step(const Problem& problem, const Method& method, bool sh
 /// The sharp figures of several methods; the problem's modes are found once.
 std::vector<StabilityLimit> stable_steps(const Problem& problem, std::span<const Method* const> methods);
 
+/// The method as it is run with a step dt [s]: rkc2 with the fewest stages that its limit on the problem asks for, every other
+/// method as it is. Where no number of stages up to 200 suffices, that which its damping asks for, at most 200: stable_step then says no.
+Method fitted(const Problem& problem, const Method& method, double dt);
+
 } // namespace dss

@@ -3,6 +3,7 @@
 /// FMA.
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
+#include "tests/fixtures/schemes.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>

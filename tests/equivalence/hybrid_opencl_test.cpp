@@ -63,7 +63,7 @@ TEST_F(HybridOnDevices, edges_that_go_before_the_rest_have_the_bits_of_the_whole
   const Problem problem = fixture::make_block(9, 80, 1, LinkLaw::paper);
   for (const char* kind : {"", "discrete"}) {
     const DeviceAs device(kind);
-    for (const Method& method : methods()) {
+    for (const Method& method : brief_methods()) {
       const State start = fixture::random_state(problem, 9, 1e-4, 0.02, 0.01);
       const State whole = VariantRun{plugin_of("avx512"), problem, method}.after(start, 100);
       for (const char* members : {"avx512:1,opencl:2", "avx2:1,opencl:1,avx512:1", "opencl:1,opencl:2"})
@@ -76,7 +76,7 @@ TEST_F(HybridOnDevices, edges_that_go_before_the_rest_have_the_bits_of_the_whole
 TEST_F(HybridOnDevices, members_taken_for_gpus_have_the_bits_of_the_whole) {
   const DeviceAs gpu("gpu");
   const Problem problem = fixture::make_block(19, 24, 1, LinkLaw::paper);
-  for (const Method& method : methods()) {
+  for (const Method& method : brief_methods()) {
     const State start = fixture::random_state(problem, 9, 1e-4, 0.02, 0.01);
     const State whole = VariantRun{plugin_of("avx512"), problem, method}.after(start, 20);
     for (const char* members : {"avx512:1,opencl:1", "opencl:1,opencl:1"})
@@ -88,7 +88,7 @@ TEST_F(HybridOnDevices, members_taken_for_gpus_have_the_bits_of_the_whole) {
 TEST_F(HybridOnDevices, the_first_failure_is_that_of_packs) {
   const Problem problem = fixture::make_block(9, 17, 1, LinkLaw::paper);
   const State start = fixture::random_state(problem, 5, 1e-20, 1e-18, 1e-18);
-  for (const Method& method : methods()) {
+  for (const Method& method : brief_methods()) {
     const double dt = 2 * stable_step(problem, method).dt;
     const auto failure = [&](Executor& run) {
       run.write(0, start);

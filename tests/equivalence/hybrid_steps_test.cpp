@@ -76,7 +76,7 @@ TEST_F(Hybrid, in_balance_or_with_noise_moves_nothing) {
 
 TEST_F(Hybrid, reports_the_first_failure_of_a_single_executor) {
   const Problem problem = fixture::make_block(9, 17, 1, LinkLaw::paper);
-  for (const Method& method : methods()) {
+  for (const Method& method : brief_methods()) {
     const double dt = 2 * stable_step(problem, method).dt;
     const auto failure = [&](Executor& run, long at_once) {
       run.write(0, fixture::random_state(problem, 5, 1e-20, 1e-18, 1e-18));

@@ -21,39 +21,37 @@ std::vector<Case> cases() {
 
 TEST_F(Hybrid, members_make_up_the_whole_to_the_last_bit) {
   for (const Case& c : cases())
-    for (const Precision precision : {Precision::f64, Precision::f32})
-      for (const Method& method : methods()) {
-        const State start = rounded(fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01), precision);
-        const State whole =
-            VariantRun{plugin_of("avx512"), c.problem, method, Model::spatial, precision}.after(start, 30);
-        for (const char* members : {"avx512:1,avx512:1", "avx512:1,avx2:1", "avx2:2=1,avx512:1=9",
-                                    "avx2:1,avx512:1,avx2:1", "avx512:1=7,avx2:3=1,avx512:2=2"})
-          EXPECT_EQ(differing_bits(whole, JointRun{c.problem, method, members, precision}.after(start, 30), precision),
-                    0u)
-              << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << members;
-      }
+    for (const auto& [method, precision] : brief_schemes()) {
+      const State start = rounded(fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01), precision);
+      const State whole =
+          VariantRun{plugin_of("avx512"), c.problem, method, Model::spatial, precision}.after(start, 30);
+      for (const char* members : {"avx512:1,avx512:1", "avx512:1,avx2:1", "avx2:2=1,avx512:1=9",
+                                  "avx2:1,avx512:1,avx2:1", "avx512:1=7,avx2:3=1,avx512:2=2"})
+        EXPECT_EQ(differing_bits(whole, JointRun{c.problem, method, members, precision}.after(start, 30), precision),
+                  0u)
+            << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << members;
+    }
 }
 
 TEST_F(Hybrid, moves_elements_in_the_middle_of_a_run_without_changing_a_bit) {
   for (const Case& c : cases())
-    for (const Precision precision : {Precision::f64, Precision::f32})
-      for (const Method& method : methods()) {
-        const State start = rounded(fixture::random_state(c.problem, 5, 1e-4, 0.02, 0.01), precision);
-        const State whole =
-            VariantRun{plugin_of("avx512"), c.problem, method, Model::spatial, precision}.after(start, 150);
-        for (const char* members : {"avx512:1,avx2:1", "avx2:1=5,avx512:1=1,avx2:2=1"}) {
-          int rebalances = 0;
-          const JointRun run{c.problem, method, members, precision, swinging(int(parse_members(members).size()), 3)};
-          EXPECT_EQ(differing_bits(whole, run.after(start, 150, &rebalances), precision), 0u)
-              << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << members;
-          EXPECT_GE(rebalances, 2) << c.name << ' ' << method.name << ' ' << members;
-        }
+    for (const auto& [method, precision] : brief_schemes()) {
+      const State start = rounded(fixture::random_state(c.problem, 5, 1e-4, 0.02, 0.01), precision);
+      const State whole =
+          VariantRun{plugin_of("avx512"), c.problem, method, Model::spatial, precision}.after(start, 150);
+      for (const char* members : {"avx512:1,avx2:1", "avx2:1=5,avx512:1=1,avx2:2=1"}) {
+        int rebalances = 0;
+        const JointRun run{c.problem, method, members, precision, swinging(int(parse_members(members).size()), 3)};
+        EXPECT_EQ(differing_bits(whole, run.after(start, 150, &rebalances), precision), 0u)
+            << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << members;
+        EXPECT_GE(rebalances, 2) << c.name << ' ' << method.name << ' ' << members;
       }
+    }
 }
 
 TEST_F(Hybrid, computes_planar_models) {
   const Problem problem = fixture::make_plate(19);
-  for (const Method& method : methods()) {
+  for (const Method& method : brief_methods()) {
     const State start = flattened(fixture::random_state(problem, 6, 1e-4, 0.02, 0.01));
     const State whole = VariantRun{plugin_of("avx512"), problem, method, Model::planar}.after(start, 100);
     const JointRun run{problem, method, "avx2:1,avx512:1", Precision::f64, swinging(2, 3), Model::planar};
@@ -92,24 +90,23 @@ TEST_F(Hybrid, is_read_and_written_piece_by_piece) {
 /// What one executor keeps, another goes on with.
 TEST_F(Hybrid, what_a_method_keeps_moves_from_executor_to_executor) {
   for (const Case& c : cases())
-    for (const Precision precision : {Precision::f64, Precision::f32})
-      for (const Method& method : methods()) {
-        const State start = rounded(fixture::random_state(c.problem, 10, 1e-4, 0.02, 0.01), precision);
-        const VariantRun first{plugin_of("avx512"), c.problem, method, Model::spatial, precision, 2},
-            second{load_variant("avx2"), c.problem, method, Model::spatial, precision};
-        const auto from = first.executor(), to = second.executor();
-        from->write(0, start);
-        from->advance(11, signal_rows(c.problem, method, first.dt, 0, 11));
-        std::vector<double> kept(c.problem.lattice.element_count * std::size_t(from->kept_fields()));
-        ASSERT_EQ(from->kept_fields(), to->kept_fields());
-        from->save(0, kept);
-        to->restore(0, kept);
-        for (Executor* run : {from.get(), to.get()}) run->advance(8, signal_rows(c.problem, method, first.dt, 11, 8));
-        State expected = poisoned(c.problem), moved = expected;
-        from->read(0, expected);
-        to->read(0, moved);
-        EXPECT_EQ(differing_bits(expected, moved, precision), 0u) << c.name << ' ' << method.name;
-      }
+    for (const auto& [method, precision] : brief_schemes()) {
+      const State start = rounded(fixture::random_state(c.problem, 10, 1e-4, 0.02, 0.01), precision);
+      const VariantRun first{plugin_of("avx512"), c.problem, method, Model::spatial, precision, 2},
+          second{load_variant("avx2"), c.problem, method, Model::spatial, precision};
+      const auto from = first.executor(), to = second.executor();
+      from->write(0, start);
+      from->advance(11, signal_rows(c.problem, method, first.dt, 0, 11));
+      std::vector<double> kept(c.problem.lattice.element_count * std::size_t(from->kept_fields()));
+      ASSERT_EQ(from->kept_fields(), to->kept_fields());
+      from->save(0, kept);
+      to->restore(0, kept);
+      for (Executor* run : {from.get(), to.get()}) run->advance(8, signal_rows(c.problem, method, first.dt, 11, 8));
+      State expected = poisoned(c.problem), moved = expected;
+      from->read(0, expected);
+      to->read(0, moved);
+      EXPECT_EQ(differing_bits(expected, moved, precision), 0u) << c.name << ' ' << method.name;
+    }
 }
 
 TEST_F(Hybrid, messages_are_copied_in_few_pieces) {

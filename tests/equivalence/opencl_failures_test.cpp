@@ -20,7 +20,7 @@ Outcome first_failure(const VariantRun& run, const State& start, long at_once) {
 void expect_the_failure_of_packs(const Plugin& packs, const char* variant, const std::vector<int>& bands) {
   const Problem problem = fixture::make_block(9, 17, 1, LinkLaw::paper);
   const State start = fixture::random_state(problem, 5, 1e-20, 1e-18, 1e-18);
-  for (const Method& method : methods()) {
+  for (const Method& method : brief_methods()) {
     VariantRun run{packs, problem, method};
     run.dt = 2 * stable_step(problem, method).dt;
     const Outcome expected = first_failure(run, start, 1);
@@ -58,7 +58,7 @@ TEST_F(OpenCl, failures_in_one_band_stop_the_others) {
   problem.loads.push_back({{4}, {1e300, 0, 0}, {0, 0, 0}, late});
   const State start = fixture::random_state(problem, 6, 1e-4, 0.02, 0.01);
   const std::size_t far = problem.lattice.element_count - 1;
-  for (const Method& method : methods()) {
+  for (const Method& method : brief_methods()) {
     const Outcome expected = first_failure({packs(), problem, method}, start, 1);
     ASSERT_FALSE(expected.is_finite) << method.name;
     ASSERT_GE(expected.step, failing) << method.name;

@@ -104,21 +104,20 @@ TEST_P(Parts, make_up_the_whole_to_the_last_bit) {
   const bool is_on_device = plugin.devices != nullptr; // a launch takes there what all steps of a run take here
   const std::vector<int> counts = is_on_device ? std::vector{3} : std::vector{2, 3, 4};
   for (const Case& c : cases())
-    for (const Precision precision : {Precision::f64, Precision::f32})
-      for (const Method& method : methods()) {
-        const State start = rounded(fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01), precision);
-        const State whole = VariantRun{plugin, c.problem, method, Model::spatial, precision}.after(start, 30);
-        for (const std::string_view how : usable_methods())
-          for (const int parts : counts)
-            for (const bool is_every_stage : {false, true})
-              for (const bool is_overlapped : {false, true}) {
-                if (how == "strips" && std::size_t(parts) > c.problem.lattice.rows.size()) continue;
-                const PartsRun run{plugin, c.problem, method, precision, is_every_stage, is_overlapped};
-                EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, parts), start, 30), precision), 0u)
-                    << c.name << ' ' << name(precision) << ' ' << method.name << ", " << parts << ' ' << how
-                    << (is_every_stage ? ", every stage" : ", every step") << (is_overlapped ? ", overlapped" : "");
-              }
-      }
+    for (const auto& [method, precision] : brief_schemes()) {
+      const State start = rounded(fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01), precision);
+      const State whole = VariantRun{plugin, c.problem, method, Model::spatial, precision}.after(start, 30);
+      for (const std::string_view how : usable_methods())
+        for (const int parts : counts)
+          for (const bool is_every_stage : {false, true})
+            for (const bool is_overlapped : {false, true}) {
+              if (how == "strips" && std::size_t(parts) > c.problem.lattice.rows.size()) continue;
+              const PartsRun run{plugin, c.problem, method, precision, is_every_stage, is_overlapped};
+              EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, parts), start, 30), precision), 0u)
+                  << c.name << ' ' << name(precision) << ' ' << method.name << ", " << parts << ' ' << how
+                  << (is_every_stage ? ", every stage" : ", every step") << (is_overlapped ? ", overlapped" : "");
+            }
+    }
 }
 
 TEST_P(Parts, have_the_derivative_of_the_whole) {
@@ -134,7 +133,7 @@ TEST_P(Parts, have_the_derivative_of_the_whole) {
 
 TEST_P(Parts, of_several_threads_make_up_the_whole) {
   for (const Case& c : cases())
-    for (const Method& method : methods())
+    for (const Method& method : brief_methods())
       for (const std::string_view how : usable_methods())
         for (const bool is_every_stage : {false, true}) {
           const State start = fixture::random_state(c.problem, 6, 1e-4, 0.02, 0.01);
@@ -151,7 +150,7 @@ TEST_F(OpenCl, parts_on_a_device_with_memory_of_its_own_make_up_the_whole) {
   const DeviceAs device("discrete");
   const Problem problem = fixture::make_block(37, 40, 1, LinkLaw::paper), joint = fixture::make_everything();
   for (const Problem* const p : {&problem, &joint})
-    for (const Method& method : methods()) {
+    for (const Method& method : brief_methods()) {
       const State start = fixture::random_state(*p, 4, 1e-4, 0.02, 0.01);
       const State whole = VariantRun{packs(), *p, method}.after(start, 30);
       for (const auto& [how, parts] : {std::pair("strips", 2), std::pair("blocks", 4)})

@@ -43,6 +43,13 @@ protected:
   std::vector<Model> models(const Case& c) const {
     return c.is_planar ? std::vector{Model::spatial, Model::planar} : std::vector{Model::spatial};
   }
+  std::vector<Scheme> tested_schemes() const {
+    if (plugin.devices != nullptr) return brief_schemes(); // which take seconds for each program
+    std::vector<Scheme> all = schemes();
+    if (!plugin.is_compensated)
+      std::erase_if(all, [](const Scheme& scheme) { return scheme.precision == Precision::f32c; });
+    return all;
+  }
   State start(const Case& c, Model model, Precision precision, unsigned seed) const {
     State state = fixture::random_state(c.problem, seed, c.gap);
     return rounded(model == Model::planar ? flattened(state) : state, precision);
@@ -52,28 +59,27 @@ protected:
 TEST_P(EveryVariant, agrees_with_the_oracle_after_one_evaluation_of_a_random_state) {
   for (const Case& c : cases())
     for (const Model model : models(c))
-      for (const Precision precision : {Precision::f64, Precision::f32})
-        for (const Method& method : methods()) {
-          const State state = start(c, model, precision, 1);
-          const double error = relative_error(VariantRun{plugin, c.problem, method, model, precision}.derivative(state),
-                                              oracle_derivative(c.problem, method, state));
-          EXPECT_LE(error, precision == Precision::f64 ? 1e-13 : 1e-5)
-              << c.name << ' ' << name(model) << ' ' << name(precision);
-        }
+      for (const Precision precision : {Precision::f64, Precision::f32}) {
+        const Method& method = methods().front(); // no method has a part in it
+        const State state = start(c, model, precision, 1);
+        const double error = relative_error(VariantRun{plugin, c.problem, method, model, precision}.derivative(state),
+                                            oracle_derivative(c.problem, method, state));
+        EXPECT_LE(error, precision == Precision::f64 ? 1e-13 : 1e-5)
+            << c.name << ' ' << name(model) << ' ' << name(precision);
+      }
 }
 
 TEST_P(EveryVariant, agrees_with_the_oracle_after_a_run_from_a_moderate_state) {
   for (const Case& c : cases())
     for (const Model model : models(c))
-      for (const Precision precision : {Precision::f64, Precision::f32})
-        for (const Method& method : methods()) {
-          State state = fixture::random_state(c.problem, 2, c.gap * 0.01, 0.02, 0.01);
-          state = rounded(model == Model::planar ? flattened(state) : state, precision);
-          const double error = relative_error(VariantRun{plugin, c.problem, method, model, precision}.after(state, 60),
-                                              oracle_after(c.problem, method, state, 60));
-          EXPECT_LE(error, precision == Precision::f64 ? 1e-10 : 2e-3)
-              << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name;
-        }
+      for (const auto& [method, precision] : tested_schemes()) {
+        State state = fixture::random_state(c.problem, 2, c.gap * 0.01, 0.02, 0.01);
+        state = rounded(model == Model::planar ? flattened(state) : state, precision);
+        const double error = relative_error(VariantRun{plugin, c.problem, method, model, precision}.after(state, 60),
+                                            oracle_after(c.problem, method, state, 60));
+        EXPECT_LE(error, precision == Precision::f64 ? 1e-10 : 2e-3)
+            << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name;
+      }
 }
 
 TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
@@ -81,18 +87,16 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
   const bool is_on_device = plugin.devices != nullptr; // each is a device of its own there, which takes time to make
   const std::vector<int> counts = is_on_device ? std::vector{2, 7} : std::vector{2, 3, 4, 7};
   for (const Case& c : cases())
-    for (const Precision precision : {Precision::f64, Precision::f32})
-      for (const Method& method : methods()) {
-        const State state = rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
-        const State one = VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
-        for (const int threads : counts)
-          EXPECT_EQ(differing_bits(
-                        one,
-                        (VariantRun{plugin, c.problem, method, Model::spatial, precision, threads}).after(state, 20),
-                        precision),
-                    0u)
-              << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << threads << " threads";
-      }
+    for (const auto& [method, precision] : brief_schemes()) {
+      const State state = rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
+      const State one = VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
+      for (const int threads : counts)
+        EXPECT_EQ(differing_bits(
+                      one, (VariantRun{plugin, c.problem, method, Model::spatial, precision, threads}).after(state, 20),
+                      precision),
+                  0u)
+            << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << threads << " threads";
+    }
 }
 
 TEST_P(EveryVariant, keeps_a_state_at_rest_at_rest_to_the_last_bit) {
@@ -166,18 +170,17 @@ TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
   if (fused.size() < 2) GTEST_SKIP() << "this CPU runs " << fused.size() << " variant(s) with FMA";
   for (const Case& c : cases())
     for (const Model model : {Model::spatial, Model::planar})
-      for (const Precision precision : {Precision::f64, Precision::f32})
-        for (const Method& method : methods()) {
-          if (model == Model::planar && !c.is_planar) continue;
-          State state = fixture::random_state(c.problem, 4, c.gap * 0.01, 0.02, 0.01);
-          state = rounded(model == Model::planar ? flattened(state) : state, precision);
-          const State first = VariantRun{*fused[0], c.problem, method, model, precision}.after(state, 60);
-          for (const Plugin* other : fused)
-            EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60),
-                                     precision),
-                      0u)
-                << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name << ' ' << other->name;
-        }
+      for (const auto& [method, precision] : schemes()) {
+        if (model == Model::planar && !c.is_planar) continue;
+        State state = fixture::random_state(c.problem, 4, c.gap * 0.01, 0.02, 0.01);
+        state = rounded(model == Model::planar ? flattened(state) : state, precision);
+        const State first = VariantRun{*fused[0], c.problem, method, model, precision}.after(state, 60);
+        for (const Plugin* other : fused)
+          EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60),
+                                   precision),
+                    0u)
+              << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name << ' ' << other->name;
+      }
 }
 
 } // namespace

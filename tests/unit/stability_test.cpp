@@ -176,5 +176,18 @@ TEST(StableStep, says_that_a_large_problem_gets_no_sharp_figure) {
   EXPECT_EQ(limit.dt, stable_step(plate, rk4).dt);
 }
 
+TEST(Fitted, rkc2_has_as_many_stages_as_the_damping_needs_and_no_more) {
+  Problem pair = fixture::make_pair(LinkLaw::paper);
+  for (Body& body : pair.bodies)
+    for (AxisConstants& axis : body.axis) // forty times critical, about
+      axis.d_normal = axis.d_shear = 40 * std::sqrt(axis.k_normal * body.mass), axis.d_rot = {1, 1, 1};
+  const double dt = 5 * stable_step(pair, rk4).dt;
+  const Method method = fitted(pair, *find_method("rkc2"), dt);
+  EXPECT_GT(method.stages, 3);
+  EXPECT_GE(stable_step(pair, method, true).dt, dt);
+  EXPECT_LT(stable_step(pair, rkc2(method.stages - 1), true).dt, dt);
+  EXPECT_EQ(fitted(pair, rk4, dt).stages, rk4.stages);
+}
+
 } // namespace
 } // namespace dss

@@ -33,6 +33,12 @@ struct RowKernels {
       return run_stage<combined_stage, P::fields>(task);
     case in_place:
       return run_stage<in_place, leapfrog_fields>(task);
+    case kept_stage:
+      if constexpr (sizeof(T) == sizeof(float)) return run_stage<kept_stage, 2 * P::fields>(task);
+      break;
+    case kept_step:
+      if constexpr (sizeof(T) == sizeof(float)) return run_stage<kept_step, 2 * P::fields>(task);
+      break;
     default:
       break;
     }

@@ -50,6 +50,7 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .is_distributed = false,
                            .create = create,
                            .kernels = nullptr,
+                           .is_compensated = false,
                            .has_all = true};
 
 } // namespace
