@@ -1,6 +1,7 @@
 #include "solver/numerics/method.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace dss {
 namespace {
@@ -43,6 +44,23 @@ Method velocity_verlet() {
               "step limit of damped problems"};
 }
 
+Method implicit_midpoint() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {.name = "implicit_midpoint",
+          .family = Method::Family::implicit_midpoint,
+          .order = 2,
+          .stages = 1,
+          .node = {0.5},
+          .beta = {1},
+          .alpha = {{0}},
+          .imaginary_limit = infinity,
+          .real_limit = infinity,
+          .is_symplectic = true,
+          .keeps_energy_bounded = true,
+          .note = "solves the equations of each step to rounding by Newton's iteration; any step is stable, but modes "
+                  "that it does not resolve are slowed down and hardly damped"};
+}
+
 } // namespace
 
 const std::vector<Method>& methods() {
@@ -51,7 +69,7 @@ const std::vector<Method>& methods() {
 }
 
 const std::vector<Method>& implicit_methods() {
-  static const std::vector<Method> all = {};
+  static const std::vector<Method> all = {implicit_midpoint()};
   return all;
 }
 

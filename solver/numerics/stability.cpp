@@ -15,8 +15,10 @@
 namespace dss {
 namespace {
 
-/// |R(z)| of a Runge-Kutta method: its own table run on y' = z y from y = 1 with h = 1.
+/// |R(z)| of a Runge-Kutta method: its own table run on y' = z y from y = 1 with h = 1; of the implicit midpoint rule:
+/// its equation solved.
 double growth(const Method& method, std::complex<double> z) {
+  if (method.family == Method::Family::implicit_midpoint) return std::abs((1.0 + z / 2.0) / (1.0 - z / 2.0));
   std::vector<std::complex<double>> y(std::size_t(method.stages) + 1);
   y[0] = 1;
   for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Largest stable step of an explicit method on a problem, predicted from the equations of motion linearised at rest.
+/// Largest stable step of a method on a problem, predicted from the equations of motion linearised at rest.
 #include "solver/model/problem.hpp"
 #include "solver/numerics/method.hpp"
 
@@ -9,7 +9,7 @@ namespace dss {
 
 /// Prediction of stable_step.
 struct StabilityLimit {
-  double dt = 0;        ///< largest stable step [s]; infinite where nothing vibrates or is damped
+  double dt = 0; ///< largest stable step [s]; infinite where nothing vibrates or is damped, and of implicit methods
   double omega_max = 0; ///< largest natural frequency, or an upper bound of it [rad/s]
   double damping = 0;   ///< largest eigenvalue of the damping against the inertia, or an upper bound of it [1/s]
   std::string how;      ///< one line: the way it was found and how sharp it is
