@@ -157,10 +157,9 @@ private:
   void report_breakdown(long step, const Outcome& outcome, RunResult& result) const {
     result.status = "unstable";
     result.steps = step + 1;
-    result.reason =
-        fmt::format("{}: {} after step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s", problem_.name,
-                    outcome.what, step + 1, double(step + 1) * plan_.dt, outcome.element,
-                    plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
+    result.reason = fmt::format("{}: {} after step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s",
+                                problem_.name, outcome.what, step + 1, double(step + 1) * plan_.dt, outcome.element,
+                                plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
   }
 
   void look(long step) {
@@ -246,7 +245,8 @@ RunResult run_scene(const RunRequest& request) {
   if (result.status != "ok") return result;
   result.max_displacement_m = max_displacement(timed.executor(), count);
   result.digest = state_digest(timed.executor(), count, plan.precision);
-  if (count <= energy_elements) result.energy_j = total_energy(problem, whole_state(timed.executor(), count), plan.rotation);
+  if (count <= energy_elements)
+    result.energy_j = total_energy(problem, whole_state(timed.executor(), count), plan.rotation);
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), count);
     const WorkAlone alone(timed.executor(), request.is_root);
