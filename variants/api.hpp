@@ -15,6 +15,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dss {
@@ -34,11 +35,12 @@ struct Setup {
   Rotation rotation = Rotation::quaternion;   ///< others than quaternions: of plug-ins that say has_all
 };
 
-/// Result of advance(): finite, or where the state first was not.
+/// Result of advance(): finite, or where the state first was not, or a step's equations were not solved.
 struct Outcome {
   bool is_finite = true;
   long step = 0;           ///< steps completed in this call; the failing step (counted from 0) when not finite
   std::size_t element = 0; ///< first element that is not finite
+  std::string_view what = "the state is not finite"; ///< or why else the step failed; static text
 };
 
 /// One scene on one target. On several ranks each of them makes one, calls are collective, and all ranks get the same results. Fields are as in solver/model/fields.hpp, whatever the model and the precision inside.

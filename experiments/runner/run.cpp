@@ -132,7 +132,7 @@ private:
       if (is_very_first) result_.first_step_s += wall_s;
       result.usage += usage.read();
       is_finite = outcome.is_finite;
-      if (!is_finite) report_breakdown(step + outcome.step, outcome.element, result);
+      if (!is_finite) report_breakdown(step + outcome.step, outcome, result);
       step += count;
     }
     return is_finite;
@@ -154,13 +154,12 @@ private:
     result_.usage.involuntary_switches = long(sum(double(result_.usage.involuntary_switches)));
   }
 
-  void report_breakdown(long step, std::size_t element, RunResult& result) const {
+  void report_breakdown(long step, const Outcome& outcome, RunResult& result) const {
     result.status = "unstable";
     result.steps = step + 1;
-    result.reason =
-        fmt::format("{}: the state is not finite after step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s",
-                    problem_.name, step + 1, double(step + 1) * plan_.dt, element,
-                    plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
+    result.reason = fmt::format("{}: {} after step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s",
+                                problem_.name, outcome.what, step + 1, double(step + 1) * plan_.dt, outcome.element,
+                                plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
   }
 
   void look(long step) {
@@ -246,7 +245,8 @@ RunResult run_scene(const RunRequest& request) {
   if (result.status != "ok") return result;
   result.max_displacement_m = max_displacement(timed.executor(), count);
   result.digest = state_digest(timed.executor(), count, plan.precision);
-  if (count <= energy_elements) result.energy_j = total_energy(problem, whole_state(timed.executor(), count));
+  if (count <= energy_elements)
+    result.energy_j = total_energy(problem, whole_state(timed.executor(), count), plan.rotation);
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), count);
     const WorkAlone alone(timed.executor(), request.is_root);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dss {
 namespace {
@@ -125,6 +126,23 @@ Method velocity_verlet() {
               "step limit of damped problems"};
 }
 
+Method implicit_midpoint() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {.name = "implicit_midpoint",
+          .family = Method::Family::implicit_midpoint,
+          .order = 2,
+          .stages = 1,
+          .node = {0.5},
+          .beta = {1},
+          .alpha = {{0}},
+          .imaginary_limit = infinity,
+          .real_limit = infinity,
+          .is_symplectic = true,
+          .keeps_energy_bounded = true,
+          .note = "solves the equations of each step to rounding by Newton's iteration; any step is stable, but modes "
+                  "that it does not resolve are slowed down and hardly damped"};
+}
+
 } // namespace
 
 // With w0 = 1 + epsilon / s^2, w1 = T_s'(w0) / T_s''(w0), b_j = T_j''(w0) / T_j'(w0)^2, a_j = 1 - b_j T_j(w0):
@@ -179,7 +197,7 @@ const std::vector<Method>& methods() {
 }
 
 const std::vector<Method>& implicit_methods() {
-  static const std::vector<Method> all = {};
+  static const std::vector<Method> all = {implicit_midpoint()};
   return all;
 }
 

@@ -1,5 +1,7 @@
 #include "solver/reference/dynamics.hpp"
 
+#include "solver/reference/linearised_law.hpp"
+
 #include <algorithm>
 
 namespace dss::reference {
@@ -35,16 +37,16 @@ Motion<T> motion_of(const T* f) {
   motion.u << f[ux], f[uy], f[uz];
   motion.v << f[vx], f[vy], f[vz];
   motion.w << f[wx], f[wy], f[wz];
-  motion.q.s = f[qs];
-  motion.q.v << f[qx], f[qy], f[qz];
+  motion.q = orientation_fields(f);
   motion.turned = turn(motion.q);
   return motion;
 }
 
 template <class T>
-Dynamics<T>::Dynamics(const Problem& problem)
-    : elements_(problem.lattice.element_count), loads_(problem.loads), stabilization_(problem.stabilization),
-      motions_(problem.lattice.element_count), wrenches_(problem.lattice.element_count) {
+Dynamics<T>::Dynamics(const Problem& problem, Rotation rotation)
+    : coordinates_(rotation, problem.lattice.element_count), elements_(problem.lattice.element_count),
+      loads_(problem.loads), stabilization_(problem.stabilization), motions_(problem.lattice.element_count),
+      wrenches_(problem.lattice.element_count) {
   for (const Body& body : problem.bodies)
     bodies_.push_back({T(body.mass), vector_of<T>(body.inertia), body.has_tensor_inertia()});
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) { elements_[e].body = row.body; });
@@ -71,13 +73,25 @@ void Dynamics<T>::add_links(const Problem& problem) {
 
 template <class T>
 void Dynamics<T>::place(std::span<const T> state) {
-  for (std::size_t e = 0; e < elements_.size(); ++e) motions_[e] = motion_of(state.data() + e * field_count);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    Motion<T>& motion = motions_[e] = motion_of(state.data() + e * field_count);
+    if (coordinates_.rotation() == Rotation::quaternion) continue;
+    if (is_linearised()) {
+      motion.turned = cross_matrix<T>(motion.q.v);
+      motion.q.v /= T(2);
+    } else {
+      motion.q = coordinates_.read(e, motion.q);
+      motion.turned = turn(motion.q);
+    }
+  }
 }
 
 template <class T>
 void Dynamics<T>::add_link_reactions() {
   for (const Link& link : links_) {
-    const Reaction<T> r = reaction(motions_[link.i], motions_[link.j], properties_[link.properties]);
+    const Motion<T>&i = motions_[link.i], &j = motions_[link.j];
+    const LinkProperties<T>& properties = properties_[link.properties];
+    const Reaction<T> r = is_linearised() ? linearised_reaction(i, j, properties) : reaction(i, j, properties);
     wrenches_[link.i].force += r.force;
     wrenches_[link.j].force -= r.force;
     wrenches_[link.i].moment += r.moment_i;
@@ -110,12 +124,18 @@ void Dynamics<T>::add_stabilization() {
   }
 }
 
+/// Columns: the axes of an element's inertia in the global frame.
+template <class T>
+Matrix<T> Dynamics<T>::body_axes(const Motion<T>& motion) const {
+  return is_linearised() ? Matrix<T>::Identity() : motion.rotation();
+}
+
 /// J^-1 (moment - w x J w) with J = A diag(inertia) A^T; a scalar inertia has no gyroscopic term.
 template <class T>
 Vector<T> Dynamics<T>::angular_acceleration(const BodyMass& body, const Motion<T>& motion,
                                             const Vector<T>& moment) const {
   if (!body.has_tensor_inertia) return moment / body.inertia.x();
-  const Matrix<T> a = motion.rotation();
+  const Matrix<T> a = body_axes(motion);
   const Vector<T> spin = a * body.inertia.cwiseProduct(a.transpose() * motion.w);
   const Vector<T> net = moment - motion.w.cross(spin);
   return a * Vector<T>(a.transpose() * net).cwiseQuotient(body.inertia);
@@ -138,15 +158,14 @@ void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signal
       if (elements_[e].clamped & (dof_ux << axis)) dv[axis] = 0;
       if (elements_[e].clamped & (dof_rx << axis)) dw[axis] = 0;
     }
-    const Orientation<T> dq = rate(motion.q, motion.w);
     T* f = rates.data() + e * field_count;
     for (const int axis : {0, 1, 2}) {
       f[ux + axis] = motion.v[axis];
       f[vx + axis] = dv[axis];
-      f[qx + axis] = dq.v[axis];
       f[wx + axis] = dw[axis];
     }
-    f[qs] = dq.s;
+    const Orientation<T> c = orientation_fields(state.data() + e * field_count);
+    set_orientation_fields(f, coordinates_.rate(c, motion.w));
   }
 }
 
@@ -158,21 +177,24 @@ T Dynamics<T>::energy(std::span<const T> state) {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
     const Motion<T>& m = motions_[e];
-    const Vector<T> body_spin = m.rotation().transpose() * m.w;
+    const Vector<T> body_spin = body_axes(m).transpose() * m.w;
     energy += body.mass * m.v.squaredNorm() / T(2) + body.inertia.dot(body_spin.cwiseAbs2()) / T(2);
     // The moment -2 k_rot v of the stabilization derives from -4 k_rot s, because ds/dt = -w.v/2; |q| = 1 turns s into
     // squares.
     energy += k * m.u.squaredNorm() / T(2) + T(2) * k_rot * (m.q.s * m.q.s + m.q.v.squaredNorm());
   }
-  for (const Link& link : links_)
-    energy += elastic_energy(motions_[link.i], motions_[link.j], properties_[link.properties]);
+  for (const Link& link : links_) {
+    const Motion<T>&i = motions_[link.i], &j = motions_[link.j];
+    const LinkProperties<T>& properties = properties_[link.properties];
+    energy += is_linearised() ? linearised_energy(i, j, properties) : elastic_energy(i, j, properties);
+  }
   return energy;
 }
 
 template <class T>
 std::size_t Dynamics<T>::bytes() const {
   return elements_.size() * (sizeof(Element) + sizeof(Motion<T>) + sizeof(Wrench)) + links_.size() * sizeof(Link) +
-         properties_.size() * sizeof(LinkProperties<T>);
+         properties_.size() * sizeof(LinkProperties<T>) + coordinates_.bytes();
 }
 
 template class Dynamics<float>;

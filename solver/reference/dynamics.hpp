@@ -1,6 +1,7 @@
 #pragma once
 /// The right-hand side of a problem's equations of motion, term by term, and its energy: the physics of the oracle.
 #include "solver/model/problem.hpp"
+#include "solver/reference/coordinates.hpp"
 #include "solver/reference/link_law.hpp"
 
 #include <cstddef>
@@ -14,14 +15,28 @@ namespace dss::reference {
 template <class T>
 Motion<T> motion_of(const T* fields);
 
+/// The fields qs .. qz of an element, whatever they hold (coordinates.hpp).
+template <class T>
+Orientation<T> orientation_fields(const T* fields) {
+  return {fields[qs], {fields[qx], fields[qy], fields[qz]}};
+}
+template <class T>
+void set_orientation_fields(T* fields, const Orientation<T>& c) {
+  fields[qs] = c.s;
+  for (int axis = 0; axis < 3; ++axis) fields[qx + axis] = c.v[axis];
+}
+
 /// Every term of a problem but time: links, extra links, loads, frame acceleration, stabilization, inertia, clamps.
 template <class T>
 class Dynamics {
 public:
   /// Copies what it needs; the problem may end before.
-  explicit Dynamics(const Problem& problem);
+  explicit Dynamics(const Problem& problem, Rotation rotation = Rotation::quaternion);
 
   std::size_t element_count() const { return elements_.size(); }
+  /// What the fields qs .. qz of states hold here.
+  Coordinates<T>& coordinates() { return coordinates_; }
+  const Coordinates<T>& coordinates() const { return coordinates_; }
 
   /// Time derivative of every field of every element.
   /// @param state, rates  element_count() * field_count numbers, SI units
@@ -58,8 +73,11 @@ private:
   void add_link_reactions();
   void add_loads(std::span<const double> signals);
   void add_stabilization();
+  bool is_linearised() const { return coordinates_.rotation() == Rotation::linearised; }
+  Matrix<T> body_axes(const Motion<T>& motion) const;
   Vector<T> angular_acceleration(const BodyMass& body, const Motion<T>& motion, const Vector<T>& moment) const;
 
+  Coordinates<T> coordinates_;
   std::vector<Element> elements_;
   std::vector<BodyMass> bodies_;
   std::vector<LinkProperties<T>> properties_;

@@ -1,6 +1,7 @@
 #include "solver/reference/oracle.hpp"
 
 #include "solver/numerics/signal_rows.hpp"
+#include "solver/reference/implicit_midpoint.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,25 +23,38 @@ std::vector<std::vector<T>> butcher_rows(const Method& method) {
   return w;
 }
 
+template <class T>
+reference::Orientation<double> rounded(const reference::Orientation<T>& q) {
+  return {double(q.s), q.v.template cast<double>()};
+}
+
 } // namespace
 
 template <class T>
-Oracle<T>::Oracle(const Problem& problem, const Method& method, double dt)
-    : problem_(problem), method_(method), dt_(dt), dynamics_(problem),
+Oracle<T>::Oracle(const Problem& problem, const Method& method, double dt, Rotation rotation)
+    : problem_(problem), method_(method), dt_(dt), dynamics_(problem, rotation),
       state_(problem.lattice.element_count * field_count, T(0)), signal_row_(signal_count(problem)),
       slopes_(std::size_t(method.stages), std::vector<T>(state_.size())), trial_(state_.size()) {
-  if (method.family == Method::Family::runge_kutta)
-    weights_ = butcher_rows<T>(method);
-  else
-    half_step_.resize(6 * problem.lattice.element_count);
+  if (method.family == Method::Family::runge_kutta) weights_ = butcher_rows<T>(method);
+  if (method.is_in_place()) half_step_.resize(6 * problem.lattice.element_count);
+  if (method.family == Method::Family::implicit_midpoint)
+    implicit_ = std::make_unique<reference::ImplicitMidpoint<T>>(problem, dt);
 }
+
+template <class T>
+Oracle<T>::~Oracle() = default;
 
 template <class T>
 void Oracle<T>::write(std::span<const double> fields, std::size_t first) {
   std::transform(fields.begin(), fields.end(), state_.begin() + std::ptrdiff_t(first * field_count),
                  [](double value) { return T(value); });
+  for (std::size_t e = first; e < first + fields.size() / field_count; ++e) {
+    T* f = &state_[e * field_count];
+    reference::set_orientation_fields(f, dynamics_.coordinates().write(e, reference::orientation_fields(f)));
+  }
   step_count_ = 0;
   is_leapfrog_started_ = false;
+  if (implicit_) implicit_->restart();
 }
 
 template <class T>
@@ -48,6 +62,11 @@ void Oracle<T>::read(std::span<double> fields, std::size_t first) const {
   std::transform(state_.begin() + std::ptrdiff_t(first * field_count),
                  state_.begin() + std::ptrdiff_t(first * field_count + fields.size()), fields.begin(),
                  [](T value) { return double(value); });
+  for (std::size_t n = 0; n < fields.size(); n += field_count) {
+    const std::size_t e = first + n / field_count;
+    const auto q = dynamics_.coordinates().read(e, reference::orientation_fields(&state_[e * field_count]));
+    reference::set_orientation_fields(&fields[n], rounded(q));
+  }
 }
 
 template <class T>
@@ -66,6 +85,11 @@ template <class T>
 void Oracle<T>::derivative(std::span<const double> signals, std::span<double> rates) {
   dynamics_.rates(state_, signals, slopes_[0]);
   std::transform(slopes_[0].begin(), slopes_[0].end(), rates.begin(), [](T value) { return double(value); });
+  for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
+    const T* y = &state_[e * field_count];
+    const auto dq = dynamics_.coordinates().read_rate(e, reference::orientation_fields(y), {y[wx], y[wy], y[wz]});
+    reference::set_orientation_fields(&rates[e * field_count], rounded(dq));
+  }
 }
 
 template <class T>
@@ -78,20 +102,27 @@ std::optional<Breakdown> Oracle<T>::advance(long steps) {
 
 template <class T>
 std::optional<Breakdown> Oracle<T>::advance(long steps, const SignalSource& signals) {
-  const bool is_leapfrog = method_.is_in_place();
-  for (long step = 0; step < steps; ++step) {
-    if (is_leapfrog)
-      leapfrog_step(step, signals);
-    else
-      runge_kutta_step(step, signals);
-    ++step_count_;
-    if (const auto element = first_non_finite(is_leapfrog ? trial_ : state_)) {
-      if (is_leapfrog) state_ = trial_;
-      return Breakdown{step, *element};
-    }
-  }
+  for (long step = 0; step < steps; ++step)
+    if (const auto breakdown = step_once(step, signals)) return breakdown;
   if (method_.is_staggered() && steps > 0) finish_leapfrog(signals(steps, 0));
-  if (is_leapfrog && !method_.is_staggered()) state_ = trial_;
+  if (method_.is_in_place() && !method_.is_staggered() && steps > 0) state_ = trial_;
+  return std::nullopt;
+}
+
+template <class T>
+std::optional<Breakdown> Oracle<T>::step_once(long step, const SignalSource& signals) {
+  if (method_.family == Method::Family::runge_kutta) runge_kutta_step(step, signals);
+  if (method_.is_in_place()) leapfrog_step(step, signals);
+  if (implicit_)
+    if (const auto element = implicit_->step(dynamics_, state_, signals(step, 0)))
+      return Breakdown{step, *element, "Newton's iteration finds no state"};
+  ++step_count_;
+  std::vector<T>& reached = method_.is_in_place() ? trial_ : state_;
+  if (const auto element = first_non_finite(reached)) {
+    state_ = reached;
+    return Breakdown{step, *element};
+  }
+  reframe(reached);
   return std::nullopt;
 }
 
@@ -144,11 +175,9 @@ void Oracle<T>::leapfrog_step(long step, const SignalSource& signals) {
       y[vx + axis] = half[axis] + ahead * a[vx + axis];
       y[wx + axis] = half[3 + axis] + ahead * a[wx + axis];
     }
-    const reference::Orientation<T> q = {y[qs], {y[qx], y[qy], y[qz]}};
     const reference::Vector<T> w = {half[3], half[4], half[5]};
-    const reference::Orientation<T> turned = reference::cayley_turned<T>(q, h * w);
-    y[qs] = turned.s;
-    for (int axis = 0; axis < 3; ++axis) y[qx + axis] = turned.v[axis];
+    const auto& coordinates = dynamics_.coordinates();
+    reference::set_orientation_fields(y, coordinates.moved(reference::orientation_fields(y), w, h));
   }
 }
 
@@ -169,6 +198,17 @@ void Oracle<T>::finish_leapfrog(std::span<const double> signals) {
   }
 }
 
+/// Coordinates of orientations taken anew where they near their singularity; between steps, since stages share bases.
+template <class T>
+void Oracle<T>::reframe(std::vector<T>& state) {
+  if (dynamics_.coordinates().rotation() != Rotation::tait_bryan) return;
+  for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
+    auto c = reference::orientation_fields(&state[e * field_count]);
+    dynamics_.coordinates().reframe(e, c);
+    reference::set_orientation_fields(&state[e * field_count], c);
+  }
+}
+
 template <class T>
 std::optional<std::size_t> Oracle<T>::first_non_finite(const std::vector<T>& state) const {
   const auto bad = std::find_if(state.begin(), state.end(), [](T value) { return !std::isfinite(value); });
@@ -178,7 +218,8 @@ std::optional<std::size_t> Oracle<T>::first_non_finite(const std::vector<T>& sta
 
 template <class T>
 std::size_t Oracle<T>::bytes() const {
-  return dynamics_.bytes() + (state_.size() * (2 + slopes_.size()) + half_step_.size()) * sizeof(T);
+  return dynamics_.bytes() + (state_.size() * (2 + slopes_.size()) + half_step_.size()) * sizeof(T) +
+         (implicit_ ? implicit_->bytes() : 0);
 }
 
 template class Oracle<float>;

@@ -5,14 +5,23 @@
 #include "solver/reference/dynamics.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string_view>
 
 namespace dss {
 
-/// Where a run first left a state that is not finite.
+namespace reference {
+template <class T>
+class ImplicitMidpoint;
+}
+
+/// Where a run first left a state that is not finite, or met equations of a step that it could not solve; the state is
+/// then that before the step.
 struct Breakdown {
   long step = 0;           ///< counted from 0 at the call of advance
-  std::size_t element = 0; ///< the first such element
+  std::size_t element = 0; ///< the first such element, or that furthest from a solution
+  std::string_view what = "the state is not finite";
 };
 
 /// Runs a problem in T (float, double or long double). It starts at rest at t = 0, every field zero.
@@ -25,13 +34,15 @@ public:
   using SignalSource = std::function<std::span<const double>(long step, int stage)>;
 
   /// `problem` must outlive the oracle; `dt` is the step [s].
-  Oracle(const Problem& problem, const Method& method, double dt);
+  Oracle(const Problem& problem, const Method& method, double dt, Rotation rotation = Rotation::quaternion);
+  ~Oracle();
 
-  /// Sets the fields of elements from `first` on, 13 numbers each. Restarts the method at t = 0.
+  /// Sets the fields of elements from `first` on, 13 numbers each, quaternions whatever the rotation inside. Restarts
+  /// the method at t = 0.
   void write(std::span<const double> fields, std::size_t first = 0);
   /// Gets them, rounded to double.
   void read(std::span<double> fields, std::size_t first = 0) const;
-  /// All fields of all elements in full precision.
+  /// All fields of all elements in full precision; qs .. qz as solver/reference/coordinates.hpp says.
   const std::vector<T>& state() const { return state_; }
 
   /// Time derivative of every field at the present state, with the problem's signals at time t [s] or with given values
@@ -53,10 +64,12 @@ public:
 
 private:
   std::span<const double> signals_at(double t);
+  std::optional<Breakdown> step_once(long step, const SignalSource& signals);
   void runge_kutta_step(long step, const SignalSource& signals);
   void start_leapfrog(std::span<const double> signals);
   void leapfrog_step(long step, const SignalSource& signals);
   void finish_leapfrog(std::span<const double> signals);
+  void reframe(std::vector<T>& state);
   std::optional<std::size_t> first_non_finite(const std::vector<T>& state) const;
 
   const Problem& problem_;
@@ -70,6 +83,7 @@ private:
   std::vector<T> trial_;               ///< state of a stage; the leapfrog's (x_n, p_n)
   std::vector<T> half_step_;           ///< leapfrog: velocities at n - 1/2, six an element
   bool is_leapfrog_started_ = false;
+  std::unique_ptr<reference::ImplicitMidpoint<T>> implicit_; ///< of that method
   std::vector<std::vector<T>>
       weights_; ///< Butcher table: row s gives Y_s = y + h sum_j weights[s][j] k_j; the last row the step
 };

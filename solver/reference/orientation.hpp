@@ -26,6 +26,12 @@ Matrix<T> cross_matrix(const Vector<T>& v) {
   return m;
 }
 
+/// b (x) a: first the turn a, then b.
+template <class T>
+Orientation<T> product(const Orientation<T>& b, const Orientation<T>& a) {
+  return {b.s + a.s + b.s * a.s - b.v.dot(a.v), b.q0() * a.v + a.q0() * b.v + b.v.cross(a.v)};
+}
+
 /// A - I of the rotation matrix A = I + 2 q0 [v]x + 2 [v]x^2; every entry is as small as the rotation is.
 template <class T>
 Matrix<T> turn(const Orientation<T>& q) {

@@ -40,6 +40,17 @@ class Errors(ProgramTest):
         self.assert_refused(2, ["f65", "f64"], *SMALL, "--precision", "f65")
         self.assert_refused(2, ["rk5", "rk4"], *SMALL, "--integrator", "rk5")
 
+    def test_rotations_and_implicit_methods_are_refused_where_only_the_reference_has_them(self):
+        self.assert_refused(2, ["tait_bryam", "tait_bryan"], *SMALL, "--rotation", "tait_bryam")
+        for option in (("--rotation", "tait_bryan"), ("--integrator", "implicit_midpoint")):
+            self.assert_refused(2, [*option, "scalar", "--variant reference"], *SMALL, "--variant", "scalar", *option)
+            self.assertEqual(dssbench(*SMALL, "--variant", "reference", *option).returncode, 0)
+
+    def test_an_implicit_method_refuses_no_step_and_says_where_it_finds_no_state(self):
+        implicit = ("run", "tumbling_box", "--variant", "reference", "--integrator", "implicit_midpoint", "--steps", "4", "--dt")
+        self.assertEqual(dssbench(*implicit, "1e-2").returncode, 0)
+        self.assert_refused(3, ["finds no state", "step 1 ", "t = 0.5 s", "element", "--dt below 0.25 s"], *implicit, "0.5")
+
     def test_numbers_out_of_range_are_refused(self):
         for option, value in (("--threads", "0"), ("--threads", "-1"), ("--steps", "0"), ("--dt", "0"), ("--dt", "nan"), ("--ranks", "0")):
             self.assert_refused(2, [option], "run", "plate_paper", "--set", "n=10", f"{option}={value}")

@@ -12,7 +12,7 @@ template <class T>
 class ReferenceExecutor final : public Executor {
 public:
   explicit ReferenceExecutor(const Setup& setup)
-      : oracle_(setup.problem, setup.method, setup.dt), row_width_(signal_count(setup.problem)),
+      : oracle_(setup.problem, setup.method, setup.dt, setup.rotation), row_width_(signal_count(setup.problem)),
         stages_(setup.method.stages) {}
 
   void write(std::size_t first, std::span<const double> fields) override { oracle_.write(fields, first); }
@@ -24,7 +24,7 @@ public:
     const auto breakdown = oracle_.advance(steps, [&](long step, int stage) {
       return signals.subspan(std::size_t(step * stages_ + stage) * row_width_, row_width_);
     });
-    if (breakdown) return {false, breakdown->step, breakdown->element};
+    if (breakdown) return {false, breakdown->step, breakdown->element, breakdown->what};
     return {true, steps, 0};
   }
   std::string schedule() const override { return "stage by stage: straightforward code"; }
