@@ -1,3 +1,4 @@
+#include "experiments/runner/atlas/failure_study.hpp"
 #include "experiments/runner/balance_study.hpp"
 #include "experiments/runner/child.hpp"
 #include "experiments/runner/commands.hpp"
@@ -52,22 +53,42 @@ int simulate(const std::string& name, const std::vector<SimulationBlock>& blocks
   return has_failed ? exit_check_failed : exit_success;
 }
 
+/// Where the table of a study goes, made sure that it can be written.
+std::string table_path(const std::string& name, const std::string& out) {
+  const std::string path = experiment_paths(out, name).table;
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+  require_writable(path);
+  return path;
+}
+
 int model(const BalanceStudy& study, const ExperimentArguments& arguments) {
   const Table table = balance_table(study);
   if (arguments.is_dry) {
     fmt::print("{}: {} rows of a model\n", study.name, table.rows.size());
     return exit_success;
   }
-  const std::string path = experiment_paths(arguments.out, study.name).table;
-  std::error_code error;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-  require_writable(path);
+  const std::string path = table_path(study.name, arguments.out);
   write_csv(path, table);
   fmt::print("{}\nTable: {}\n", balance_text(study, table), path);
   return exit_success;
 }
 
+/// Checks against theory: a row that fails is a failed check.
+int check(const FailureStudy& study, const ExperimentArguments& arguments) {
+  if (arguments.is_dry) {
+    fmt::print("{}: {} cases of a failure atlas\n", study.name, study.cases.size());
+    return exit_success;
+  }
+  const std::string path = table_path(study.name, arguments.out);
+  const Table table = failures_table(study);
+  write_csv(path, table);
+  fmt::print("{}\nTable: {}\n", failures_text(study, table), path);
+  return has_failed_rows(table) ? exit_check_failed : exit_success;
+}
+
 int experiment(const ExperimentArguments& arguments) {
+  if (const auto failures = load_failures(arguments.file, arguments.scale)) return check(*failures, arguments);
   if (const auto balance = load_balance(arguments.file)) return model(*balance, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
   const std::string simulated_only = name_if_simulated_only(arguments.file);
