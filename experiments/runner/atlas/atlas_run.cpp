@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace dss {
 namespace {
@@ -70,13 +71,16 @@ double largest_displacement(const std::vector<double>& state) {
 }
 
 double energy_trend(AtlasRun& run, long steps, reference::Dynamics<double>& dynamics) {
+  // Hann's weights: what oscillates leaves nothing even where the window does not hold whole periods.
   const auto mean = [&] {
-    double sum = 0;
+    double sum = 0, weights = 0;
     for (long step = 0; step < trend_window; ++step) {
       if (!run.advance(1)) return std::numeric_limits<double>::infinity();
-      sum += dynamics.energy(run.state());
+      const double root = std::sin(std::numbers::pi * (double(step) + 0.5) / double(trend_window));
+      sum += root * root * dynamics.energy(run.state());
+      weights += root * root;
     }
-    return sum / double(trend_window);
+    return sum / weights;
   };
   const double first = mean();
   if (!run.breakdown().empty() || !run.advance(steps - 2 * trend_window)) return first;

@@ -33,8 +33,7 @@ struct AtlasFigure {
   std::string breakdown{}; ///< then: at which step, time and element
 };
 
-/// Steps over which energy_trend averages, at either end of the run; a run of ten times as many at least. A number of many divisors, so that
-/// scenes can give it whole periods.
+/// Steps over which energy_trend averages, at either end of the run; a run has ten times as many at least.
 constexpr long trend_window = 1200;
 
 /// @param parameters  of the scene, for the metric's formulas
