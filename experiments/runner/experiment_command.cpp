@@ -1,3 +1,4 @@
+#include "experiments/runner/atlas/continuum_study.hpp"
 #include "experiments/runner/atlas/failure_study.hpp"
 #include "experiments/runner/balance_study.hpp"
 #include "experiments/runner/child.hpp"
@@ -75,20 +76,25 @@ int model(const BalanceStudy& study, const ExperimentArguments& arguments) {
 }
 
 /// Checks against theory: a row that fails is a failed check.
-int check(const FailureStudy& study, const ExperimentArguments& arguments) {
+template <class Study, class MakeTable, class MakeText>
+int check(const Study& study, const ExperimentArguments& arguments, std::size_t size, MakeTable&& make_table,
+          MakeText&& make_text) {
   if (arguments.is_dry) {
-    fmt::print("{}: {} cases of a failure atlas\n", study.name, study.cases.size());
+    fmt::print("{}: {} cases against theory\n", study.name, size);
     return exit_success;
   }
   const std::string path = table_path(study.name, arguments.out);
-  const Table table = failures_table(study);
+  const Table table = make_table(study);
   write_csv(path, table);
-  fmt::print("{}\nTable: {}\n", failures_text(study, table), path);
+  fmt::print("{}\nTable: {}\n", make_text(study, table), path);
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
 
 int experiment(const ExperimentArguments& arguments) {
-  if (const auto failures = load_failures(arguments.file, arguments.scale)) return check(*failures, arguments);
+  if (const auto failures = load_failures(arguments.file, arguments.scale))
+    return check(*failures, arguments, failures->cases.size(), failures_table, failures_text);
+  if (const auto continuum = load_continuum(arguments.file, arguments.scale))
+    return check(*continuum, arguments, continuum->checks.size(), continuum_table, continuum_text);
   if (const auto balance = load_balance(arguments.file)) return model(*balance, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
   const std::string simulated_only = name_if_simulated_only(arguments.file);

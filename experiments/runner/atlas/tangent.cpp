@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace dss {
 namespace {
@@ -26,6 +27,10 @@ Neighbours neighbours_of(const Problem& problem) {
   };
   problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int) { join(i, j); });
   for (const ExtraLink& link : problem.extra_links) join(link.i, link.j);
+  for (std::vector<std::size_t>& own : near) { // two elements may have several links
+    std::ranges::sort(own);
+    own.erase(std::ranges::unique(own).begin(), own.end());
+  }
   return near;
 }
 
@@ -173,8 +178,9 @@ std::vector<double> equilibrium(const Problem& problem, const FreeDofs& dofs, st
     if (!std::isfinite(largest)) break;
     if (largest < 1e-12) return state;
   }
-  throw InputError(fmt::format("{}: no equilibrium was found in {} iterations; give smaller loads, or clamp what floats",
-                               problem.name, most_iterations));
+  throw InputError(
+      fmt::format("{}: no equilibrium was found in {} iterations; give smaller loads, or clamp what floats",
+                  problem.name, most_iterations));
 }
 
 Eigen::VectorXd smallest_eigenvalues(const Eigen::SparseMatrix<double>& stiffness, const Eigen::VectorXd& inertia,
@@ -185,21 +191,24 @@ Eigen::VectorXd smallest_eigenvalues(const Eigen::SparseMatrix<double>& stiffnes
   Eigen::SparseMatrix<double> shifted = stiffness;
   for (Eigen::Index n = 0; n < inertia.size(); ++n) shifted.coeffRef(n, n) -= shift * inertia[n];
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(shifted);
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Random(inertia.size(), size); // the same each time: Eigen seeds with rand()'s default
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd basis = Eigen::MatrixXd::NullaryExpr(inertia.size(), size, [&] { return normal(generator); });
   Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
   for (int iteration = 0; iteration < most_iterations && factors.info() == Eigen::Success; ++iteration) {
-    // Orthonormal over the inertia, then Ritz' values of its space.
-    const Eigen::MatrixXd scaled = root.asDiagonal() * factors.solve(inertia.asDiagonal() * basis).eval();
-    const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(scaled).householderQ() *
-                              Eigen::MatrixXd::Identity(inertia.size(), size);
-    basis = root.cwiseInverse().asDiagonal() * q;
-    const Eigen::MatrixXd small = basis.transpose() * (stiffness * basis);
+    // Orthonormal over the inertia, then the largest eigenvalues of the flexibility in that space: unlike the smallest ones of the stiffness
+    // they do not drown in the rounding of the largest.
+    const Eigen::MatrixXd scaled = root.asDiagonal() * basis;
+    const Eigen::MatrixXd q =
+        Eigen::HouseholderQR<Eigen::MatrixXd>(scaled).householderQ() * Eigen::MatrixXd::Identity(inertia.size(), size);
+    const Eigen::MatrixXd moved = factors.solve(root.asDiagonal() * q);
+    const Eigen::MatrixXd small = (root.asDiagonal() * q).transpose() * moved;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz((small + small.transpose()) / 2);
-    basis = basis * ritz.eigenvectors();
-    const Eigen::VectorXd now = ritz.eigenvalues().head(count);
+    basis = moved * ritz.eigenvectors();
+    const Eigen::VectorXd now = ritz.eigenvalues().tail(count).reverse().cwiseInverse().array() + shift;
     const double change = (now - values).cwiseAbs().maxCoeff();
     values = now;
-    if (change <= 1e-10 * values.cwiseAbs().maxCoeff()) return values;
+    if (change <= 1e-11 * values.cwiseAbs().maxCoeff()) return values;
   }
   throw InputError("the smallest natural frequencies were not found: is something free to float?");
 }

@@ -11,9 +11,9 @@ namespace dss {
 
 /// The free degrees of freedom of a problem and their inertia.
 struct FreeDofs {
-  std::vector<Eigen::Index> index;  ///< of each degree of freedom (6 an element), -1 where it is clamped
-  std::vector<std::size_t> dof;     ///< the other way round
-  Eigen::VectorXd inertia;          ///< of each free one: mass [kg], principal moment [kg m^2]
+  std::vector<Eigen::Index> index; ///< of each degree of freedom (6 an element), -1 where it is clamped
+  std::vector<std::size_t> dof;    ///< the other way round
+  Eigen::VectorXd inertia;         ///< of each free one: mass [kg], principal moment [kg m^2]
 };
 FreeDofs free_dofs(const Problem& problem);
 
