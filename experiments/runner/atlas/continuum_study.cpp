@@ -43,24 +43,26 @@ std::vector<double> frequencies(const ContinuumCheck& check, const Problem& prob
   return all;
 }
 
-/// Smallest eigenvalue of the scene at rest under its load.
-double loaded_eigenvalue(const ContinuumCheck& check, std::vector<Override> set, double load) {
+/// Smallest eigenvalue of the scene at rest under its load, which is not below `shift`.
+double loaded_eigenvalue(const ContinuumCheck& check, std::vector<Override> set, double load, double shift) {
   set.push_back({check.load_parameter, number_text(load)});
   const Scene scene = load_scene(check.scene, set);
   const FreeDofs dofs = free_dofs(scene.problem);
   const std::vector<double> state = equilibrium(scene.problem, dofs, rest_of(scene.problem));
-  return smallest_eigenvalues(tangent_stiffness(scene.problem, dofs, state), dofs.inertia, 1)[0];
+  return smallest_eigenvalues(tangent_stiffness(scene.problem, dofs, state), dofs.inertia, 1, shift)[0];
 }
 
-/// The eigenvalue falls nearly in a straight line: secants find where it vanishes.
+/// The eigenvalue falls nearly in a straight line: secants find where it vanishes, beyond which it is negative.
 double critical_load(const ContinuumCheck& check, const std::vector<Override>& set) {
-  double a = 0.5, b = 0.9, of_a = loaded_eigenvalue(check, set, a), of_b = loaded_eigenvalue(check, set, b);
-  for (int n = 0; n < 4 && std::abs(b - a) > 1e-9; ++n) {
+  double a = 0.5, b = 0.9, of_a = loaded_eigenvalue(check, set, a, 0);
+  const double shift = -of_a;
+  double of_b = loaded_eigenvalue(check, set, b, shift);
+  for (int n = 0; n < 8 && std::abs(b - a) > 1e-9; ++n) {
     const double next = b - of_b * (b - a) / (of_b - of_a);
     a = b;
     of_a = of_b;
     b = next;
-    of_b = loaded_eigenvalue(check, set, b);
+    of_b = loaded_eigenvalue(check, set, b, shift);
   }
   return b;
 }
