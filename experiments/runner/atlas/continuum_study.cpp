@@ -128,29 +128,37 @@ void judge(const ContinuumCheck& check, const std::vector<Refinement>& found, st
   }
 }
 
+Record row_of(const ContinuumStudy& study, const ContinuumCheck& check, double value) {
+  return {{"experiment", study.name},      {"check", check.name},
+          {"quantity", check.quantity},    {"set", set_text(check.set)},
+          {"refined", check.refined},      {"value", number_text(value)},
+          {"bar", number_text(check.bar)}, {"bar_at", number_text(check.bar_at)},
+          {"source", check.source}};
+}
+
 void add_rows(const ContinuumStudy& study, const ContinuumCheck& check, Table& table) {
   std::vector<Refinement> found;
   for (const double value : check.values) {
-    found.push_back(refinement(check, value));
-    const Refinement& now = found.back();
-    for (std::size_t mode = 0; mode < now.figures.size(); ++mode) {
-      Record row = {{"experiment", study.name},
-                    {"check", check.name},
-                    {"scene", now.scene},
-                    {"quantity", check.quantity},
-                    {"mode", fmt::format("{}", mode + 1)},
-                    {"set", set_text(check.set)},
-                    {"refined", check.refined},
-                    {"value", number_text(value)},
-                    {"elements", fmt::format("{}", now.elements)},
-                    {"spacing_m", number_text(now.spacing)},
-                    {"figure", number_text(now.figures[mode])},
-                    {"theory", number_text(now.theory[mode])},
-                    {"bar", number_text(check.bar)},
-                    {"bar_at", number_text(check.bar_at)},
-                    {"source", check.source}};
-      judge(check, found, mode, row);
+    Record row = row_of(study, check, value);
+    try {
+      found.push_back(refinement(check, value));
+    } catch (const std::exception& error) { // the other checks go on
+      row["status"] = "failed";
+      row["reason"] = error.what();
       table.rows.push_back(std::move(row));
+      return;
+    }
+    const Refinement& now = found.back();
+    row["scene"] = now.scene;
+    row["elements"] = fmt::format("{}", now.elements);
+    row["spacing_m"] = number_text(now.spacing);
+    for (std::size_t mode = 0; mode < now.figures.size(); ++mode) {
+      row["mode"] = fmt::format("{}", mode + 1);
+      row["figure"] = number_text(now.figures[mode]);
+      row["theory"] = number_text(now.theory[mode]);
+      judge(check, found, mode, row);
+      table.rows.push_back(row);
+      row["reason"].clear();
     }
   }
 }

@@ -148,14 +148,18 @@ private:
                   {"metric", atlas_.metric}};
     AtlasFigure figure{std::numeric_limits<double>::quiet_NaN()};
     row["reason"] = refusal(method, rotation, model, dt);
-    if (row["reason"].empty()) {
-      figure = measured_figure({atlas_, scene_, plugin_, method, precision, rotation, model, dt, steps}, parameters,
-                               references_);
-      row["figure"] = std::isfinite(figure.value) ? number_text(figure.value) : "";
-      row["verdict"] = verdict(figure, parameters);
-      row["reason"] = figure.breakdown;
-    } else {
-      row["verdict"] = "refused";
+    try {
+      if (row["reason"].empty()) {
+        figure = measured_figure({atlas_, scene_, plugin_, method, precision, rotation, model, dt, steps}, parameters,
+                                 references_);
+        row["figure"] = std::isfinite(figure.value) ? number_text(figure.value) : "";
+        row["verdict"] = verdict(figure, parameters);
+        row["reason"] = figure.breakdown;
+      } else {
+        row["verdict"] = "refused";
+      }
+    } catch (const std::exception& error) { // the other cells go on
+      row["reason"] = error.what();
     }
     judge(row, expectation(method, precision, rotation), figure, parameters);
     return row;
