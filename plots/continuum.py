@@ -26,7 +26,7 @@ def draw_check(axes, check, rows):
     for place, (mode, line) in enumerate(rows.groupby("mode")):
         line = line.sort_values("spacing_m")
         colour = COLOURS[place % len(COLOURS)]
-        axes.plot(line["spacing_m"], line["error"].abs(), color=colour, marker="o", markersize=4, linewidth=1.2, label=f"mode {mode:g}")
+        axes.plot(line["spacing_m"], line["error"].abs(), color=colour, marker="o", markersize=6 - 1.5 * place, linewidth=2.2 - 0.6 * place, label=f"mode {mode:g}")
         limit = line["richardson_limit"].iloc[0]
         coarser = line.iloc[1:]
         if numpy.isfinite(limit):

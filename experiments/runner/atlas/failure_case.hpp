@@ -38,8 +38,9 @@ struct FailureCase {
   std::string name, scene, variant = "auto", metric;
   std::vector<std::vector<Override>> sets;
   std::vector<Formula> dt;
-  Formula steps, end;  ///< one of them: number of steps, or the time to reach [s]
-  Formula omega, rate; ///< of a mode of the scene, for `mode_limit`; may be absent
+  Formula steps, end;       ///< one of them: number of steps, or the time to reach [s]
+  Formula omega, rate;      ///< of a mode of the scene, for `mode_limit`; may be absent
+  bool names_limit = false; ///< a formula of the case names `limit`, which takes long to find on large scenes
   bool is_forced = false;
   std::vector<std::string> methods, precisions, rotations;
   std::string model;

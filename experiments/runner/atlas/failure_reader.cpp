@@ -4,6 +4,7 @@
 #include "variants/loader.hpp"
 
 #include <algorithm>
+#include <regex>
 #include <set>
 
 namespace dss {
@@ -159,6 +160,7 @@ FailureCase read_case(const JsonPlace& place, const std::string& path) {
   atlas.sets = combinations(place, "set");
   read_run(place, atlas);
   read_question(place, atlas);
+  atlas.names_limit = std::regex_search(place.value().dump(), std::regex("[^A-Za-z0-9_]limit[^A-Za-z0-9_]"));
   if (place.has("reference")) atlas.reference = read_reference(place["reference"], path);
   for (const JsonPlace& item : place["expect"].items()) atlas.expectations.push_back(read_expectation(item));
   for (const std::vector<Override>& set : atlas.sets) load_scene(atlas.scene, set); // for its errors

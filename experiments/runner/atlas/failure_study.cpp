@@ -15,22 +15,7 @@ const std::vector<std::string> columns = {
     "experiment", "case",   "scene",  "set",       "method",    "precision", "rotation", "model", "variant", "dt_s",
     "steps",      "metric", "figure", "predicted", "deviation", "verdict",   "expected", "why",   "status",  "reason"};
 
-/// What formulas of a case may name besides the scene's parameters.
-Parameters cell_parameters(const FailureCase& atlas, const Scene& scene, const Method& method, Precision precision) {
-  Parameters parameters = scene.parameters;
-  parameters["order"] = method.order;
-  parameters["stages"] = method.stages;
-  parameters["eps"] = precision == Precision::f64 ? 0x1p-53 : 0x1p-24;
-  constexpr double far = 1e300; // an expression is finite
-  parameters["limit"] = method.is_implicit() ? far : std::min(far, stable_step(scene.problem, method, true).dt);
-  if (atlas.omega.is_present()) {
-    parameters["omega"] = atlas.omega(parameters);
-    parameters["rate"] = atlas.rate(parameters);
-    parameters["mode_limit"] =
-        method.is_implicit() ? far : std::min(far, mode_step_limit(method, parameters["omega"], parameters["rate"]));
-  }
-  return parameters;
-}
+constexpr double far = 1e300; ///< what formulas are given for infinity
 
 bool holds(const std::vector<std::string>& names, std::string_view one) {
   return names.empty() || std::ranges::find(names, one) != names.end();
@@ -65,17 +50,41 @@ private:
     return found;
   }
 
+  /// Largest stable step of the scene [s], found once.
+  double limit_of(const Method& method) {
+    if (method.is_implicit()) return far;
+    const auto [known, is_new] = limits_.try_emplace(&method, 0);
+    if (is_new) known->second = std::min(far, stable_step(scene_.problem, method, true).dt);
+    return known->second;
+  }
+
+  /// What formulas of the case may name besides the scene's parameters.
+  Parameters cell_parameters(const Method& method, Precision precision) {
+    Parameters parameters = scene_.parameters;
+    parameters["order"] = method.order;
+    parameters["stages"] = method.stages;
+    parameters["eps"] = precision == Precision::f64 ? 0x1p-53 : 0x1p-24;
+    if (atlas_.names_limit) parameters["limit"] = limit_of(method);
+    if (!atlas_.omega.is_present()) return parameters;
+    parameters["omega"] = atlas_.omega(parameters);
+    parameters["rate"] = atlas_.rate(parameters);
+    parameters["mode_limit"] =
+        method.is_implicit() ? far : std::min(far, mode_step_limit(method, parameters["omega"], parameters["rate"]));
+    return parameters;
+  }
+
   /// Why the program would not run the cell, or empty. The same rules as plan_run's.
-  std::string refusal(const Method& method, Rotation rotation, Model model, double dt) const {
+  std::string refusal(const Method& method, Rotation rotation, Model model, double dt) {
     if (!plugin_.has_all && method.is_implicit())
       return fmt::format("variant {} has the explicit methods alone", plugin_.name);
     if (!plugin_.has_all && rotation != Rotation::quaternion)
       return fmt::format("variant {} has quaternions alone", plugin_.name);
     if (const std::string why = why_not_planar(scene_.problem); model == Model::planar && !why.empty())
       return fmt::format("model planar: {}", why);
+    if (dt == 0) return fmt::format("no step of {} is stable here", method.name);
     if (atlas_.is_forced || method.is_implicit()) return {};
-    const StabilityLimit limit = stable_step(scene_.problem, method, true);
-    if (dt > limit.dt) return fmt::format("dt = {:.6g} s is above the stability limit {:.6g} s", dt, limit.dt);
+    if (dt > limit_of(method))
+      return fmt::format("dt = {:.6g} s is above the stability limit {:.6g} s", dt, limit_of(method));
     return {};
   }
 
@@ -88,15 +97,16 @@ private:
     return is_below && is_enough ? "ok" : atlas_.otherwise;
   }
 
-  /// Number of steps and the step that meets the case's end exactly.
+  /// Number of steps and the step that meets the case's end exactly; none where the step is a part of a limit that is 0.
   std::pair<long, double> steps_of(Parameters& parameters, const Formula& asked) const {
     double dt = asked(parameters);
-    if (!(dt > 0))
-      throw InputError(fmt::format("{}: case {}: a step of {:g} s is not positive", study_.path, atlas_.name, dt));
+    const auto is_zero = [&](const char* limit) { return parameters.contains(limit) && parameters.at(limit) == 0; };
+    if (dt == 0 && (is_zero("limit") || is_zero("mode_limit"))) return {0, 0};
     const double count =
         atlas_.steps.is_present() ? atlas_.steps(parameters) : std::ceil(atlas_.end(parameters) / dt - 1e-9);
-    if (!(count >= 1 && count <= 1e9))
-      throw InputError(fmt::format("{}: case {}: {:g} steps; give 1 to 1e9", study_.path, atlas_.name, count));
+    if (!(dt > 0) || !(count >= 1 && count <= 1e9))
+      throw InputError(fmt::format("{}: case {}: {:g} steps of {:g} s; give 1 to 1e9 of a positive step", study_.path,
+                                   atlas_.name, count, dt));
     const long steps = std::lround(count);
     if (atlas_.end.is_present()) dt = atlas_.end(parameters) / double(steps);
     parameters["dt"] = dt;
@@ -131,7 +141,7 @@ private:
   }
 
   Record row(const Method& method, Precision precision, Rotation rotation, const Formula& asked) {
-    Parameters parameters = cell_parameters(atlas_, scene_, method, precision);
+    Parameters parameters = cell_parameters(method, precision);
     const auto [steps, dt] = steps_of(parameters, asked);
     const Model model = *find_model(atlas_.model.empty() ? scene_.model : atlas_.model);
     Record row = {{"experiment", study_.name},
@@ -171,6 +181,7 @@ private:
   Scene scene_;
   const Plugin& plugin_;
   AtlasReferences references_;
+  std::map<const Method*, double> limits_;
 };
 
 } // namespace
