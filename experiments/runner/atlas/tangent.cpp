@@ -29,7 +29,7 @@ Neighbours neighbours_of(const Problem& problem) {
   for (const ExtraLink& link : problem.extra_links) join(link.i, link.j);
   for (std::vector<std::size_t>& own : near) { // two elements may have several links
     std::ranges::sort(own);
-    own.erase(std::ranges::unique(own).begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end()); // Clang 14 has no ranges::unique
   }
   return near;
 }
