@@ -52,7 +52,8 @@ def shown_figure(cells):
     if worst == 0:
         return "0"
     decade = math.floor(math.log10(abs(worst)))
-    return f"{worst:.2g}" if -3 <= decade < 3 else f"{worst:.0e}".replace("e-0", "e-").replace("e+0", "e")
+    text = f"{worst:.2g}" if -3 <= decade < 2 else f"{worst:.0f}" if decade == 2 else f"{worst:.0e}"
+    return text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
 
 
 def draw_cell(axes, column, row, cells):
