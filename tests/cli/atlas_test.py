@@ -76,6 +76,13 @@ class Atlas(ProgramTest):
         self.assertEqual(result.returncode, 1)
         self.assertIn("no expectation", result.stdout)
 
+    def test_a_reference_that_cannot_be_had_fails_its_cell_and_the_others_go_on(self):
+        reference = {"closed_form": "step_load", "element": 2, "omega": 1, "static": 1, "onset": 0}
+        result = self.run_study(case(case="wrong", metric="error", reference=reference), case())
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("element 2 is not one of the 2", self.rows()[0]["reason"])
+        self.assertEqual([row["status"] for row in self.rows()], ["failed", "passed"])
+
     def test_errors_name_the_place_and_leave_earlier_results(self):
         self.run_study(case())
         before = self.read("tables/atlas.csv")

@@ -52,6 +52,11 @@ const std::vector<double>& AtlasReferences::at(double t) {
 std::vector<double> AtlasReferences::closed(double t) const {
   Parameters arguments;
   for (const auto& [name, formula] : reference_.arguments) arguments[name] = formula(scene_.parameters);
+  const std::size_t count = scene_.problem.lattice.element_count;
+  if (const auto element = arguments.find("element"); element != arguments.end())
+    if (!(element->second >= 0 && element->second < double(count)))
+      throw InputError(fmt::format("closed form {}: element {:g} is not one of the {} of {}", reference_.form->name,
+                                   element->second, count, scene_.path));
   return reference_.form->state(scene_.problem, arguments, t);
 }
 
