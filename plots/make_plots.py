@@ -10,6 +10,8 @@ import sys
 
 import balance_lines
 import cluster_lines
+import continuum
+import failure_atlas
 import figure9_lines
 import plate_picture
 import scaling_lines
@@ -29,7 +31,7 @@ def main():
         if table.stem.endswith("_simulated"):
             print(cluster_lines.draw(table, output) or output)
             continue
-        if balance_lines.draw(table, output) is None:
+        if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum)):
             print(output)
             continue
         print(speedup_bars.draw(table, None, output) or output)

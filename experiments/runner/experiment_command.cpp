@@ -1,3 +1,5 @@
+#include "experiments/runner/atlas/continuum_study.hpp"
+#include "experiments/runner/atlas/failure_study.hpp"
 #include "experiments/runner/balance_study.hpp"
 #include "experiments/runner/child.hpp"
 #include "experiments/runner/commands.hpp"
@@ -54,16 +56,22 @@ int simulate(const std::string& name, const std::vector<SimulationBlock>& blocks
   return has_failed ? exit_check_failed : exit_success;
 }
 
+/// Where the table of a study goes, made sure that it can be written.
+std::string table_path(const std::string& name, const std::string& out) {
+  const std::string path = experiment_paths(out, name).table;
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+  require_writable(path);
+  return path;
+}
+
 int model(const BalanceStudy& study, const ExperimentArguments& arguments) {
   const Table table = balance_table(study);
   if (arguments.is_dry) {
     fmt::print("{}: {} rows of a model\n", study.name, table.rows.size());
     return exit_success;
   }
-  const std::string path = experiment_paths(arguments.out, study.name).table;
-  std::error_code error;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-  require_writable(path);
+  const std::string path = table_path(study.name, arguments.out);
   write_csv(path, table);
   fmt::print("{}\nTable: {}\n", balance_text(study, table), path);
   return exit_success;
@@ -74,22 +82,36 @@ int find_limits(const StabilityStudy& study, const ExperimentArguments& argument
     fmt::print("{}: step limits of every explicit method on {} problems\n", study.name, study.cases.size());
     return exit_success;
   }
-  const std::string path = experiment_paths(arguments.out, study.name).table;
-  std::error_code error;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-  require_writable(path);
+  const std::string path = table_path(study.name, arguments.out);
   flush_denormals();
   const Table limits = stability_table(study), energy = stability_energy_table(study);
   write_csv(path, limits);
   write_csv(experiment_paths(arguments.out, study.name + "_energy").table, energy);
   write_csv(experiment_paths(arguments.out, study.name + "_map").table, stability_map_table(study));
   fmt::print("{}\nTable: {}\n", stability_text(study, limits, energy), path);
-  const auto has_failed = [](const Record& row) { return text_in(row, "status") == "failed"; };
-  const bool is_fine = std::ranges::none_of(limits.rows, has_failed) && std::ranges::none_of(energy.rows, has_failed);
-  return is_fine ? exit_success : exit_check_failed;
+  return has_failed_rows(limits) || has_failed_rows(energy) ? exit_check_failed : exit_success;
+}
+
+/// Checks against theory: a row that fails is a failed check.
+template <class Study, class MakeTable, class MakeText>
+int check(const Study& study, const ExperimentArguments& arguments, std::size_t size, MakeTable&& make_table,
+          MakeText&& make_text) {
+  if (arguments.is_dry) {
+    fmt::print("{}: {} cases against theory\n", study.name, size);
+    return exit_success;
+  }
+  const std::string path = table_path(study.name, arguments.out);
+  const Table table = make_table(study);
+  write_csv(path, table);
+  fmt::print("{}\nTable: {}\n", make_text(study, table), path);
+  return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
 
 int experiment(const ExperimentArguments& arguments) {
+  if (const auto failures = load_failures(arguments.file, arguments.scale))
+    return check(*failures, arguments, failures->cases.size(), failures_table, failures_text);
+  if (const auto continuum = load_continuum(arguments.file, arguments.scale))
+    return check(*continuum, arguments, continuum->checks.size(), continuum_table, continuum_text);
   if (const auto balance = load_balance(arguments.file)) return model(*balance, arguments);
   if (const auto limits = load_stability(arguments.file, arguments.scale)) return find_limits(*limits, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);

@@ -19,9 +19,10 @@ public:
   const nlohmann::json& value() const { return value_; }
   bool has(const std::string& key) const { return value_.is_object() && value_.contains(key); }
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(fmt::format("{}: {}: {}", file_, pointer_.empty() ? "/" : pointer_, what));
-  }
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", where(), what)); }
+  /// File and pointer, as errors begin.
+  std::string where() const { return fmt::format("{}: {}", file_, pointer_.empty() ? "/" : pointer_); }
+  const std::string& file() const { return file_; }
 
   /// Requires an object with no other keys than these.
   void require_keys(std::initializer_list<const char*> allowed) const;

@@ -1,0 +1,19 @@
+#pragma once
+/// A rigid body free of moments, in closed form: what a free element does.
+#include <Eigen/Geometry>
+
+namespace dss {
+
+/// Orientation (body to space) and angular velocity in space [rad/s].
+struct Attitude {
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();
+};
+
+/// Attitude after a time t [s] of a body with these principal moments of inertia [kg m^2] about its own axes.
+/// All equal: steady spin. Two equal: regular precession about the angular momentum. All different: Jacobi's elliptic functions for the
+/// spin in the body, and the precession about the angular momentum by quadrature (Landau and Lifshitz, Mechanics, paragraphs 35 and 37).
+/// The sign of q is that of the continuous motion but in the last case. Not for a spin on the separatrix, L^2 = 2 E I_2.
+Attitude free_top(const Eigen::Vector3d& inertia, const Attitude& start, double t);
+
+} // namespace dss
