@@ -32,7 +32,7 @@ struct Method {
   double imaginary_limit;    ///< largest stable h |lambda| on the imaginary axis (undamped); infinite for implicit ones
   double real_limit;         ///< largest stable h |lambda| on the negative real axis
   bool is_symplectic;        ///< its steps of an undamped problem are a symplectic map
-  bool keeps_energy_bounded; ///< the energy of an undamped problem has no trend, however many steps
+  bool keeps_energy_bounded; ///< the energy of an undamped problem without gyroscopic terms has no trend, however many steps
   std::string_view note;     ///< what a user must know
 
   bool is_implicit() const { return family == Family::implicit_midpoint; }

@@ -190,7 +190,7 @@ TEST(Oracle, says_where_and_when_a_run_stops_being_finite) {
     EXPECT_EQ(breakdown->step, 0) << method.name;
 
     Oracle<double> unstable(problem, method, 8 * stable_step(problem, *find_method("rk4")).dt);
-    unstable.write(fixture::random_state(problem, 1));
+    unstable.write(fixture::random_state(problem, 1, 1e-12, 1e-12, 1e-12));
     const auto growth = unstable.advance(100000);
     ASSERT_TRUE(growth) << method.name;
     EXPECT_GT(growth->step, 0) << method.name;
