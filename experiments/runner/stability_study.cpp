@@ -157,7 +157,7 @@ Table stability_energy_table(const StabilityStudy& study) {
 
 Table stability_map_table(const StabilityStudy& study) {
   Table table{{"integrator", "zeta", "h_omega", "spectral_radius", "limit_h_omega"}, {}};
-  constexpr double least_zeta = 1e-3, most_zeta = 20, least_step = 0.05;
+  constexpr double least_zeta = 1e-3, most_zeta = 20, least_step = 0.02;
   for (const Method& method : methods()) {
     const double most_step = 2 * std::max(mode_step_limit(method, 1, 0.2), mode_step_limit(method, 1, 1));
     for (int z = 0; z < study.map_points; ++z) {

@@ -179,6 +179,7 @@ class Experiments(ProgramTest):
         refused = [row for row in self.rows("tables") if "1e-05" in row["set"]]
         self.assertEqual({row["status"] for row in refused}, {"failed"})
         self.assertIn("stability limit", refused[0]["reason"])
+        self.assertEqual({row["speedup_vs_reference"] for row in refused}, {""})
 
     def test_a_wrong_state_keeps_its_time_and_fails(self):
         self.study()
