@@ -13,11 +13,10 @@ namespace dss {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double tiny = 1e-100;       ///< displacements in edges, rotations [rad]: squares are far below rounding,
-constexpr double blow_up = 1e-60;     ///< and here still: slow growth must not be stopped by what large motions change
-constexpr double seen_above = 1.002;  ///< growth is to be seen at this many times the prediction
-constexpr double several = 2.5;       ///< a rigid body drifts to twice as far in its second half
-constexpr double element_steps = 3e7; ///< budget of a run
+constexpr double tiny = 1e-100;      ///< displacements in edges, rotations [rad]: squares are far below rounding,
+constexpr double blow_up = 1e-60;    ///< and here still: slow growth must not be stopped by what large motions change
+constexpr double seen_above = 1.002; ///< growth is to be seen at this many times the prediction
+constexpr double several = 2.5;      ///< a rigid body drifts to twice as far in its second half
 constexpr long least_steps = 100, usual_steps = 10'000, most_steps = 1'000'000;
 constexpr long looks = 32; ///< at the state, in each run
 
@@ -62,10 +61,11 @@ double amplitude(const std::vector<double>& state, const Scale& scale) {
 
 class LimitSearch {
 public:
-  LimitSearch(const Plugin& plugin, const Problem& problem, const Method& method, const StabilityLimit& predicted)
+  LimitSearch(const Plugin& plugin, const Problem& problem, const Method& method, const StabilityLimit& predicted,
+              double element_steps)
       : plugin_(plugin), problem_(problem), method_(method), scale_(scale_of(problem, predicted.omega_max)),
         start_(tiny_state(problem, scale_)), signal_width_(signal_count(problem)) {
-    steps_ = steps_to_see(predicted);
+    steps_ = steps_to_see(predicted, element_steps);
     no_signals_.assign((std::size_t(steps_ / looks) * std::size_t(method.stages) + 1) * signal_width_, 0.0);
   }
 
@@ -91,7 +91,7 @@ private:
   static constexpr int most_tries = 3;
 
   /// Of a run: both halves together grow by e^16 at seen_above. A prediction of no growth there is for the run to judge.
-  long steps_to_see(const StabilityLimit& predicted) const {
+  long steps_to_see(const StabilityLimit& predicted, double element_steps) const {
     const double growth =
         spectral_radius(method_, seen_above * predicted.dt, predicted.mode.omega, predicted.mode.rate) - 1;
     const double wanted = predicted.dt == 0 ? double(most_steps) : growth > 0 ? 16 / growth : double(usual_steps);
@@ -170,16 +170,16 @@ void judge(LimitComparison& row) {
 } // namespace
 
 LimitMeasurement measure_limit(const Plugin& plugin, const Problem& problem, const Method& method,
-                               const StabilityLimit& predicted) {
-  return LimitSearch(plugin, problem, method, predicted).around(guess_of(predicted));
+                               const StabilityLimit& predicted, double element_steps) {
+  return LimitSearch(plugin, problem, method, predicted, element_steps).around(guess_of(predicted));
 }
 
 LimitComparison compare_limit(const Plugin& plugin, const Problem& problem, const Method& method,
-                              const StabilityLimit& predicted) {
+                              const StabilityLimit& predicted, double element_steps) {
   if (!std::isfinite(predicted.dt))
     return predicted_alone(method, predicted,
                            method.is_implicit() ? "implicit: no step is too large" : "nothing vibrates or is damped");
-  LimitComparison row{&method, predicted, measure_limit(plugin, problem, method, predicted), {}, {}};
+  LimitComparison row{&method, predicted, measure_limit(plugin, problem, method, predicted, element_steps), {}, {}};
   judge(row);
   return row;
 }

@@ -109,7 +109,7 @@ std::optional<StabilityStudy> load_stability(const std::string& name, const std:
   if (!scales.has(scale_name))
     throw InputError(fmt::format("--scale {}: unknown scale; {}", scale_name, nearest_name(scale_name, known)));
   const JsonPlace scale = scales[scale_name];
-  scale.require_keys({"zeta", "most_elements", "energy_points", "map_points"});
+  scale.require_keys({"zeta", "most_elements", "element_steps", "energy_points", "map_points"});
   place.require_keys({"variant", "mode", "scenes"});
   StabilityStudy study;
   study.name = root["experiment"].text();
@@ -117,6 +117,7 @@ std::optional<StabilityStudy> load_stability(const std::string& name, const std:
   const std::string variant = place.has("variant") ? place["variant"].text() : "auto";
   if (variant != "auto") known_variant(variant, place["variant"]);
   study.plugin = &load_variant(variant);
+  study.element_steps = scale.has("element_steps") ? scale["element_steps"].positive() : usual_element_steps;
   study.energy_points = int(scale["energy_points"].count(2));
   study.map_points = int(scale["map_points"].count(2));
   read_mode(place["mode"], scale, file, study);
@@ -135,7 +136,8 @@ Table stability_table(const StabilityStudy& study) {
   for (const StabilityStudy::Case& of : study.cases) {
     const std::vector<StabilityLimit> predicted = stable_steps(of.scene.problem, all);
     for (std::size_t m = 0; m < all.size(); ++m)
-      table.rows.push_back(limit_row(study, of, compare_limit(*study.plugin, of.scene.problem, *all[m], predicted[m])));
+      table.rows.push_back(limit_row(
+          study, of, compare_limit(*study.plugin, of.scene.problem, *all[m], predicted[m], study.element_steps)));
   }
   return table;
 }

@@ -12,7 +12,8 @@
 namespace dss {
 namespace {
 
-constexpr double omega = 100; ///< of the one mode [rad/s]
+constexpr double budget = 2e5; ///< element-steps of a run: the reference is slow
+constexpr double omega = 100;  ///< of the one mode [rad/s]
 
 /// Two elements of which one can only move away from the other.
 Problem one_mode(double zeta) {
@@ -37,7 +38,7 @@ const std::map<double, double> rk4_limits = {{0, 2.828},   {0.01, 2.849}, {0.1, 
 /// Where a method grows more slowly than this at 1 % above its limit, runs of seconds do not show it.
 bool is_seen_quickly(const Method& method, double zeta) {
   const double limit = mode_step_limit(method, omega, 2 * zeta * omega);
-  return limit > 0 && spectral_radius(method, 1.01 * limit, omega, 2 * zeta * omega) > 1 + 1e-4;
+  return limit > 0 && spectral_radius(method, 1.01 * limit, omega, 2 * zeta * omega) > 1 + 1e-3;
 }
 
 class Limits : public testing::TestWithParam<const char*> {
@@ -62,7 +63,7 @@ TEST_P(Limits, of_every_method_are_measured_as_predicted_to_one_percent) {
     for (const auto& [zeta, unused] : rk4_limits) {
       if (!is_seen_quickly(method, zeta)) continue;
       const Problem problem = one_mode(zeta);
-      const LimitComparison row = compare_limit(plugin, problem, method, stable_step(problem, method, true));
+      const LimitComparison row = compare_limit(plugin, problem, method, stable_step(problem, method, true), budget);
       EXPECT_NEAR(row.ratio(), 1, 0.01) << method.name << " zeta = " << zeta;
       EXPECT_EQ(row.status, "ok") << method.name << " zeta = " << zeta << ": " << row.reason;
     }
@@ -73,7 +74,7 @@ TEST_P(Limits, of_a_body_whose_damping_shares_no_modes_with_its_stiffness_are_me
   for (const Method& method : methods()) {
     const StabilityLimit predicted = stable_step(block, method, true);
     EXPECT_TRUE(predicted.is_exact);
-    const LimitComparison row = compare_limit(plugin, block, method, predicted);
+    const LimitComparison row = compare_limit(plugin, block, method, predicted, budget);
     EXPECT_NEAR(row.ratio(), 1, 0.01) << method.name;
     EXPECT_EQ(row.status, "ok") << method.name << ": " << row.reason;
   }
