@@ -16,6 +16,7 @@ import figure9_lines
 import plate_picture
 import scaling_lines
 import speedup_bars
+import stability_map
 
 
 def main():
@@ -30,6 +31,11 @@ def main():
         output = results / "figures" / f"{table.stem}.png"
         if table.stem.endswith("_simulated"):
             print(cluster_lines.draw(table, output) or output)
+            continue
+        if table.stem in ("stability_energy", "stability_map"):  # drawn with stability.csv
+            continue
+        if stability_map.draw(table, results / "figures" / f"{table.stem}_map.png") is None:
+            print(results / "figures" / f"{table.stem}_map.png")
             continue
         if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum)):
             print(output)

@@ -66,7 +66,7 @@ public:
     long step = 0;
     look(step);
     for (const long stop : stops()) {
-      if (!advance_to(step, stop, result_)) return;
+      if (!advance_to(step, stop, result_) || !is_finite_after(stop)) return;
       step = stop;
       look(step);
     }
@@ -136,6 +136,13 @@ private:
       step += count;
     }
     return is_finite;
+  }
+
+  /// Kernels watch velocities; a number that left the range first in the very step at which somebody looks is found here.
+  bool is_finite_after(long step) {
+    const auto element = first_not_finite(*executor_, problem_.lattice.element_count);
+    if (element) report_breakdown(step - 1, *element, result_);
+    return !element;
   }
 
   void sum_over_ranks(const Traffic& before) {

@@ -71,8 +71,9 @@ nlohmann::ordered_json limit_json(const LimitComparison& row) {
 
 void print_one(const Scene& scene, const StabilityArguments& arguments, const LimitComparison& row) {
   const StabilityLimit& limit = row.predicted;
-  fmt::print("{}: {} is predicted stable up to dt = {:.6g} s; the scene's step is {:.6g} s ({:.3g} of the limit)\n",
-             scene.name, row.method->name, limit.dt, scene.problem.dt, scene.problem.dt / limit.dt);
+  const std::string share = limit.dt > 0 ? fmt::format(" ({:.3g} of the limit)", scene.problem.dt / limit.dt) : "";
+  fmt::print("{}: {} is predicted stable up to dt = {:.6g} s; the scene's step is {:.6g} s{}\n", scene.name,
+             row.method->name, limit.dt, scene.problem.dt, share);
   fmt::print("largest frequency {:.6g} rad/s, largest damping rate {:.6g} 1/s; {}\n", limit.omega_max, limit.damping,
              limit.how);
   if (std::isfinite(limit.dt)) fmt::print("limited by {}\n", mode_text(limit));
@@ -80,9 +81,9 @@ void print_one(const Scene& scene, const StabilityArguments& arguments, const Li
   if (row.measured.runs == 0)
     fmt::print("{}{}\n", row.status, reason);
   else
-    fmt::print("measured with {}: dt = {:.6g} s, {:.4f} of the prediction ({} runs of {} steps); {}{}\n",
-               load_variant(arguments.variant).name, row.measured.dt, row.ratio(), row.measured.runs,
-               row.measured.steps, row.status, reason);
+    fmt::print("measured with {}: dt = {:.6g} s{} ({} runs of {} steps); {}{}\n", load_variant(arguments.variant).name,
+               row.measured.dt, limit.dt > 0 ? fmt::format(", {:.4f} of the prediction", row.ratio()) : "",
+               row.measured.runs, row.measured.steps, row.status, reason);
 }
 
 void print_all(const Scene& scene, const StabilityArguments& arguments, const std::vector<LimitComparison>& rows) {
@@ -91,8 +92,8 @@ void print_all(const Scene& scene, const StabilityArguments& arguments, const st
     const bool is_measured = row.measured.runs > 0;
     lines.push_back({std::string(row.method->name), fmt::format("{:.6g}", row.predicted.dt),
                      is_measured ? fmt::format("{:.6g}", row.measured.dt) : "",
-                     is_measured ? fmt::format("{:.4f}", row.ratio()) : "", mode_text(row.predicted), row.status,
-                     row.reason});
+                     is_measured && row.predicted.dt > 0 ? fmt::format("{:.4f}", row.ratio()) : "",
+                     mode_text(row.predicted), row.status, row.reason});
   }
   fmt::print(
       "{}: {} elements, the scene's step is {:.6g} s; measured with {}; {}\n{}", scene.name,

@@ -17,12 +17,14 @@ struct LimitMeasurement {
 
 /// Bisection ends when the two steps are this near.
 constexpr double limit_resolution = 1e-3;
+/// Budget of a run: a second or so.
+constexpr double usual_element_steps = 2e7;
 
 /// Runs about rest, from a tiny random state without loads, so that motion is linear; in double precision on one thread.
 /// A run grows if it leaves the finite numbers, or its second half reaches several times what its first half does. Runs
 /// are so long that the predicted mode is seen to grow at 0.2 % above the prediction, or as long as the budget allows.
 LimitMeasurement measure_limit(const Plugin& plugin, const Problem& problem, const Method& method,
-                               const StabilityLimit& predicted);
+                               const StabilityLimit& predicted, double element_steps = usual_element_steps);
 
 /// Both for one method, judged.
 struct LimitComparison {
@@ -39,7 +41,7 @@ struct LimitComparison {
 constexpr double limit_tolerance = 0.01;
 
 LimitComparison compare_limit(const Plugin& plugin, const Problem& problem, const Method& method,
-                              const StabilityLimit& predicted);
+                              const StabilityLimit& predicted, double element_steps = usual_element_steps);
 /// Without a measurement; `why` not.
 LimitComparison predicted_alone(const Method& method, const StabilityLimit& predicted, const std::string& why);
 

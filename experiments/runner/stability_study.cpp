@@ -4,6 +4,7 @@
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/study_block.hpp"
 #include "experiments/runner/text_table.hpp"
+#include "solver/nearest_name.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>
@@ -35,10 +36,11 @@ StabilityStudy::Case mode_case(const std::string& scene, double zeta) {
 void read_mode(const JsonPlace& place, const JsonPlace& scale, const std::string& file, StabilityStudy& study) {
   place.require_keys({"scene", "zeta"});
   const std::string scene = scene_of(place["scene"], file);
-  study.undamped = mode_case(scene, 0);
+  const Scene as_it_is = load_scene(scene, {});
   for (const char* parameter : {"omega", "zeta"})
-    if (!study.undamped->scene.parameters.contains(parameter))
+    if (!as_it_is.parameters.contains(parameter))
       place["scene"].fail(fmt::format("has no parameter \"{}\"; give a scene of one mode", parameter));
+  study.undamped = mode_case(scene, 0);
   const JsonPlace zetas = scale.has("zeta") ? scale["zeta"] : place["zeta"];
   for (const JsonPlace& zeta : zetas.items()) study.cases.push_back(mode_case(scene, not_negative(zeta)));
 }
@@ -101,8 +103,13 @@ std::optional<StabilityStudy> load_stability(const std::string& name, const std:
   if (!json.is_object() || !json.contains("stability")) return {};
   const JsonPlace root(json, file);
   root.require_keys({"experiment", "title", "stability", "scales"});
-  const JsonPlace scale = root["scales"][scale_name], place = root["stability"];
-  scale.require_keys({"zeta", "most_elements", "energy_points", "map_points"});
+  const JsonPlace scales = root["scales"], place = root["stability"];
+  std::vector<std::string> known;
+  for (const auto& [key, value] : scales.value().items()) known.push_back(key);
+  if (!scales.has(scale_name))
+    throw InputError(fmt::format("--scale {}: unknown scale; {}", scale_name, nearest_name(scale_name, known)));
+  const JsonPlace scale = scales[scale_name];
+  scale.require_keys({"zeta", "most_elements", "element_steps", "energy_points", "map_points"});
   place.require_keys({"variant", "mode", "scenes"});
   StabilityStudy study;
   study.name = root["experiment"].text();
@@ -110,6 +117,7 @@ std::optional<StabilityStudy> load_stability(const std::string& name, const std:
   const std::string variant = place.has("variant") ? place["variant"].text() : "auto";
   if (variant != "auto") known_variant(variant, place["variant"]);
   study.plugin = &load_variant(variant);
+  study.element_steps = scale.has("element_steps") ? scale["element_steps"].positive() : usual_element_steps;
   study.energy_points = int(scale["energy_points"].count(2));
   study.map_points = int(scale["map_points"].count(2));
   read_mode(place["mode"], scale, file, study);
@@ -128,7 +136,8 @@ Table stability_table(const StabilityStudy& study) {
   for (const StabilityStudy::Case& of : study.cases) {
     const std::vector<StabilityLimit> predicted = stable_steps(of.scene.problem, all);
     for (std::size_t m = 0; m < all.size(); ++m)
-      table.rows.push_back(limit_row(study, of, compare_limit(*study.plugin, of.scene.problem, *all[m], predicted[m])));
+      table.rows.push_back(limit_row(
+          study, of, compare_limit(*study.plugin, of.scene.problem, *all[m], predicted[m], study.element_steps)));
   }
   return table;
 }
@@ -157,11 +166,13 @@ Table stability_energy_table(const StabilityStudy& study) {
 
 Table stability_map_table(const StabilityStudy& study) {
   Table table{{"integrator", "zeta", "h_omega", "spectral_radius", "limit_h_omega"}, {}};
-  constexpr double least_zeta = 1e-3, most_zeta = 20, least_step = 0.05;
+  constexpr double least_zeta = 1e-3, most_zeta = 20, least_step = 0.02;
+  std::vector<double> zetas = {1}; // where limits have a kink
+  for (int z = 0; z < study.map_points; ++z) zetas.push_back(between(least_zeta, most_zeta, z, study.map_points));
+  std::ranges::sort(zetas);
   for (const Method& method : methods()) {
     const double most_step = 2 * std::max(mode_step_limit(method, 1, 0.2), mode_step_limit(method, 1, 1));
-    for (int z = 0; z < study.map_points; ++z) {
-      const double zeta = between(least_zeta, most_zeta, z, study.map_points);
+    for (const double zeta : zetas) {
       const double limit = mode_step_limit(method, 1, 2 * zeta);
       for (int n = 0; n < study.map_points; ++n) {
         const double h = between(least_step, most_step, n, study.map_points);

@@ -22,6 +22,7 @@ struct StabilityStudy {
   const Plugin* plugin = nullptr;
   std::vector<Case> cases;
   std::optional<Case> undamped; ///< one mode, whose energy is looked at
+  double element_steps = 0;     ///< budget of each run
   int energy_points = 0;        ///< h omega of each method
   int map_points = 0;           ///< h omega and zeta in the map of |R|
 };

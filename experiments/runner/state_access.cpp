@@ -64,6 +64,15 @@ std::vector<double> whole_state(Executor& executor, std::size_t element_count) {
   return state;
 }
 
+std::optional<std::size_t> first_not_finite(Executor& executor, std::size_t element_count) {
+  std::optional<std::size_t> found;
+  for_each_piece(executor, element_count, [&](std::size_t first, std::span<const double> fields) {
+    const auto bad = std::ranges::find_if_not(fields, [](double field) { return std::isfinite(field); });
+    if (!found && bad != fields.end()) found = first + std::size_t(bad - fields.begin()) / field_count;
+  });
+  return found;
+}
+
 double max_displacement(Executor& executor, std::size_t element_count) {
   double most = 0;
   for_each_piece(executor, element_count, [&](std::size_t, std::span<const double> fields) {

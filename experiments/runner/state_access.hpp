@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,9 @@ void for_each_piece(Executor& executor, std::size_t element_count,
 
 /// The whole state, 13 numbers an element.
 std::vector<double> whole_state(Executor& executor, std::size_t element_count);
+
+/// The first element with a number that is not finite, if there is one.
+std::optional<std::size_t> first_not_finite(Executor& executor, std::size_t element_count);
 
 /// Largest length of a displacement [m].
 double max_displacement(Executor& executor, std::size_t element_count);

@@ -39,6 +39,12 @@ StabilityLimit limit_within(const Method& method, const Spectrum& spectrum, std:
   return {worst.dt, spectrum.omega_max, spectrum.damping, std::move(how), false, worst.mode};
 }
 
+/// The same, with what a user must know of a limit of 0.
+StabilityLimit explained(StabilityLimit limit) {
+  if (limit.dt == 0) limit.how += "; undamped modes grow however small the step";
+  return limit;
+}
+
 /// @throws InputError
 Spectrum finite_bound(const Problem& problem) {
   const Spectrum bound = spectrum_bound(problem);
@@ -65,15 +71,16 @@ std::vector<StabilityLimit> stable_steps(const Problem& problem, std::span<const
   std::vector<StabilityLimit> limits;
   for (const Method* method : methods)
     if (const auto exact = modes.step_limit(*method))
-      limits.push_back({exact->dt, found.omega_max, found.damping,
-                        fmt::format("exact: all modes of {} degrees of freedom", exact->unknowns), true, exact->mode});
+      limits.push_back(
+          explained({exact->dt, found.omega_max, found.damping,
+                     fmt::format("exact: all modes of {} degrees of freedom", exact->unknowns), true, exact->mode}));
     else
-      limits.push_back(limit_within(*method, found, how));
+      limits.push_back(explained(limit_within(*method, found, how)));
   return limits;
 }
 
 StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp) {
-  if (!sharp) return limit_within(method, finite_bound(problem), "bound from single links");
+  if (!sharp) return explained(limit_within(method, finite_bound(problem), "bound from single links"));
   const Method* const one = &method;
   return stable_steps(problem, {&one, 1})[0];
 }

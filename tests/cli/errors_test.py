@@ -1,5 +1,6 @@
 """Bad input: exit code 2 or 3 and one line that says what, where and what would be right."""
 import json
+import math
 import os
 import resource
 import unittest
@@ -95,6 +96,30 @@ class Errors(ProgramTest):
     def test_a_forced_unstable_run_stops_and_says_where(self):
         self.assert_refused(3, ["not finite after step", "element", "take --dt below 3.0"], "run", "plate_paper", "--set", "n=10", "--dt", "5e-6", "--force",
                             "--steps", "5000")
+
+    def test_every_variant_and_method_names_step_time_and_element_and_claims_no_state(self):
+        # Those on ranks and devices, and hybrids, have tests of their own: compiling for a device takes seconds.
+        usable = [entry["variant"] for entry in json.loads(dssbench("list", "variants", "--json").stdout)
+                  if entry["status"] == "usable" and entry["variant"] not in ("mpi", "hybrid", "opencl", "opencl-rhs")]
+        known = json.loads(dssbench("stability", "two_elements", "--predict", "--integrator", "all", "--json", "-").stdout)
+        for variant in usable:
+            for method in known["limits"]:
+                result = dssbench("run", "plate_paper", "--set", "n=5", "--dt", "1e-4", "--force", "--steps", "2000", "--variant", variant,
+                                  "--integrator", method["integrator"], "--json", "-")
+                record, where = json.loads(result.stdout), f"{variant} {method['integrator']}"
+                self.assertEqual((result.returncode, record["status"], record["state_digest"], record["energy_j"]), (3, "unstable", None, None), where)
+                self.assertRegex(result.stderr, r"not finite after step \d+ \(t = [0-9.e+-]+ s\), element \d+; take --dt below", where)
+                # An end in that very step, or in the one before, is no end of a run that went well.
+                for last in (record["steps"], record["steps"] - 1):
+                    state = self.path("s.csv")
+                    short = dssbench("run", "plate_paper", "--set", "n=5", "--dt", "1e-4", "--force", "--steps", last, "--variant", variant,
+                                     "--integrator", method["integrator"], "--state", state)
+                    if short.returncode == 0:
+                        columns = [row.split(",")[4:17] for row in self.read("s.csv").splitlines()[1:]]
+                        self.assertFalse([row for row in columns for number in row if not math.isfinite(float(number))], where)
+                    else:
+                        self.assertEqual(short.returncode, 3, short.stderr)
+                        self.assertIn(f"not finite after step {last} ", short.stderr)
 
     def test_an_unstable_run_leaves_no_state_file(self):
         dssbench("run", "plate_paper", "--set", "n=10", "--dt", "5e-6", "--force", "--steps", "5000", "--state", self.path("s.csv"))

@@ -121,6 +121,21 @@ class Outputs(ProgramTest):
         unstable = dssbench("run", "plate_paper", "--set", "n=10", "--steps", "3000", "--dt", 1.5 * limit, "--force")
         self.assertEqual((stable.returncode, unstable.returncode), (0, 3))
 
+    def test_limits_of_every_method_are_predicted_measured_and_alike(self):
+        result = dssbench("stability", "chain", "--set", "n=6", "--integrator", "all", "--json", "-")
+        limits = json.loads(result.stdout)["limits"]
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLessEqual({"rk4", "velocity_verlet"}, {limit["integrator"] for limit in limits})
+        for limit in limits:
+            self.assertTrue(limit["is_exact"], limit)
+            self.assertEqual(limit["status"], "ok", limit)
+            self.assertAlmostEqual(limit["ratio"], 1, delta=0.01)
+            self.assertIn(" of element ", limit["mode"])
+
+    def test_a_limit_that_is_only_predicted_runs_nothing(self):
+        limit = json.loads(dssbench("stability", "plate_paper", "--predict", "--json", "-").stdout)["limits"][0]
+        self.assertEqual((limit["runs"], limit["measured_dt_s"], limit["status"], limit["is_exact"]), (0, None, "not measured", False))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,7 @@
 #include "solver/numerics/spectrum.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
+#include "tests/fixtures/linear_motion.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -14,36 +15,6 @@ namespace {
 
 const Method& rk4 = *find_method("rk4");
 const Method& verlet = *find_method("velocity_verlet");
-
-/// Stiffness or damping of the oracle, divided by inertia, by central differences at rest: six degrees of freedom an
-/// element.
-Eigen::MatrixXd linearised(const Problem& problem, bool is_stiffness) {
-  Oracle<double> oracle(problem, rk4, problem.dt);
-  const auto size = Eigen::Index(6 * problem.lattice.element_count);
-  Eigen::MatrixXd matrix(size, size);
-  const std::vector<double> no_signals(3 + problem.loads.size(), 0);
-  constexpr double step = 1e-6;
-  for (Eigen::Index column = 0; column < size; ++column) {
-    const auto e = std::size_t(column / 6);
-    const int dof = int(column % 6);
-    const int field = dof < 3 ? (is_stiffness ? ux : vx) + dof : (is_stiffness ? qx : wx) + dof - 3;
-    const double size_of_field =
-        is_stiffness && dof >= 3 ? 0.5 : 1; // a small turn of theta is a vector part of theta / 2
-    std::array<std::vector<double>, 2> rates;
-    for (const int side : {0, 1}) {
-      std::vector<double> state(problem.lattice.element_count * field_count, 0);
-      state[e * field_count + std::size_t(field)] = (side ? step : -step) * size_of_field;
-      oracle.write(state);
-      rates[std::size_t(side)].resize(state.size());
-      oracle.derivative(no_signals, rates[std::size_t(side)]);
-    }
-    for (Eigen::Index row = 0; row < size; ++row) {
-      const auto at = std::size_t(row / 6) * field_count + std::size_t(row % 6 < 3 ? vx + row % 6 : wx + row % 6 - 3);
-      matrix(row, column) = -(rates[1][at] - rates[0][at]) / (2 * step);
-    }
-  }
-  return matrix;
-}
 
 /// Largest eigenvalue over the free degrees of freedom; the rows of clamped ones are zero already.
 double largest_eigenvalue(const Eigen::MatrixXd& matrix) { return matrix.eigenvalues().real().maxCoeff(); }
@@ -92,8 +63,8 @@ TEST(StepLimit, of_a_mode_does_not_depend_on_its_scale) {
 TEST(Spectrum, bound_is_never_below_the_eigenvalues_of_the_oracle_and_seldom_far_above) {
   for (const Problem& problem : spectra()) {
     const Spectrum bound = spectrum_bound(problem);
-    const double omega = std::sqrt(largest_eigenvalue(linearised(problem, true)));
-    const double damping = largest_eigenvalue(linearised(problem, false));
+    const double omega = std::sqrt(largest_eigenvalue(fixture::linearised(problem, true)));
+    const double damping = largest_eigenvalue(fixture::linearised(problem, false));
     EXPECT_GE(bound.omega_max, omega * (1 - 1e-8)) << problem.name;
     EXPECT_LE(bound.omega_max, omega / 0.7) << problem.name;
     EXPECT_GE(bound.damping, damping * (1 - 1e-8)) << problem.name;
@@ -104,8 +75,9 @@ TEST(Spectrum, bound_is_never_below_the_eigenvalues_of_the_oracle_and_seldom_far
 TEST(Spectrum, krylov_figures_are_the_eigenvalues_of_the_oracle) {
   for (const Problem& problem : spectra()) {
     const Spectrum found = krylov_spectrum(problem);
-    EXPECT_NEAR(found.omega_max / std::sqrt(largest_eigenvalue(linearised(problem, true))), 1, 3e-4) << problem.name;
-    EXPECT_NEAR(found.damping / largest_eigenvalue(linearised(problem, false)), 1, 5e-4) << problem.name;
+    EXPECT_NEAR(found.omega_max / std::sqrt(largest_eigenvalue(fixture::linearised(problem, true))), 1, 3e-4)
+        << problem.name;
+    EXPECT_NEAR(found.damping / largest_eigenvalue(fixture::linearised(problem, false)), 1, 5e-4) << problem.name;
   }
 }
 
