@@ -3,6 +3,7 @@
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/experiment.hpp"
+#include "experiments/runner/precision/error_budget.hpp"
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/simulation_study.hpp"
 #include "experiments/runner/text_table.hpp"
@@ -67,7 +68,28 @@ int model(const BalanceStudy& study, const ExperimentArguments& arguments) {
   return exit_success;
 }
 
+int account(const ErrorBudgetStudy& study, const ExperimentArguments& arguments) {
+  if (arguments.is_dry) {
+    for (const BudgetScene& scene : study.scenes)
+      fmt::print("{}: {}, {} at dt = {:g} s to {:g} s\n", study.name, scene.label, scene.integrator, scene.dt,
+                 scene.times.end);
+    return exit_success;
+  }
+  const std::string path = experiment_paths(arguments.out, study.name).table;
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+  require_writable(path);
+  Progress progress;
+  const Table table = error_budget_table(study, [&](const std::string& line) { progress.note(line); });
+  write_csv(path, table);
+  fmt::print("{}\nTable: {}\n", error_budget_text(study, table), path);
+  const bool has_failed =
+      std::ranges::any_of(table.rows, [](const Record& row) { return text_in(row, "status") == "failed"; });
+  return has_failed ? exit_check_failed : exit_success;
+}
+
 int experiment(const ExperimentArguments& arguments) {
+  if (const auto budget = load_error_budget(arguments.file, arguments.scale)) return account(*budget, arguments);
   if (const auto balance = load_balance(arguments.file)) return model(*balance, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
   const std::string simulated_only = name_if_simulated_only(arguments.file);

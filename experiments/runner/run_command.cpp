@@ -51,6 +51,13 @@ void print_summary(const RunResult& result) {
   if (result.check.is_done)
     fmt::print("check: {} ({}): error {:.3g}, tolerance {:.3g}\n", result.check.is_passed() ? "passed" : "failed",
                result.check.how, result.check.error, result.check.tolerance);
+  if (result.reference)
+    fmt::print(
+        "displacements against the solution at {} times: error {:.3g} at the end, {:.3g} rms, {:.3g} at most (the "
+        "solution's own: {:.1g})\n",
+        result.reference->times.count, result.reference->accuracy.final, result.reference->accuracy.l2,
+        result.reference->accuracy.max, result.reference->error);
+  if (result.energy_drift) fmt::print("energy drift {:.3g}\n", *result.energy_drift);
   if (result.ranks.ranks > 1)
     fmt::print("{:.4g} messages and {:.4g} bytes a step, {:.1f} % of the time in exchanges, imbalance {:.3f}\n",
                result.messages_per_step, result.bytes_per_step, 100 * result.communication_share,
@@ -151,6 +158,17 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command
       ->add_option("--check-tail", request.check_tail,
                    "Steps at the end of a longer run that the oracle does again; 0: none")
+      ->capture_default_str()
+      ->group("Checks");
+  command
+      ->add_option("--reference", request.reference,
+                   "File of the scene's solution (made by studies of precision): errors against it at its saved times, "
+                   "which also "
+                   "give the number of steps")
+      ->group("Checks");
+  command
+      ->add_option("--repeat-for", request.repeat_for,
+                   "Start a shorter run again until so many seconds were measured; times are the mean of a run")
       ->capture_default_str()
       ->group("Checks");
   command->footer(

@@ -105,6 +105,8 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));
   if (request.warmup_steps < 0) refuse(fmt::format("--warmup {}: give 0 or more", request.warmup_steps));
   if (request.check_tail < 0) refuse(fmt::format("--check-tail {}: give 0 or more", request.check_tail));
+  if (!(request.repeat_for >= 0)) refuse(fmt::format("--repeat-for {:g}: give 0 s or more", request.repeat_for));
+  if (request.repeat_for > 0 && request.ranks > 1) refuse("--repeat-for: only a run on 1 rank starts again");
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
   if (request.frames > 0 && request.output.empty()) refuse("--frames: needs --output F.vtu, which names the series");
   if (!request.output.empty() && !request.output.ends_with(".vtu"))
@@ -128,6 +130,25 @@ OracleState expected_state(const RunRequest& request, const RunPlan& plan) {
   if (expected.steps < 1 || expected.steps > plan.steps)
     throw InputError(fmt::format("--check-step {}: the run has {} steps; give 1 to that", expected.steps, plan.steps));
   return expected;
+}
+
+/// Also the number of steps, which the reference says. @throws InputError if the run cannot be compared with it
+void read_reference(const RunRequest& request, RunPlan& plan) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("--reference {}: {}", request.reference, what));
+  };
+  plan.reference = read_solution(request.reference);
+  const std::size_t elements = plan.reference->states.front().size() / field_count;
+  if (elements != plan.scene.problem.lattice.element_count)
+    refuse(fmt::format("has {} elements, the scene {}", elements, plan.scene.problem.lattice.element_count));
+  try {
+    plan.steps_between = plan.reference->times.whole_steps_between(plan.dt);
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
+  plan.steps = plan.steps_between * plan.reference->times.count;
+  if (request.steps && *request.steps != plan.steps)
+    refuse(fmt::format("ends at {:.6g} s: give --steps {}, or none", plan.reference->times.end, plan.steps));
 }
 
 } // namespace
@@ -173,6 +194,7 @@ RunPlan plan_run(const RunRequest& request) {
   plan.dt = request.dt.value_or(problem.dt);
   plan.steps = request.steps.value_or(problem.steps);
   plan.tail_steps = request.check_tail;
+  if (!request.reference.empty() && plan.dt > 0) read_reference(request, plan);
   require_devices(request, plan);
   require_variant_has(plan);
   require_sensible(request, plan);

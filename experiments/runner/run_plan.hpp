@@ -1,6 +1,7 @@
 #pragma once
 /// A request made definite: everything that can be wrong with it is found before anything is computed.
 #include "experiments/runner/oracle_state.hpp"
+#include "experiments/runner/precision/solution.hpp"
 #include "experiments/runner/run.hpp"
 #include "variants/loader.hpp"
 
@@ -21,6 +22,8 @@ struct RunPlan {
   long tail_steps = 0; ///< over which the end of a longer run is compared with the oracle
   double stability_limit = 0;
   std::optional<OracleState> expected; ///< at step expected->steps
+  std::optional<Solution> reference;   ///< that errors are measured against
+  long steps_between = 0;              ///< saved times of the reference
   std::vector<long> frame_steps;       ///< ascending, the last is `steps`
 
   const Tolerance& tolerance() const {

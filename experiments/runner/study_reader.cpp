@@ -51,6 +51,16 @@ long JsonPlace::count(long least) const {
   return value_.get<long>();
 }
 
+std::vector<int> JsonPlace::whole_numbers() const {
+  std::vector<int> all;
+  for (const JsonPlace& item : items()) {
+    if (!item.value().is_number_integer()) item.fail(fmt::format("{} is not a whole number", item.value().dump()));
+    all.push_back(item.value().get<int>());
+  }
+  if (all.empty()) fail("is empty; give at least one whole number");
+  return all;
+}
+
 nlohmann::json parse_json_file(const std::string& path) {
   const std::string text = read_text(path);
   try {

@@ -34,6 +34,7 @@ public:
   std::vector<std::string> texts() const;
   double positive() const;
   long count(long least) const;
+  std::vector<int> whole_numbers() const; ///< of either sign, one at least
 
 private:
   const nlohmann::json& value_;

@@ -1,0 +1,173 @@
+#include "experiments/runner/precision/error_budget.hpp"
+#include "experiments/runner/precision/accuracy.hpp"
+#include "experiments/runner/precision/refinement.hpp"
+#include "experiments/runner/precision/run_states.hpp"
+#include "experiments/runner/run_plan.hpp"
+#include "solver/numerics/stability.hpp"
+
+#include <cmath>
+
+namespace dss {
+namespace {
+
+using States = std::vector<std::vector<double>>;
+
+std::string set_text(const std::vector<Override>& set) {
+  std::string text;
+  for (const Override& item : set) text += fmt::format("{}{}={}", text.empty() ? "" : " ", item.key, item.value);
+  return text;
+}
+
+/// The errors of one scene.
+class SceneBudget {
+public:
+  SceneBudget(const ErrorBudgetStudy& study, const BudgetScene& budget,
+              const std::function<void(const std::string&)>& note)
+      : study_(study), budget_(budget), note_(note), scene_(load_scene(budget.scene, budget.set)),
+        method_(require_method(budget.integrator)) {}
+
+  std::vector<Record> rows() {
+    add("time", budget_.dt, [&](Record& row) { against_solution(budget_.dt, row); });
+    add("time at the stability limit", largest_step(), [&](Record& row) { against_solution(largest_step(), row); });
+    if (!budget_.refinement.empty()) add("space", budget_.dt, [&](Record& row) { over_grids(row); });
+    for (const std::string& precision : budget_.precisions)
+      add("rounding " + precision, budget_.dt, [&](Record& row) { against_long_double(precision, row); });
+    for (const std::string& model : budget_.models)
+      add("model " + model, budget_.dt, [&](Record& row) {
+        RunRequest other = request(budget_.dt);
+        other.model = model;
+        against(plain(), run_states(other, budget_.times), row);
+      });
+    for (const std::string& rotation : budget_.rotations)
+      add("rotation " + rotation, budget_.dt, [&](Record& row) {
+        RunRequest usual = request(budget_.dt), other = request(budget_.dt);
+        usual.variant = other.variant = "reference"; // it alone has them
+        other.rotation = rotation;
+        against(run_states(usual, budget_.times), run_states(other, budget_.times), row);
+      });
+    return std::move(rows_);
+  }
+
+private:
+  /// A row, whatever becomes of what fills it.
+  template <class Fill>
+  void add(const std::string& source, double dt, const Fill& fill) {
+    if (note_) note_(fmt::format("{}: {}", budget_.label, source));
+    Record row = {{"experiment", study_.name},
+                  {"scale", study_.scale},
+                  {"label", budget_.label},
+                  {"scene", budget_.scene},
+                  {"set", set_text(budget_.set)},
+                  {"elements", fmt::format("{}", scene_.problem.lattice.element_count)},
+                  {"integrator", budget_.integrator},
+                  {"dt_s", number_text(dt)},
+                  {"end_time_s", number_text(budget_.times.end)},
+                  {"saved_times", fmt::format("{}", budget_.times.count)},
+                  {"source", source},
+                  {"status", "ok"}};
+    try {
+      fill(row);
+    } catch (const UnstableError& error) {
+      row["status"] = "unstable";
+      row["reason"] = error.what();
+    } catch (const std::exception& error) {
+      row["status"] = "failed";
+      row["reason"] = error.what();
+    }
+    rows_.push_back(row);
+  }
+
+  RunRequest request(double dt) const {
+    RunRequest run;
+    run.scene = budget_.scene;
+    run.overrides = budget_.set;
+    run.variant = budget_.variant;
+    run.integrator = budget_.integrator;
+    run.dt = dt;
+    return run;
+  }
+
+  double largest_step() const {
+    const bool is_small = scene_.problem.lattice.element_count <= sharp_stability_elements;
+    const double limit = std::min(stable_step(scene_.problem, method_, is_small).dt, budget_.times.interval());
+    return budget_.times.interval() / double(budget_.times.steps_between(limit));
+  }
+
+  const States& plain() {
+    if (plain_.empty()) plain_ = run_states(request(budget_.dt), budget_.times);
+    return plain_;
+  }
+
+  void against(const States& expected, const States& actual, Record& row) const {
+    const Accuracy accuracy = accuracy_of(scene_.problem, expected, actual);
+    row["error"] = number_text(accuracy.max);
+    row["error_final"] = number_text(accuracy.final);
+  }
+
+  void against_solution(double dt, Record& row) {
+    if (!solution_)
+      solution_ = find_solution(scene_.problem, require_method(study_.solution.integrator), study_.solution,
+                                budget_.times, note_);
+    row["reference_error"] = number_text(solution_->error);
+    against(solution_->states, dt == budget_.dt ? plain() : run_states(request(dt), budget_.times), row);
+  }
+
+  void against_long_double(const std::string& precision, Record& row) {
+    if (long_double_.empty())
+      long_double_ =
+          oracle_states(scene_.problem, method_, budget_.times, budget_.times.whole_steps_between(budget_.dt));
+    RunRequest run = request(budget_.dt);
+    run.precision = precision;
+    against(long_double_, run_states(run, budget_.times), row);
+  }
+
+  /// Mean displacement of the elements of the first load, on each grid.
+  void over_grids(Record& row) const {
+    std::array<History, 3> grids;
+    for (std::size_t level = 0; level < grids.size(); ++level) {
+      RunRequest run = request(budget_.dt / std::pow(budget_.ratio, double(level)));
+      run.overrides.insert(run.overrides.end(), budget_.refinement[level].begin(), budget_.refinement[level].end());
+      const std::vector<std::size_t> loaded = load_scene(run.scene, run.overrides).problem.loads.front().elements;
+      for (const std::vector<double>& state : run_states(run, budget_.times)) {
+        Vec3 mean{};
+        for (const std::size_t element : loaded)
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            mean[axis] += state[element * field_count + ux + axis] / double(loaded.size());
+        grids[level].push_back(mean);
+      }
+    }
+    const Extrapolation limit = extrapolate(grids, budget_.ratio);
+    row["error"] = number_text(limit.error);
+    row["error_final"] = number_text(limit.error_final);
+    row["observed_order"] = number_text(limit.order);
+    row["extrapolated_m"] = number_text(limit.value);
+    row["refined"] = budget_.refined;
+    if (limit.converges) return;
+    row["status"] = "diverges";
+    row["reason"] =
+        "differences grow from grid to grid: the error is the difference between the first and the last grid";
+  }
+
+  const ErrorBudgetStudy& study_;
+  const BudgetScene& budget_;
+  const std::function<void(const std::string&)>& note_;
+  Scene scene_;
+  const Method& method_;
+  std::vector<Record> rows_;
+  std::optional<Solution> solution_;
+  States plain_, long_double_;
+};
+
+} // namespace
+
+Table error_budget_table(const ErrorBudgetStudy& study, const std::function<void(const std::string&)>& note) {
+  Table table{{"experiment", "scale", "label", "scene", "set", "elements", "integrator", "dt_s", "end_time_s",
+               "saved_times", "source", "error", "error_final", "observed_order", "extrapolated_m", "refined",
+               "reference_error", "status", "reason"},
+              {}};
+  for (const BudgetScene& budget : study.scenes)
+    for (const Record& row : SceneBudget(study, budget, note).rows()) table.rows.push_back(row);
+  return table;
+}
+
+} // namespace dss
