@@ -6,6 +6,7 @@
 #include "solver/numerics/stability.hpp"
 
 #include <cmath>
+#include <map>
 
 namespace dss {
 namespace {
@@ -18,17 +19,21 @@ std::string set_text(const std::vector<Override>& set) {
   return text;
 }
 
+/// Solutions by scene, overrides and times: two budgets of one scene share theirs.
+using Solutions = std::map<std::string, Solution>;
+
 /// The errors of one scene.
 class SceneBudget {
 public:
-  SceneBudget(const ErrorBudgetStudy& study, const BudgetScene& budget,
+  SceneBudget(const ErrorBudgetStudy& study, const BudgetScene& budget, Solutions& solutions,
               const std::function<void(const std::string&)>& note)
-      : study_(study), budget_(budget), note_(note), scene_(load_scene(budget.scene, budget.set)),
-        method_(require_method(budget.integrator)) {}
+      : study_(study), budget_(budget), solutions_(solutions), note_(note),
+        scene_(load_scene(budget.scene, budget.set)), method_(require_method(budget.integrator)) {}
 
   std::vector<Record> rows() {
     add("time", budget_.dt, [&](Record& row) { against_solution(budget_.dt, row); });
-    add("time at the stability limit", largest_step(), [&](Record& row) { against_solution(largest_step(), row); });
+    add("time at the stability limit", largest_step(scene_.problem),
+        [&](Record& row) { against_solution(largest_step(scene_.problem), row); });
     if (!budget_.refinement.empty()) add("space", budget_.dt, [&](Record& row) { over_grids(row); });
     for (const std::string& precision : budget_.precisions)
       add("rounding " + precision, budget_.dt, [&](Record& row) { against_long_double(precision, row); });
@@ -87,9 +92,10 @@ private:
     return run;
   }
 
-  double largest_step() const {
-    const bool is_small = scene_.problem.lattice.element_count <= sharp_stability_elements;
-    const double limit = std::min(stable_step(scene_.problem, method_, is_small).dt, budget_.times.interval());
+  /// The largest stable one that divides the time between saved times.
+  double largest_step(const Problem& problem) const {
+    const bool is_small = problem.lattice.element_count <= sharp_stability_elements;
+    const double limit = std::min(stable_step(problem, method_, is_small).dt, budget_.times.interval());
     return budget_.times.interval() / double(budget_.times.steps_between(limit));
   }
 
@@ -105,11 +111,14 @@ private:
   }
 
   void against_solution(double dt, Record& row) {
-    if (!solution_)
-      solution_ = find_solution(scene_.problem, require_method(study_.solution.integrator), study_.solution,
-                                budget_.times, note_);
-    row["reference_error"] = number_text(solution_->error);
-    against(solution_->states, dt == budget_.dt ? plain() : run_states(request(dt), budget_.times), row);
+    const std::string key =
+        fmt::format("{} {} {:.17g} {}", budget_.scene, set_text(budget_.set), budget_.times.end, budget_.times.count);
+    if (!solutions_.contains(key))
+      solutions_[key] = find_solution(scene_.problem, require_method(study_.solution.integrator), study_.solution,
+                                      budget_.times, note_);
+    const Solution& solution = solutions_[key];
+    row["reference_error"] = number_text(solution.error);
+    against(solution.states, dt == budget_.dt ? plain() : run_states(request(dt), budget_.times), row);
   }
 
   void against_long_double(const std::string& precision, Record& row) {
@@ -121,21 +130,28 @@ private:
     against(long_double_, run_states(run, budget_.times), row);
   }
 
-  /// Mean displacement of the elements of the first load, on each grid.
-  void over_grids(Record& row) const {
-    std::array<History, 3> grids;
-    for (std::size_t level = 0; level < grids.size(); ++level) {
-      RunRequest run = request(budget_.dt / std::pow(budget_.ratio, double(level)));
-      run.overrides.insert(run.overrides.end(), budget_.refinement[level].begin(), budget_.refinement[level].end());
-      const std::vector<std::size_t> loaded = load_scene(run.scene, run.overrides).problem.loads.front().elements;
-      for (const std::vector<double>& state : run_states(run, budget_.times)) {
-        Vec3 mean{};
-        for (const std::size_t element : loaded)
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            mean[axis] += state[element * field_count + ux + axis] / double(loaded.size());
-        grids[level].push_back(mean);
-      }
+  /// Mean displacement of the elements of the first load on a grid. The step falls with the elements' edges, and further where
+  /// the grid's own limit does.
+  History on_grid(std::size_t level) const {
+    RunRequest run = request(budget_.dt);
+    run.overrides.insert(run.overrides.end(), budget_.refinement[level].begin(), budget_.refinement[level].end());
+    const Scene scene = load_scene(run.scene, run.overrides);
+    const double wanted = std::min(budget_.dt / std::pow(budget_.ratio, double(level)), largest_step(scene.problem));
+    run.dt = budget_.times.interval() / double(budget_.times.steps_between(wanted));
+    const std::vector<std::size_t>& loaded = scene.problem.loads.front().elements;
+    History history;
+    for (const std::vector<double>& state : run_states(run, budget_.times)) {
+      Vec3 mean{};
+      for (const std::size_t element : loaded)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          mean[axis] += state[element * field_count + ux + axis] / double(loaded.size());
+      history.push_back(mean);
     }
+    return history;
+  }
+
+  void over_grids(Record& row) const {
+    const std::array<History, 3> grids = {on_grid(0), on_grid(1), on_grid(2)};
     const Extrapolation limit = extrapolate(grids, budget_.ratio);
     row["error"] = number_text(limit.error);
     row["error_final"] = number_text(limit.error_final);
@@ -150,11 +166,11 @@ private:
 
   const ErrorBudgetStudy& study_;
   const BudgetScene& budget_;
+  Solutions& solutions_;
   const std::function<void(const std::string&)>& note_;
   Scene scene_;
   const Method& method_;
   std::vector<Record> rows_;
-  std::optional<Solution> solution_;
   States plain_, long_double_;
 };
 
@@ -165,8 +181,9 @@ Table error_budget_table(const ErrorBudgetStudy& study, const std::function<void
                "saved_times", "source", "error", "error_final", "observed_order", "extrapolated_m", "refined",
                "reference_error", "status", "reason"},
               {}};
+  Solutions solutions;
   for (const BudgetScene& budget : study.scenes)
-    for (const Record& row : SceneBudget(study, budget, note).rows()) table.rows.push_back(row);
+    for (const Record& row : SceneBudget(study, budget, solutions, note).rows()) table.rows.push_back(row);
   return table;
 }
 

@@ -5,6 +5,7 @@
 #include "solver/reference/oracle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <sstream>
 
@@ -15,15 +16,26 @@ constexpr const char* magic = "dssbench-solution-1";
 constexpr double first_part_of_limit = 0.5; ///< the first step over the stability limit
 constexpr double safety = 1.2;              ///< more steps than the order promises to need
 
-/// The error of the second of two runs of which it has twice the steps.
-double estimated_error(const Problem& problem, const Method& method, const std::vector<std::vector<double>>& coarse,
-                       const std::vector<std::vector<double>>& fine) {
-  return accuracy_of(problem, fine, coarse).max / (std::exp2(method.order) - 1);
+using States = std::vector<std::vector<double>>;
+
+/// Of two runs of which the second has twice the steps: their error of order p, the lowest, eliminated.
+States extrapolated(const States& coarse, const States& fine, int order) {
+  const double weight = 1 / (std::exp2(order) - 1);
+  States limit = fine;
+  for (std::size_t k = 0; k < fine.size(); ++k)
+    for (std::size_t n = 0; n < fine[k].size(); ++n) limit[k][n] += weight * (fine[k][n] - coarse[k][n]);
+  return limit;
 }
 
-/// By what to multiply steps so that an error falls below a tolerance, rounded up; 1 where it is.
-long needed_factor(double error, double tolerance, int order) {
-  return std::max(1L, long(std::ceil(safety * std::pow(error / tolerance, 1.0 / order))));
+/// Three runs, each with twice the steps of the one before.
+Solution solution_of_three(const Problem& problem, const Method& method, const SavedTimes& times, long steps_between) {
+  std::array<States, 3> runs;
+  for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = oracle_states(problem, method, times, steps_between << r);
+  Solution solution{"", times, 0, times.interval() / double(steps_between << 2), {}};
+  solution.states = extrapolated(runs[1], runs[2], method.order);
+  const States coarser = extrapolated(runs[0], runs[1], method.order);
+  solution.error = accuracy_of(problem, solution.states, coarser).max / (std::exp2(method.order + 1) - 1);
+  return solution;
 }
 
 } // namespace
@@ -49,26 +61,17 @@ std::vector<std::vector<double>> oracle_states(const Problem& problem, const Met
 Solution find_solution(const Problem& problem, const Method& method, const SolutionRule& rule, const SavedTimes& times,
                        const std::function<void(const std::string&)>& note) {
   const StabilityLimit limit = stable_step(problem, method, problem.lattice.element_count <= sharp_stability_elements);
-  const double most_between = rule.most_steps / double(times.count);
+  const auto steps_of_finest = [&](long steps) { return 4 * steps * times.count; };
   long steps = times.steps_between(std::min(first_part_of_limit * limit.dt, times.interval()));
-  Solution solution{"", times, 0, 0, {}};
-  auto coarse = oracle_states(problem, method, times, steps);
   while (true) {
-    steps *= 2;
-    solution.states = oracle_states(problem, method, times, steps);
-    solution.error = estimated_error(problem, method, coarse, solution.states);
-    solution.dt = times.interval() / double(steps);
+    const Solution solution = solution_of_three(problem, method, times, steps);
     if (note)
       note(fmt::format("solution of {}: {} steps of {:.3g} s, estimated error {:.1e}", problem.name,
-                       steps * times.count, solution.dt, solution.error));
-    // The pair that is expected to end it: its coarser run needs half the steps.
-    const long factor = needed_factor(solution.error, rule.tolerance, method.order);
-    if (solution.error <= rule.tolerance || double(steps) * 2 > most_between) return solution;
-    const long next = std::min(steps * factor, long(most_between)) / 2;
-    if (next > steps)
-      coarse = oracle_states(problem, method, times, steps = next);
-    else
-      coarse = std::move(solution.states);
+                       steps_of_finest(steps), solution.dt, solution.error));
+    if (solution.error <= rule.tolerance || double(steps_of_finest(2 * steps)) > rule.most_steps) return solution;
+    const double factor = safety * std::pow(solution.error / rule.tolerance, 1.0 / (method.order + 1));
+    const double most = rule.most_steps / double(steps_of_finest(steps));
+    steps = long(std::ceil(double(steps) * std::clamp(factor, 1.2, most)));
   }
 }
 
