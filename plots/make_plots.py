@@ -10,10 +10,12 @@ import sys
 
 import balance_lines
 import cluster_lines
+import error_budget
 import figure9_lines
 import plate_picture
 import scaling_lines
 import speedup_bars
+import work_precision
 
 
 def main():
@@ -29,7 +31,9 @@ def main():
         if table.stem.endswith("_simulated"):
             print(cluster_lines.draw(table, output) or output)
             continue
-        if balance_lines.draw(table, output) is None:
+        if table.stem.startswith("work_precision_"):  # what the chart shows already, in words
+            continue
+        if any(picture.draw(table, output) is None for picture in (balance_lines, work_precision, error_budget)):
             print(output)
             continue
         print(speedup_bars.draw(table, None, output) or output)
