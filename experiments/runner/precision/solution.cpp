@@ -13,7 +13,7 @@ namespace dss {
 namespace {
 
 constexpr const char* magic = "dssbench-solution-1";
-constexpr double first_part_of_limit = 0.5; ///< the first step over the stability limit
+constexpr double first_part_of_limit = 0.9; ///< the first step over the stability limit
 constexpr double safety = 1.2;              ///< more steps than the order promises to need
 
 using States = std::vector<std::vector<double>>;
