@@ -249,13 +249,13 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
 }
 
 /// Of the final energy against that of the start; nothing where it need not be the same, or is zero.
-std::optional<double> energy_drift(const Problem& problem, double final_j) {
-  if (!conserves_energy(problem)) return {};
+std::optional<double> energy_drift(const Problem& problem, std::optional<double> final_j) {
+  if (!final_j || !conserves_energy(problem)) return {};
   std::vector<double> start(problem.lattice.element_count * field_count);
   initial_state(problem, 0, problem.lattice.element_count, start.data());
   const double start_j = total_energy(problem, start);
   if (start_j == 0) return {};
-  return final_j / start_j - 1;
+  return *final_j / start_j - 1;
 }
 
 void judge(const CheckResult& check, RunResult& result) {
@@ -281,10 +281,8 @@ RunResult run_scene(const RunRequest& request) {
   if (result.status != "ok") return result;
   result.max_displacement_m = max_displacement(timed.executor(), count);
   result.digest = state_digest(timed.executor(), count, plan.precision);
-  if (count <= energy_elements) {
-    result.energy_j = total_energy(problem, whole_state(timed.executor(), count));
-    result.energy_drift = energy_drift(problem, *result.energy_j);
-  }
+  if (count <= energy_elements) result.energy_j = total_energy(problem, whole_state(timed.executor(), count));
+  result.energy_drift = energy_drift(problem, result.energy_j);
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), count);
     const WorkAlone alone(timed.executor(), request.is_root);
