@@ -2,7 +2,7 @@
 """Error budget: the error of each source as a bar, a panel a scene, on one logarithmic axis.
 
 Reads results/tables/error_budget.csv, as `dssbench experiment error_budget` writes it, and nothing else; never runs a solver.
-Hatched: refinement does not converge, the bar is a difference between grids. What could not be computed is named with its status.
+Hatched: refinement has no limit, the bar is the difference between the first and the last grid. What could not be computed is named with its status.
 Example: plots/error_budget.py results/tables/error_budget.csv --output results/figures/error_budget.png
 """
 
@@ -26,7 +26,7 @@ def words(row):
     text = "none" if row["error"] == 0 else f"{row['error']:.1e}"
     if not pandas.isna(row["observed_order"]) and row["status"] == "ok":
         text += f"  (observed order {row['observed_order']:.2f})"
-    return text if row["status"] == "ok" else f"{text}  ({row['status']}: no limit)"
+    return text if row["status"] == "ok" else f"{text}  ({row['status']})"
 
 
 def draw_panel(axes, label, rows):
@@ -35,7 +35,7 @@ def draw_panel(axes, label, rows):
     for place, row in rows.iterrows():
         error = 0 if pandas.isna(row["error"]) else row["error"]
         bar = axes.barh(place, max(error - LEAST, 0), left=LEAST, color=COLOURS.get(row["source"].split()[0], OTHER_COLOUR))
-        if row["status"] == "diverges":
+        if row["status"] == "no limit":
             bar[0].set_hatch("//")
             bar[0].set_edgecolor("white")
         axes.annotate(words(row), (max(error, LEAST), place), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8.5)

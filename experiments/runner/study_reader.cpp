@@ -39,6 +39,11 @@ std::vector<std::string> JsonPlace::texts() const {
   return all;
 }
 
+bool JsonPlace::flag() const {
+  if (!value_.is_boolean()) fail(fmt::format("{} is neither true nor false", value_.dump()));
+  return value_.get<bool>();
+}
+
 double JsonPlace::positive() const {
   if (!value_.is_number() || !(value_.get<double>() > 0))
     fail(fmt::format("{} is not a positive number", value_.dump()));

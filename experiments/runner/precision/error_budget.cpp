@@ -152,16 +152,19 @@ private:
 
   void over_grids(Record& row) const {
     const std::array<History, 3> grids = {on_grid(0), on_grid(1), on_grid(2)};
-    const Extrapolation limit = extrapolate(grids, budget_.ratio);
+    const Extrapolation limit = extrapolate(grids, budget_.ratio, budget_.is_one_body);
     row["error"] = number_text(limit.error);
     row["error_final"] = number_text(limit.error_final);
-    row["observed_order"] = number_text(limit.order);
-    row["extrapolated_m"] = number_text(limit.value);
     row["refined"] = budget_.refined;
-    if (limit.converges) return;
-    row["status"] = "diverges";
+    if (limit.converges) {
+      row["observed_order"] = number_text(limit.order);
+      row["extrapolated_m"] = number_text(limit.value);
+      return;
+    }
+    row["status"] = "no limit";
     row["reason"] =
-        "differences grow from grid to grid: the error is the difference between the first and the last grid";
+        fmt::format("{}: the error is the difference between the first and the last",
+                    budget_.is_one_body ? "differences grow from grid to grid" : "each grid is another body");
   }
 
   const ErrorBudgetStudy& study_;

@@ -22,8 +22,9 @@ std::vector<std::string> texts_if(const JsonPlace& place, const char* key) {
 }
 
 void read_refinement(const JsonPlace& place, BudgetScene& budget) {
-  place.require_keys({"grids", "ratio", "keeps"});
+  place.require_keys({"grids", "ratio", "keeps", "one_body"});
   budget.refined = place["keeps"].text();
+  if (place.has("one_body")) budget.is_one_body = place["one_body"].flag();
   if (place.has("ratio")) budget.ratio = place["ratio"].positive();
   if (!(budget.ratio > 1)) place["ratio"].fail("is not above 1: each grid is finer than the one before");
   for (const JsonPlace& grid : place["grids"].items()) budget.refinement.push_back(one_set(grid));

@@ -17,9 +17,10 @@ struct BudgetScene {
   SavedTimes times;
   double dt = 0; ///< [s]
   std::vector<std::vector<Override>>
-      refinement;      ///< overrides of finer and finer grids, the first the scene's own; may be empty
-  double ratio = 2;    ///< of the elements' edges from one grid to the next; the steps follow
-  std::string refined; ///< what refinement keeps, for people
+      refinement;          ///< overrides of finer and finer grids, the first the scene's own; may be empty
+  double ratio = 2;        ///< of the elements' edges from one grid to the next; the steps follow
+  bool is_one_body = true; ///< on all grids; else there is no limit to extrapolate to
+  std::string refined;     ///< what refinement keeps, for people
   std::vector<std::string> precisions, models, rotations;
 };
 

@@ -19,12 +19,12 @@ const Record* row_of(const Table& table, const std::string& label, const std::st
   return nullptr;
 }
 
-/// The source of the largest error besides time; null if there is none.
+/// The source of the largest error besides time; null if there is none. Differences of grids without a limit are no errors.
 const Record* worst_other(const Table& table, const std::string& label) {
   const Record* worst = nullptr;
   for (const Record& row : table.rows)
     if (text_in(row, "label") == label && !text_in(row, "source").starts_with("time") &&
-        !text_in(row, "error").empty() && (worst == nullptr || number_in(row, "error") > number_in(*worst, "error")))
+        text_in(row, "status") == "ok" && (worst == nullptr || number_in(row, "error") > number_in(*worst, "error")))
       worst = &row;
   return worst;
 }

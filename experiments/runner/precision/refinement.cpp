@@ -20,12 +20,12 @@ double rms_distance(const History& a, const History& b) {
 
 } // namespace
 
-Extrapolation extrapolate(const std::array<History, 3>& grids, double ratio) {
+Extrapolation extrapolate(const std::array<History, 3>& grids, double ratio, bool has_limit) {
   const auto& [coarse, middle, fine] = grids;
   const double first = rms_distance(middle, coarse), second = rms_distance(fine, middle);
   Extrapolation result;
   result.order = std::log(first / second) / std::log(ratio);
-  result.converges = result.order > 0;
+  result.converges = has_limit && result.order > 0;
   const double weight = result.converges ? 1 / (std::pow(ratio, result.order) - 1) : 0;
   double largest = 0;
   for (std::size_t k = 0; k < fine.size(); ++k) {

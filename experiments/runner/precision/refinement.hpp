@@ -20,6 +20,7 @@ struct Extrapolation {
 };
 
 /// @param grids  histories on three grids, the coarsest first  @param ratio  of their spacings, above 1
-Extrapolation extrapolate(const std::array<History, 3>& grids, double ratio);
+/// @param has_limit  the grids are of one body; if not, they are treated as those that do not converge
+Extrapolation extrapolate(const std::array<History, 3>& grids, double ratio, bool has_limit = true);
 
 } // namespace dss
