@@ -54,7 +54,7 @@ class Precision(ProgramTest):
         self.assertEqual(list(errors), ["time", "time at the stability limit", "space", "rounding f64", "rounding f32", "model planar"])
         self.assertLess(float(errors["time"]["error"]), float(errors["time at the stability limit"]["error"]))
         self.assertLess(float(errors["rounding f64"]["error"]), 1e-6 * float(errors["rounding f32"]["error"]))
-        self.assertIn("stable", budget.stdout)
+        self.assertIn("times that step is stable", budget.stdout)
         result = self.experiment()
         self.assertEqual(result.returncode, 0, result.stderr)
         table = self.rows("tables/points")

@@ -236,13 +236,17 @@ TEST_F(Points, AComparisonIsOfPointsWithinTheErrorInSpace) {
   add("fast", "f32", 100, 1e-4, 2);
   add("fast", "f32", 50, 1e-1, 1);
   const Table points = precision_table(study, records);
-  const Table budget{{"label", "source", "error"}, {{{"label", "plate"}, {"source", "space"}, {"error", "0.01"}}}};
+  Record space = {{"label", "plate"}, {"source", "space"}, {"error", "0.01"}, {"status", "ok"}};
+  const Table budget{{"label", "source", "error", "status"}, {space}};
   const Record answer = comparison_table(study, points, records, budget).rows.at(0);
   EXPECT_NEAR(number_in(answer, "times_cheaper"), 4, 1e-9);
   EXPECT_NEAR(number_in(answer, "times_cheaper_than_best_base"), 2, 1e-9);
-  const Record without = comparison_table(study, points, records, Table{}).rows.at(0);
-  EXPECT_EQ(text_in(without, "status"), "none");
-  EXPECT_NE(text_in(without, "reason").find("error_budget"), std::string::npos);
+  space["status"] = "no limit";
+  for (const Table& without : {Table{}, Table{budget.columns, {space}}}) {
+    const Record none = comparison_table(study, points, records, without).rows.at(0);
+    EXPECT_EQ(text_in(none, "status"), "none");
+    EXPECT_NE(text_in(none, "reason").find("error_budget"), std::string::npos);
+  }
 }
 
 } // namespace

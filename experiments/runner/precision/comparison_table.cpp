@@ -40,7 +40,8 @@ std::optional<Estimate> times_cheaper(const Study& study, const StudySamples& sa
 
 double error_in_space(const Table& budget, const std::string& label) {
   for (const Record& row : budget.rows)
-    if (text_in(row, "label") == label && text_in(row, "source") == "space") return number_in(row, "error");
+    if (text_in(row, "label") == label && text_in(row, "source") == "space" && text_in(row, "status") == "ok")
+      return number_in(row, "error");
   return std::nan("");
 }
 

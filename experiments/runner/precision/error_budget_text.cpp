@@ -36,11 +36,10 @@ std::string step_text(const Table& table, const std::string& label) {
   if (time == nullptr || other == nullptr) return "";
   const double error = number_in(*time, "error"), rest = number_in(*other, "error");
   std::string text =
-      fmt::format("{}: {} at dt = {} s is off by {:.1e} in time, {} by {:.1e}: ", label, text_in(*time, "integrator"),
+      fmt::format("{}: {} at dt = {} s is off by {:.1e} in time, {} by {:.1e}", label, text_in(*time, "integrator"),
                   shown(*time, "dt_s", "{:.3g}"), error, text_in(*other, "source"), rest);
-  text += error < rest
-              ? fmt::format("the step buys {:.1f} digits more than the result has", std::log10(rest / error))
-              : fmt::format("time is what a smaller step improves, by up to {:.1f} digits", std::log10(error / rest));
+  if (text_in(*other, "source") == "space" && error < rest)
+    text += fmt::format(": the step buys {:.1f} digits more than the grid has", std::log10(rest / error));
   if (limit != nullptr && number_in(*limit, "dt_s") > number_in(*time, "dt_s"))
     text += fmt::format("; {:.3g} times that step is stable, and off by {:.1e}",
                         number_in(*limit, "dt_s") / number_in(*time, "dt_s"), number_in(*limit, "error"));
