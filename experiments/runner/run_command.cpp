@@ -42,8 +42,9 @@ void print_summary(const RunResult& result) {
              result.links, result.steps, result.dt_s, result.model, result.precision, result.integrator);
   fmt::print("{} ({}), {} thread{}{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
              result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "", result.schedule);
-  fmt::print("wall {:.6g} s, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
-             1e-6 * result.element_steps_per_s(), double(result.bytes) / double(result.elements));
+  fmt::print("wall {:.6g} s{}, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
+             result.runs > 1 ? fmt::format(" (mean of {} runs)", result.runs) : "", 1e-6 * result.element_steps_per_s(),
+             double(result.bytes) / double(result.elements));
   fmt::print("time to the first step {:.3g} s\n", result.first_step_s);
   print_device(result);
   fmt::print("largest displacement {:.6g} m, energy {}, state {:016x}\n", result.max_displacement_m,
