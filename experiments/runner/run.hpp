@@ -29,18 +29,19 @@ struct RunRequest {
   std::optional<std::string> model, precision, integrator, rotation;
   std::optional<double> dt; ///< [s]
   std::optional<long> steps;
-  bool is_root = true;     ///< of several ranks all do the same, and one writes
-  bool is_forced = false;  ///< run above the stability limit
-  long warmup_steps = 0;   ///< steps before the clock starts; the state then starts anew
-  std::string output;      ///< .vtu file, or empty
-  int frames = 0;          ///< files of a series besides the final one
-  std::string state_csv;   ///< or empty
-  std::string json;        ///< file, "-" for standard output, or empty
-  std::string check_state; ///< file of the oracle's state, or empty
-  long check_step = 0;     ///< the step of that state
-  long check_tail = 2;     ///< steps at the end of a longer run that the oracle checks; 0: none
-  std::string reference;   ///< file of the scene's solution, which errors are measured against, or empty
-  double repeat_for = 0;   ///< a shorter run starts again and again until so much time was measured [s]
+  bool is_root = true;                   ///< of several ranks all do the same, and one writes
+  bool is_forced = false;                ///< run above the stability limit
+  std::optional<double> stability_limit; ///< known from before, and not predicted again [s]
+  long warmup_steps = 0;                 ///< steps before the clock starts; the state then starts anew
+  std::string output;                    ///< .vtu file, or empty
+  int frames = 0;                        ///< files of a series besides the final one
+  std::string state_csv;                 ///< or empty
+  std::string json;                      ///< file, "-" for standard output, or empty
+  std::string check_state;               ///< file of the oracle's state, or empty
+  long check_step = 0;                   ///< the step of that state
+  long check_tail = 2;                   ///< steps at the end of a longer run that the oracle checks; 0: none
+  std::string reference;                 ///< file of the scene's solution, which errors are measured against, or empty
+  double repeat_for = 0;                 ///< a shorter run starts again and again until so much time was measured [s]
 };
 
 /// A comparison with the oracle.

@@ -139,6 +139,11 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--dt", request.dt, "Time step [s] (default: the scene's)");
   command->add_option("--steps", request.steps, "Number of steps (default: the scene's)");
   command->add_flag("--force", request.is_forced, "Run above the predicted stability limit");
+  command
+      ->add_option(
+          "--stability-limit", request.stability_limit,
+          "Largest stable step [s] of the scene and the integrator, from `dssbench stability`: not predicted again")
+      ->group("Checks");
   command->add_option("--output", request.output, "F.vtu: the final state for ParaView");
   command
       ->add_option("--frames", request.frames,

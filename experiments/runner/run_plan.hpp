@@ -39,7 +39,9 @@ const Method& require_method(const std::string& name);
 /// Names of all methods, for the help.
 std::string method_names();
 
+/// @param known  the limit [s], if it need not be predicted
 /// @throws UnstableError if dt exceeds the predicted limit; both numbers are in the message. @return the limit [s]
-double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced);
+double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced,
+                      std::optional<double> known = {});
 
 } // namespace dss

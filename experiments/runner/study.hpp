@@ -22,8 +22,9 @@ struct Cell {
   std::string device; ///< that computes, as choose_device takes it; of a hybrid: that must be there; empty: any
   std::string hybrid; ///< members, see parse_members, or "auto"; empty: no hybrid
   std::string model, precision, integrator;
-  double dt = 0;    ///< [s]; 0: the scene's
-  SavedTimes times; ///< at which it is compared with the solution; none in studies of speed alone
+  double dt = 0;         ///< [s]; 0: the scene's
+  double step_limit = 0; ///< of a cell of precision: largest stable step [s]
+  SavedTimes times;      ///< at which it is compared with the solution; none in studies of speed alone
   long steps = 0;
   long full_steps = 0;         ///< of the study; `steps` is less where the variant is too slow for them
   bool is_twin = false;        ///< the second of an A/A pair

@@ -92,6 +92,12 @@ class Precision(ProgramTest):
         self.assert_refused(2, ["--reference", "36", "49"], *plate, "--set", "n=7")
         self.assert_refused(2, ["is no solution"], "run", "plate_paper", "--reference", self.path("points.json"))
 
+    def test_a_known_stability_limit_is_not_predicted_again(self):
+        plate = ("run", "plate_paper", "--set", "n=6", "--dt", "2e-6", "--steps", "5")
+        self.assertEqual(json.loads(dssbench(*plate, "--stability-limit", "2.5e-6", "--json", "-").stdout)["stability_limit_s"], 2.5e-6)
+        self.assert_refused(3, ["2e-06", "1e-06", "--stability-limit"], *plate, "--stability-limit", "1e-6")
+        self.assert_refused(2, ["--stability-limit 0"], *plate, "--stability-limit", "0")
+
     def test_energy_of_an_undamped_scene_drifts_by_what_the_method_loses(self):
         box = ("run", "tumbling_box", "--set", "bodies/0/constants/damping_ratio=0", "--steps", "100", "--json", "-")
         drift = {dt: json.loads(dssbench(*box, "--dt", dt).stdout)["energy_drift"] for dt in ("2e-4", "4e-4")}

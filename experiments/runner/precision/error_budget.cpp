@@ -31,9 +31,10 @@ public:
         scene_(load_scene(budget.scene, budget.set)), method_(require_method(budget.integrator)) {}
 
   std::vector<Record> rows() {
+    const bool is_small = scene_.problem.lattice.element_count <= sharp_stability_elements;
+    const double largest = fitting_step(stable_step(scene_.problem, method_, is_small).dt);
     add("time", budget_.dt, [&](Record& row) { against_solution(budget_.dt, row); });
-    add("time at the stability limit", largest_step(scene_.problem),
-        [&](Record& row) { against_solution(largest_step(scene_.problem), row); });
+    add("time at the stability limit", largest, [&](Record& row) { against_solution(largest, row); });
     if (!budget_.refinement.empty()) add("space", budget_.dt, [&](Record& row) { over_grids(row); });
     for (const std::string& precision : budget_.precisions)
       add("rounding " + precision, budget_.dt, [&](Record& row) { against_long_double(precision, row); });
@@ -92,11 +93,9 @@ private:
     return run;
   }
 
-  /// The largest stable one that divides the time between saved times.
-  double largest_step(const Problem& problem) const {
-    const bool is_small = problem.lattice.element_count <= sharp_stability_elements;
-    const double limit = std::min(stable_step(problem, method_, is_small).dt, budget_.times.interval());
-    return budget_.times.interval() / double(budget_.times.steps_between(limit));
+  /// The largest step not above a limit [s] that divides the time between saved times.
+  double fitting_step(double limit) const {
+    return budget_.times.interval() / double(budget_.times.steps_between(std::min(limit, budget_.times.interval())));
   }
 
   const States& plain() {
@@ -136,8 +135,8 @@ private:
     RunRequest run = request(budget_.dt);
     run.overrides.insert(run.overrides.end(), budget_.refinement[level].begin(), budget_.refinement[level].end());
     const Scene scene = load_scene(run.scene, run.overrides);
-    const double wanted = std::min(budget_.dt / std::pow(budget_.ratio, double(level)), largest_step(scene.problem));
-    run.dt = budget_.times.interval() / double(budget_.times.steps_between(wanted));
+    const double of_grid = stable_step(scene.problem, method_).dt; // a lower bound, at no cost
+    run.dt = fitting_step(std::min(budget_.dt / std::pow(budget_.ratio, double(level)), of_grid));
     const std::vector<std::size_t>& loaded = scene.problem.loads.front().elements;
     History history;
     for (const std::vector<double>& state : run_states(run, budget_.times)) {

@@ -10,30 +10,27 @@
 namespace dss {
 namespace {
 
-/// Step limits of the methods on the problems of a block, each found once.
-class StepLimits {
-public:
-  /// [s]; of a method without a limit the time between saved times.
-  double of(const Cell& cell) {
-    const auto [place, is_new] = limits_.try_emplace(cell.set_text() + " " + cell.integrator, 0);
-    if (is_new) {
-      const Scene scene = load_scene(cell.scene, cell.set);
-      const bool is_small = scene.problem.lattice.element_count <= sharp_stability_elements;
-      place->second = stable_step(scene.problem, require_method(cell.integrator), is_small).dt;
-    }
-    return std::min(place->second, cell.times.interval());
+/// Step limit of a cell's method on its problem [s], found once in this process.
+double step_limit(const Cell& cell) {
+  static std::map<std::string, double> limits;
+  const auto [place, is_new] =
+      limits.try_emplace(fmt::format("{} {} {}", cell.scene, cell.set_text(), cell.integrator), 0);
+  if (is_new) {
+    const Scene scene = load_scene(cell.scene, cell.set);
+    const bool is_small = scene.problem.lattice.element_count <= sharp_stability_elements;
+    place->second = stable_step(scene.problem, require_method(cell.integrator), is_small).dt;
   }
-
-private:
-  std::map<std::string, double> limits_;
-};
+  return place->second;
+}
 
 /// Steps from one saved time to the next.
-std::set<long> step_counts(const JsonPlace& accuracy, const Cell& cell, const Scale& scale, StepLimits& limits) {
+std::set<long> step_counts(const JsonPlace& accuracy, const Cell& cell, const Scale& scale) {
   std::set<long> counts;
+  const double largest =
+      std::min(cell.step_limit, cell.times.interval()); // methods without a limit have an infinite one
   if (accuracy.has("halvings"))
     for (const int halvings : scale.halvings.empty() ? accuracy["halvings"].whole_numbers() : scale.halvings)
-      counts.insert(cell.times.steps_between(limits.of(cell) / std::exp2(halvings)));
+      counts.insert(cell.times.steps_between(largest / std::exp2(halvings)));
   if (accuracy.has("dt"))
     for (const JsonPlace& item : accuracy["dt"].items()) {
       try {
@@ -56,11 +53,11 @@ SavedTimes read_saved_times(const JsonPlace& place, double shorten) {
 std::vector<Cell> with_steps(const JsonPlace& accuracy, const std::vector<Cell>& cells, const Scale& scale) {
   accuracy.require_keys({"end_time", "saved_times", "halvings", "dt"});
   const SavedTimes times = read_saved_times(accuracy, scale.shorten);
-  StepLimits limits;
   std::vector<Cell> more;
   for (Cell cell : cells) {
     cell.times = times;
-    for (const long count : step_counts(accuracy, cell, scale, limits)) {
+    cell.step_limit = step_limit(cell);
+    for (const long count : step_counts(accuracy, cell, scale)) {
       cell.dt = times.interval() / double(count);
       cell.steps = cell.full_steps = count * times.count;
       more.push_back(cell);

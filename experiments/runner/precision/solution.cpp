@@ -60,7 +60,7 @@ std::vector<std::vector<double>> oracle_states(const Problem& problem, const Met
 
 Solution find_solution(const Problem& problem, const Method& method, const SolutionRule& rule, const SavedTimes& times,
                        const std::function<void(const std::string&)>& note) {
-  const StabilityLimit limit = stable_step(problem, method, problem.lattice.element_count <= sharp_stability_elements);
+  const StabilityLimit limit = stable_step(problem, method); // a lower bound is enough to begin with
   const auto steps_of_finest = [&](long steps) { return 4 * steps * times.count; };
   long steps = times.steps_between(std::min(first_part_of_limit * limit.dt, times.interval()));
   while (true) {
