@@ -61,7 +61,7 @@ def draw(path, output):
     for axes, (label, rows) in zip(panels[:, 0], groups):
         draw_panel(axes, label, rows)
     panels[-1, 0].set_xscale("log")
-    panels[-1, 0].set_xlim(LEAST, 1e5)
+    panels[-1, 0].set_xlim(LEAST, 1e6)
     panels[-1, 0].set_xlabel("relative error of displacements, largest over the saved times")
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, dpi=110)
