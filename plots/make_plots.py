@@ -11,12 +11,14 @@ import sys
 import balance_lines
 import cluster_lines
 import continuum
+import error_budget
 import failure_atlas
 import figure9_lines
 import plate_picture
 import scaling_lines
 import speedup_bars
 import stability_map
+import work_precision
 
 
 def main():
@@ -37,7 +39,9 @@ def main():
         if stability_map.draw(table, results / "figures" / f"{table.stem}_map.png") is None:
             print(results / "figures" / f"{table.stem}_map.png")
             continue
-        if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum)):
+        if table.stem.startswith("work_precision_"):  # what the chart shows already, in words
+            continue
+        if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum, work_precision, error_budget)):
             print(output)
             continue
         print(speedup_bars.draw(table, None, output) or output)

@@ -57,10 +57,12 @@ std::vector<std::string> run_arguments(const Study& study, const Cell& cell, con
                                    text(cell.steps),
                                    "--warmup",
                                    text(study.scale.warmup_steps),
-                                   "--check-state",
-                                   oracle_file,
                                    "--json",
                                    "-"};
+  line.insert(line.end(), {cell.is_of_precision() ? "--reference" : "--check-state", oracle_file});
+  if (cell.is_of_precision()) line.insert(line.end(), {"--repeat-for", text(study.scale.repeat_for)});
+  if (cell.step_limit > 0) line.insert(line.end(), {"--stability-limit", text(cell.step_limit)});
+  if (cell.dt > 0) line.insert(line.end(), {"--dt", text(cell.dt)});
   if (cell.ranks > 1)
     line.insert(line.end(), {"--ranks", text(cell.ranks), "--decomposition", cell.decomposition, "--halo", cell.halo});
   if (!cell.hybrid.empty())

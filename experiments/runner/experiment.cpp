@@ -2,11 +2,13 @@
 #include "experiments/runner/cell_record.hpp"
 #include "experiments/runner/child.hpp"
 #include "experiments/runner/circumstances.hpp"
+#include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/device_ceilings.hpp"
-#include "experiments/runner/oracle_state.hpp"
+#include "experiments/runner/expected_files.hpp"
+#include "experiments/runner/precision/precision_report.hpp"
+#include "experiments/runner/precision/precision_table.hpp"
 #include "experiments/runner/progress.hpp"
-#include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/samples.hpp"
 #include "experiments/runner/scaling.hpp"
 #include "experiments/runner/statistics.hpp"
@@ -44,7 +46,8 @@ class ExperimentRun {
 public:
   ExperimentRun(const Study& study, const std::string& directory, bool resume, const std::string& program)
       : study_(study), paths_(experiment_paths(directory, study.name)), program_(program), resume_(resume),
-        file_(paths_.raw, raw_columns(), resume), start_(std::chrono::steady_clock::now()), cores_(usable_cores()) {
+        file_(paths_.raw, raw_columns(), resume), start_(std::chrono::steady_clock::now()), cores_(usable_cores()),
+        expected_(study, paths_.oracle_directory, resume, [this](const std::string& line) { progress_.note(line); }) {
     for (const Cell& cell : study.cells)
       cells_.push_back({&cell, {}, false, 0, 0, false, is_partner(cell), cell.is_oversubscribed(cores_)});
     take_over(file_.present());
@@ -173,7 +176,7 @@ private:
     const Cell& cell = *state.cell;
     std::string oracle_file;
     try {
-      oracle_file = oracle_file_of(cell);
+      oracle_file = expected_.file_of(cell);
     } catch (const std::exception& error) {
       return failure_record(place(cell, repetition, attempt), "failed", error.what());
     }
@@ -183,6 +186,8 @@ private:
     const nlohmann::json json = nlohmann::json::parse(child.output, nullptr, false);
     if (json.is_object() && json.contains("context")) context_ = json["context"];
     const std::string failure = child.failure(study_.scale.time_limit_s);
+    if (cell.is_of_precision() && child.exit_code == exit_unstable) // a result: here the method ends
+      return failure_record(place(cell, repetition, attempt), json.is_object() ? "unstable" : "refused", failure);
     if (json.is_object() && json.value("status", "") == "wrong")
       return result_record(place(cell, repetition, attempt), json, child.wall_s);
     if (!failure.empty())
@@ -198,32 +203,15 @@ private:
     return {study_, cell, repetition, attempt, cores_};
   }
 
-  /// File of the oracle's state for a cell; computed once a study, kept for --resume.
-  std::string oracle_file_of(const Cell& cell) {
-    const long steps = std::min(cell.steps, study_.scale.oracle_steps);
-    const Scene scene = load_scene(cell.scene, cell.set);
-    const std::string key =
-        fmt::format("{} {} {} dt {:.17g} {} elements {} steps, {}", cell.scene, cell.set_text(), cell.integrator,
-                    scene.problem.dt, scene.problem.lattice.element_count, steps, scene_digest(scene));
-    const std::string path = fmt::format("{}/{:016x}.state", paths_.oracle_directory, std::hash<std::string>{}(key));
-    if (oracles_.contains(path)) return path;
-    const bool is_kept = resume_ && fs::exists(path) && read_oracle_state(path).key == key;
-    if (!is_kept) {
-      require_stable(scene.problem, require_method(cell.integrator), scene.problem.dt, false);
-      progress_.note(fmt::format("oracle: {} {}, {} steps", cell.scene, cell.set_text(), steps));
-      write_oracle_state(
-          path, compute_oracle_state(scene.problem, require_method(cell.integrator), scene.problem.dt, steps, key));
-    }
-    oracles_.insert(path);
-    return path;
-  }
-
   bool finish() {
-    const Table table = derive_table(study_, all_records_);
+    const Table table = study_.precision ? precision_table(study_, all_records_) : derive_table(study_, all_records_);
     write_csv(paths_.table, table);
-    fmt::print("{}\nTable: {}\nRecords: {}\n", table_text(study_, table), paths_.table, paths_.raw);
+    const std::string text =
+        study_.precision ? report_precision(study_, table, all_records_, paths_.table) : table_text(study_, table);
+    fmt::print("{}\nTable: {}\nRecords: {}\n", text, paths_.table, paths_.raw);
     return std::all_of(table.rows.begin(), table.rows.end(), [](const Record& row) {
-      static const std::set<std::string> fine = {"", "ok", "skipped", "unavailable", "oversubscribed"};
+      static const std::set<std::string> fine = {"",        "ok",       "skipped",   "unavailable", "oversubscribed",
+                                                 "refused", "unstable", "inaccurate"};
       return fine.contains(text_in(row, "status"));
     });
   }
@@ -239,9 +227,9 @@ private:
   DeviceCeilingsHere ceilings_;
   std::vector<CellState> cells_;
   std::vector<Record> all_records_;
-  std::set<std::string> oracles_;
   double retry_s_ = 0;
   Progress progress_;
+  ExpectedFiles expected_;
 };
 
 void make_directories(const ExperimentPaths& paths) {

@@ -5,6 +5,7 @@
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/experiment.hpp"
+#include "experiments/runner/precision/error_budget.hpp"
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/simulation_study.hpp"
 #include "experiments/runner/stability_study.hpp"
@@ -40,22 +41,6 @@ void print_plan(const Study& study, const std::string& out) {
              paths.raw);
 }
 
-/// Simulates what the study says, beside what it has measured.
-int simulate(const std::string& name, const std::vector<SimulationBlock>& blocks, const std::string& out) {
-  const ExperimentPaths paths = experiment_paths(out, name);
-  const std::string path = experiment_paths(out, name + "_simulated").table;
-  std::error_code error;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-  require_writable(path);
-  const Table measured = std::filesystem::exists(paths.table) ? read_csv(paths.table) : Table{};
-  const Table table = simulate_study(name, blocks, measured);
-  write_csv(path, table);
-  fmt::print("\n{}\nTable: {}\n", simulation_text(table), path);
-  const bool has_failed =
-      std::ranges::any_of(table.rows, [](const Record& row) { return text_in(row, "status") == "failed"; });
-  return has_failed ? exit_check_failed : exit_success;
-}
-
 /// Where the table of a study goes, made sure that it can be written.
 std::string table_path(const std::string& name, const std::string& out) {
   const std::string path = experiment_paths(out, name).table;
@@ -63,6 +48,19 @@ std::string table_path(const std::string& name, const std::string& out) {
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
   require_writable(path);
   return path;
+}
+
+/// Simulates what the study says, beside what it has measured.
+int simulate(const std::string& name, const std::vector<SimulationBlock>& blocks, const std::string& out) {
+  const ExperimentPaths paths = experiment_paths(out, name);
+  const std::string path = table_path(name + "_simulated", out);
+  const Table measured = std::filesystem::exists(paths.table) ? read_csv(paths.table) : Table{};
+  const Table table = simulate_study(name, blocks, measured);
+  write_csv(path, table);
+  fmt::print("\n{}\nTable: {}\n", simulation_text(table), path);
+  const bool has_failed =
+      std::ranges::any_of(table.rows, [](const Record& row) { return text_in(row, "status") == "failed"; });
+  return has_failed ? exit_check_failed : exit_success;
 }
 
 int model(const BalanceStudy& study, const ExperimentArguments& arguments) {
@@ -107,11 +105,27 @@ int check(const Study& study, const ExperimentArguments& arguments, std::size_t 
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
 
+int account(const ErrorBudgetStudy& study, const ExperimentArguments& arguments) {
+  if (arguments.is_dry) {
+    for (const BudgetScene& scene : study.scenes)
+      fmt::print("{}: {}, {} at dt = {:g} s to {:g} s\n", study.name, scene.label, scene.integrator, scene.dt,
+                 scene.times.end);
+    return exit_success;
+  }
+  const std::string path = table_path(study.name, arguments.out);
+  Progress progress;
+  const Table table = error_budget_table(study, [&](const std::string& line) { progress.note(line); });
+  write_csv(path, table);
+  fmt::print("{}\nTable: {}\n", error_budget_text(study, table), path);
+  return has_failed_rows(table) ? exit_check_failed : exit_success;
+}
+
 int experiment(const ExperimentArguments& arguments) {
   if (const auto failures = load_failures(arguments.file, arguments.scale))
     return check(*failures, arguments, failures->cases.size(), failures_table, failures_text);
   if (const auto continuum = load_continuum(arguments.file, arguments.scale))
     return check(*continuum, arguments, continuum->checks.size(), continuum_table, continuum_text);
+  if (const auto budget = load_error_budget(arguments.file, arguments.scale)) return account(*budget, arguments);
   if (const auto balance = load_balance(arguments.file)) return model(*balance, arguments);
   if (const auto limits = load_stability(arguments.file, arguments.scale)) return find_limits(*limits, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);

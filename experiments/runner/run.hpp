@@ -1,5 +1,7 @@
 #pragma once
 /// One run of one scene on one variant: the body of `dssbench run`.
+#include "experiments/runner/precision/accuracy.hpp"
+#include "experiments/runner/precision/saved_times.hpp"
 #include "experiments/runner/usage.hpp"
 #include "solver/model/model.hpp"
 #include "solver/scene/scene.hpp"
@@ -27,16 +29,19 @@ struct RunRequest {
   std::optional<std::string> model, precision, integrator, rotation;
   std::optional<double> dt; ///< [s]
   std::optional<long> steps;
-  bool is_root = true;     ///< of several ranks all do the same, and one writes
-  bool is_forced = false;  ///< run above the stability limit
-  long warmup_steps = 0;   ///< steps before the clock starts; the state then starts anew
-  std::string output;      ///< .vtu file, or empty
-  int frames = 0;          ///< files of a series besides the final one
-  std::string state_csv;   ///< or empty
-  std::string json;        ///< file, "-" for standard output, or empty
-  std::string check_state; ///< file of the oracle's state, or empty
-  long check_step = 0;     ///< the step of that state
-  long check_tail = 2;     ///< steps at the end of a longer run that the oracle checks; 0: none
+  bool is_root = true;                   ///< of several ranks all do the same, and one writes
+  bool is_forced = false;                ///< run above the stability limit
+  std::optional<double> stability_limit; ///< known from before, and not predicted again [s]
+  long warmup_steps = 0;                 ///< steps before the clock starts; the state then starts anew
+  std::string output;                    ///< .vtu file, or empty
+  int frames = 0;                        ///< files of a series besides the final one
+  std::string state_csv;                 ///< or empty
+  std::string json;                      ///< file, "-" for standard output, or empty
+  std::string check_state;               ///< file of the oracle's state, or empty
+  long check_step = 0;                   ///< the step of that state
+  long check_tail = 2;                   ///< steps at the end of a longer run that the oracle checks; 0: none
+  std::string reference;                 ///< file of the scene's solution, which errors are measured against, or empty
+  double repeat_for = 0;                 ///< a shorter run starts again and again until so much time was measured [s]
 };
 
 /// A comparison with the oracle.
@@ -47,6 +52,13 @@ struct CheckResult {
   double error = 0;                 ///< after check_step steps
   std::optional<double> tail_error; ///< of the last steps, where the run went on
   bool is_passed() const { return error <= tolerance && (!tail_error || *tail_error <= tolerance); }
+};
+
+/// A comparison with the solution of the scene.
+struct ReferenceResult {
+  SavedTimes times;
+  double error = 0; ///< of the solution itself
+  Accuracy accuracy;
 };
 
 struct RunResult {
@@ -62,14 +74,18 @@ struct RunResult {
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
+  long runs = 1;           ///< that were timed: wall_s is their mean, usage their sum
   double first_step_s = 0; ///< time to the first step: making the executor, and the very first step
   Usage usage;
-  std::optional<double> energy_j; ///< absent for states too large to hold twice
+  std::optional<double> energy_j;     ///< absent for states too large to hold twice
+  std::optional<double> energy_drift; ///< relative, of the whole run, where energy is conserved and some is there
   double max_displacement_m = 0;
   std::uint64_t digest = 0;
   CheckResult check;
-  std::vector<std::string> files;    ///< written, in words
-  std::string status = "ok", reason; ///< "unstable", "wrong": what, where
+  std::optional<ReferenceResult> reference;
+  std::vector<std::string> files;                           ///< written, in words
+  std::string status = "ok", reason;                        ///< "unstable", "wrong": what, where
+  double sample_s() const { return wall_s * double(runs); } ///< under the clock [s]
   double element_steps_per_s() const { return wall_s > 0 ? double(elements) * double(steps) / wall_s : 0; }
 };
 

@@ -42,8 +42,9 @@ void print_summary(const RunResult& result) {
              result.links, result.steps, result.dt_s, result.model, result.precision, result.integrator);
   fmt::print("{} ({}), {} thread{}{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
              result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "", result.schedule);
-  fmt::print("wall {:.6g} s, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
-             1e-6 * result.element_steps_per_s(), double(result.bytes) / double(result.elements));
+  fmt::print("wall {:.6g} s{}, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
+             result.runs > 1 ? fmt::format(" (mean of {} runs)", result.runs) : "", 1e-6 * result.element_steps_per_s(),
+             double(result.bytes) / double(result.elements));
   fmt::print("time to the first step {:.3g} s\n", result.first_step_s);
   print_device(result);
   fmt::print("largest displacement {:.6g} m, energy {}, state {:016x}\n", result.max_displacement_m,
@@ -51,6 +52,13 @@ void print_summary(const RunResult& result) {
   if (result.check.is_done)
     fmt::print("check: {} ({}): error {:.3g}, tolerance {:.3g}\n", result.check.is_passed() ? "passed" : "failed",
                result.check.how, result.check.error, result.check.tolerance);
+  if (result.reference)
+    fmt::print(
+        "displacements against the solution at {} times: error {:.3g} at the end, {:.3g} rms, {:.3g} at most (the "
+        "solution's own: {:.1g})\n",
+        result.reference->times.count, result.reference->accuracy.final, result.reference->accuracy.l2,
+        result.reference->accuracy.max, result.reference->error);
+  if (result.energy_drift) fmt::print("energy drift {:.3g}\n", *result.energy_drift);
   if (result.ranks.ranks > 1)
     fmt::print("{:.4g} messages and {:.4g} bytes a step, {:.1f} % of the time in exchanges, imbalance {:.3f}\n",
                result.messages_per_step, result.bytes_per_step, 100 * result.communication_share,
@@ -132,6 +140,11 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--dt", request.dt, "Time step [s] (default: the scene's)");
   command->add_option("--steps", request.steps, "Number of steps (default: the scene's)");
   command->add_flag("--force", request.is_forced, "Run above the predicted stability limit");
+  command
+      ->add_option(
+          "--stability-limit", request.stability_limit,
+          "Largest stable step [s] of the scene and the integrator, from `dssbench stability`: not predicted again")
+      ->group("Checks");
   command->add_option("--output", request.output, "F.vtu: the final state for ParaView");
   command
       ->add_option("--frames", request.frames,
@@ -152,6 +165,17 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command
       ->add_option("--check-tail", request.check_tail,
                    "Steps at the end of a longer run that the oracle does again; 0: none")
+      ->capture_default_str()
+      ->group("Checks");
+  command
+      ->add_option("--reference", request.reference,
+                   "File of the scene's solution (made by studies of precision): errors against it at its saved times, "
+                   "which also "
+                   "give the number of steps")
+      ->group("Checks");
+  command
+      ->add_option("--repeat-for", request.repeat_for,
+                   "Start a shorter run again until so many seconds were measured; times are the mean of a run")
       ->capture_default_str()
       ->group("Checks");
   command->footer(

@@ -109,6 +109,10 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));
   if (request.warmup_steps < 0) refuse(fmt::format("--warmup {}: give 0 or more", request.warmup_steps));
   if (request.check_tail < 0) refuse(fmt::format("--check-tail {}: give 0 or more", request.check_tail));
+  if (request.stability_limit && !(*request.stability_limit > 0))
+    refuse(fmt::format("--stability-limit {:g}: the step must be positive [s]", *request.stability_limit));
+  if (!(request.repeat_for >= 0)) refuse(fmt::format("--repeat-for {:g}: give 0 s or more", request.repeat_for));
+  if (request.repeat_for > 0 && request.ranks > 1) refuse("--repeat-for: only a run on 1 rank starts again");
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
   if (request.frames > 0 && request.output.empty()) refuse("--frames: needs --output F.vtu, which names the series");
   if (!request.output.empty() && !request.output.ends_with(".vtu"))
@@ -134,6 +138,25 @@ OracleState expected_state(const RunRequest& request, const RunPlan& plan) {
   return expected;
 }
 
+/// Also the number of steps, which the reference says. @throws InputError if the run cannot be compared with it
+void read_reference(const RunRequest& request, RunPlan& plan) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("--reference {}: {}", request.reference, what));
+  };
+  plan.reference = read_solution(request.reference);
+  const std::size_t elements = plan.reference->states.front().size() / field_count;
+  if (elements != plan.scene.problem.lattice.element_count)
+    refuse(fmt::format("has {} elements, the scene {}", elements, plan.scene.problem.lattice.element_count));
+  try {
+    plan.steps_between = plan.reference->times.whole_steps_between(plan.dt);
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
+  plan.steps = plan.steps_between * plan.reference->times.count;
+  if (request.steps && *request.steps != plan.steps)
+    refuse(fmt::format("ends at {:.6g} s: give --steps {}, or none", plan.reference->times.end, plan.steps));
+}
+
 } // namespace
 
 const Method& require_method(const std::string& name) {
@@ -151,9 +174,16 @@ std::string method_names() {
   return names;
 }
 
-double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced) {
-  StabilityLimit limit = stable_step(problem, method);
-  if (dt > limit.dt && problem.lattice.element_count <= sharp_stability_elements)
+double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced,
+                      std::optional<double> known) {
+  StabilityLimit limit;
+  if (known) {
+    limit.dt = *known;
+    limit.how = "as --stability-limit says";
+  } else {
+    limit = stable_step(problem, method);
+  }
+  if (!known && dt > limit.dt && problem.lattice.element_count <= sharp_stability_elements)
     limit = stable_step(problem, method, true);
   if (dt > limit.dt && !is_forced)
     throw UnstableError(
@@ -181,13 +211,14 @@ RunPlan plan_run(const RunRequest& request) {
     plan.method = plan.fitted.get();
   }
   plan.tail_steps = request.check_tail;
+  if (!request.reference.empty() && plan.dt > 0) read_reference(request, plan);
   require_devices(request, plan);
   require_variant_has(plan);
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
     throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));
   if (request.is_root) require_outputs_writable(request);
-  plan.stability_limit = require_stable(problem, *plan.method, plan.dt, request.is_forced);
+  plan.stability_limit = require_stable(problem, *plan.method, plan.dt, request.is_forced, request.stability_limit);
   if (!request.check_state.empty()) plan.expected = expected_state(request, plan);
   for (int frame = 0; frame <= request.frames && !request.output.empty(); ++frame) {
     const double share = request.frames == 0 ? 1 : double(frame) / request.frames;

@@ -1,6 +1,7 @@
 #pragma once
 /// A request made definite: everything that can be wrong with it is found before anything is computed.
 #include "experiments/runner/oracle_state.hpp"
+#include "experiments/runner/precision/solution.hpp"
 #include "experiments/runner/run.hpp"
 #include "variants/loader.hpp"
 
@@ -23,6 +24,8 @@ struct RunPlan {
   long tail_steps = 0; ///< over which the end of a longer run is compared with the oracle
   double stability_limit = 0;
   std::optional<OracleState> expected; ///< at step expected->steps
+  std::optional<Solution> reference;   ///< that errors are measured against
+  long steps_between = 0;              ///< saved times of the reference
   std::vector<long> frame_steps;       ///< ascending, the last is `steps`
 
   const Tolerance& tolerance() const {
@@ -38,7 +41,9 @@ const Method& require_method(const std::string& name);
 /// Names of all methods, for the help.
 std::string method_names();
 
+/// @param known  the limit [s], if it need not be predicted
 /// @throws UnstableError if dt exceeds the predicted limit; both numbers are in the message. @return the limit [s]
-double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced);
+double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced,
+                      std::optional<double> known = {});
 
 } // namespace dss

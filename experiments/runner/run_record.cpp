@@ -39,6 +39,20 @@ Json hybrid_json(const HybridInfo& hybrid) {
   return {{"members", members}, {"rebalances", hybrid.rebalances}, {"reason", hybrid.reason}};
 }
 
+/// Nothing for a run that was measured against no solution.
+void add_reference(const std::optional<ReferenceResult>& reference, Json& json) {
+  if (!reference) return;
+  json["end_time_s"] = reference->times.end;
+  json["saved_times"] = reference->times.count;
+  json["error_final"] = reference->accuracy.final;
+  json["error_l2"] = reference->accuracy.l2;
+  json["error_max"] = reference->accuracy.max;
+  json["error_rotation"] = reference->accuracy.rotation;
+  json["error_velocity"] = reference->accuracy.velocity;
+  json["error_spin"] = reference->accuracy.spin;
+  json["reference_error"] = reference->error;
+}
+
 } // namespace
 
 nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result) {
@@ -76,15 +90,18 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["dt_s"] = result.dt_s;
   json["stability_limit_s"] = result.stability_limit_s;
   json["wall_s"] = result.wall_s;
+  json["runs"] = result.runs;
+  json["sample_s"] = result.sample_s();
   json["first_step_s"] = result.first_step_s;
-  json["cpu_s"] = result.usage.cpu_s;
-  json["wait_s"] = result.usage.wait_s;
+  json["cpu_s"] = result.usage.cpu_s / double(result.runs);
+  json["wait_s"] = result.usage.wait_s / double(result.runs);
   json["involuntary_switches"] = result.usage.involuntary_switches;
   const std::string& device_kind = result.device_use.device.kind;
   const bool is_elsewhere = !device_kind.empty() && device_kind != "cpu"; // its time is no CPU time
-  json["is_contaminated"] = !is_elsewhere && is_contaminated(result.usage, result.wall_s, result.workers);
+  json["is_contaminated"] = !is_elsewhere && is_contaminated(result.usage, result.sample_s(), result.workers);
   json["element_steps_per_s"] = result.element_steps_per_s();
   json["energy_j"] = result.energy_j ? Json(*result.energy_j) : nullptr;
+  json["energy_drift"] = result.energy_drift ? Json(*result.energy_drift) : nullptr;
   const bool has_state = result.status != "unstable";
   json["max_displacement_m"] = has_state ? Json(result.max_displacement_m) : nullptr;
   json["state_digest"] = has_state ? Json(fmt::format("{:016x}", result.digest)) : nullptr;
@@ -97,6 +114,7 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["check_tolerance"] = result.check.is_done ? Json(result.check.tolerance) : nullptr;
   json["check_error"] = result.check.is_done ? Json(result.check.error) : nullptr;
   json["check_tail_error"] = result.check.tail_error ? Json(*result.check.tail_error) : nullptr;
+  add_reference(result.reference, json);
   json["status"] = result.status;
   json["reason"] = result.reason;
   return json;

@@ -54,12 +54,24 @@ const std::vector<std::string>& raw_columns() {
                                                    "repetition",
                                                    "attempt",
                                                    "wall_s",
+                                                   "runs",
+                                                   "sample_s",
                                                    "cpu_s",
                                                    "wait_s",
                                                    "involuntary_switches",
                                                    "contaminated",
                                                    "element_steps_per_s",
                                                    "energy_j",
+                                                   "energy_drift",
+                                                   "end_time_s",
+                                                   "saved_times",
+                                                   "error_final",
+                                                   "error_l2",
+                                                   "error_max",
+                                                   "error_rotation",
+                                                   "error_velocity",
+                                                   "error_spin",
+                                                   "reference_error",
                                                    "max_displacement_m",
                                                    "state_digest",
                                                    "bytes",
@@ -128,7 +140,8 @@ std::vector<CellSample> samples_of(const std::vector<Record>& records) {
   for (CellSample& sample : samples)
     for (const auto& [number, record] : sample.repetitions) {
       sample.contaminated += text_in(record, "contaminated") == "true";
-      sample.too_short += number_in(record, "wall_s") < short_sample_s;
+      const double repeated_s = number_in(record, "sample_s"); // none in older records
+      sample.too_short += (std::isnan(repeated_s) ? number_in(record, "wall_s") : repeated_s) < short_sample_s;
     }
   return samples;
 }

@@ -97,18 +97,33 @@ std::uint64_t state_digest(Executor& executor, std::size_t element_count, Precis
   return digest.value();
 }
 
-double state_error(const Problem& problem, std::span<const double> expected, std::span<const double> actual) {
+KindValues largest_of_kinds(std::span<const double> state) {
+  KindValues most{};
+  for (std::size_t kind = 0; kind < most.size(); ++kind) most[kind] = largest(state, groups[kind]);
+  return most;
+}
+
+KindValues largest_differences(std::span<const double> expected, std::span<const double> actual) {
+  KindValues most{};
+  for (std::size_t kind = 0; kind < most.size(); ++kind)
+    most[kind] = largest_difference(expected, actual, groups[kind]);
+  return most;
+}
+
+KindValues error_scales(const Problem& problem, const KindValues& largest_expected) {
   double edge = std::numeric_limits<double>::infinity();
   for (const Body& body : problem.bodies) edge = std::min({edge, body.edge[0], body.edge[1], body.edge[2]});
-  const double u = largest(expected, groups[0]), q = largest(expected, groups[1]), v = largest(expected, groups[2]),
-               w = largest(expected, groups[3]);
-  const double scales[4] = {std::max(u, negligible * q * edge), std::max(q, negligible * u / edge),
-                            std::max(v, negligible * w * edge), std::max(w, negligible * v / edge)};
+  const auto [u, q, v, w] = largest_expected;
+  return {std::max(u, negligible * q * edge), std::max(q, negligible * u / edge), std::max(v, negligible * w * edge),
+          std::max(w, negligible * v / edge)};
+}
+
+double state_error(const Problem& problem, std::span<const double> expected, std::span<const double> actual) {
+  const KindValues scales = error_scales(problem, largest_of_kinds(expected)),
+                   differences = largest_differences(expected, actual);
   double error = 0;
-  for (std::size_t g = 0; g < 4; ++g) {
-    const double difference = largest_difference(expected, actual, groups[g]);
-    if (difference > 0) error = std::max(error, difference / scales[g]); // a scale of zero gives infinity
-  }
+  for (std::size_t kind = 0; kind < scales.size(); ++kind)
+    error = std::max(error, relative(differences[kind], scales[kind]));
   return error;
 }
 

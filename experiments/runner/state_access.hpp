@@ -3,6 +3,7 @@
 #include "solver/model/problem.hpp"
 #include "variants/api.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -43,10 +44,24 @@ private:
 /// Digest of an executor's state.
 std::uint64_t state_digest(Executor& executor, std::size_t element_count, Precision precision);
 
-/// Largest relative error of a state (or of its time derivative) against the expected one: the maximum over the groups
-/// u, q, v, w of max|difference| / scale, where the scale is the group's largest expected number. A group that is
-/// negligible beside its partner (u and q h, v and w h, with h the shortest edge) is measured against a thousandth of
-/// that partner: what is zero but for rounding has no digits of its own. Infinite where a number is not finite.
+/// One number for each kind of field: u, q (s, x, y, z), v, w.
+using KindValues = std::array<double, 4>;
+
+/// Largest number of each kind in a state.
+KindValues largest_of_kinds(std::span<const double> state);
+
+/// Largest difference of each kind; infinite where a number is not finite.
+KindValues largest_differences(std::span<const double> expected, std::span<const double> actual);
+
+/// What differences are measured against: the largest expected number of the kind, or a thousandth of its partner (u and q h, v and w h,
+/// with h the shortest edge) where it is negligible beside that: what is zero but for rounding has no digits of its own.
+KindValues error_scales(const Problem& problem, const KindValues& largest_expected);
+
+/// A difference over its scale: 0 where there is none, infinite for one where nothing is expected.
+inline double relative(double difference, double scale) { return difference > 0 ? difference / scale : 0; }
+
+/// Largest relative error of a state (or of its time derivative) against the expected one: the maximum over the kinds
+/// of max|difference| / scale (error_scales). Infinite where a number is not finite.
 double state_error(const Problem& problem, std::span<const double> expected, std::span<const double> actual);
 
 } // namespace dss

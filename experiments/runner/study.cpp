@@ -14,17 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Scale read_scale(const JsonPlace& scales, const std::string& name) {
+/// Cells of precision have steps of their own.
+Scale read_scale(const JsonPlace& scales, const std::string& name, bool is_of_precision) {
   std::vector<std::string> known;
   for (const auto& [key, value] : scales.value().items()) known.push_back(key);
   if (!scales.has(name))
     throw InputError(fmt::format("--scale {}: unknown scale; {}", name, nearest_name(name, known)));
   const JsonPlace place = scales[name];
   place.require_keys({"set", "steps", "steps_by_set", "full_steps", "oracle_steps", "tail_checks", "warmup_steps",
-                      "steps_for", "repetitions", "retries", "half_width", "budget_s", "time_limit_s"});
+                      "steps_for", "repetitions", "retries", "half_width", "budget_s", "time_limit_s", "shorten",
+                      "repeat_for", "halvings"});
   Scale scale;
   scale.name = name;
-  scale.steps = place["steps"].count(1);
+  if (!is_of_precision) scale.steps = place["steps"].count(1);
+  if (place.has("shorten")) scale.shorten = place["shorten"].positive();
+  if (place.has("repeat_for")) scale.repeat_for = place["repeat_for"].positive();
+  if (place.has("halvings")) scale.halvings = place["halvings"].whole_numbers();
   scale.oracle_steps = place.has("oracle_steps") ? place["oracle_steps"].count(1) : scale.steps;
   if (place.has("full_steps")) scale.full_steps = place["full_steps"].count(1);
   if (place.has("tail_checks")) scale.tail_checks = place["tail_checks"].count(1);
@@ -103,16 +108,18 @@ std::string Cell::set_text() const {
   return text;
 }
 
+std::string Cell::step_text() const { return dt > 0 ? fmt::format(" dt {:.6g} s", dt) : ""; }
+
 std::string Cell::problem_key() const {
-  return fmt::format("{} {} {} {} {} {} steps", scene, set_text(), model, precision, integrator, steps);
+  return fmt::format("{} {} {} {} {}{} {} steps", scene, set_text(), model, precision, integrator, step_text(), steps);
 }
 
 std::string Cell::key() const {
   // A cell on 1 rank is named as before there were ranks, so that results can still be compared with earlier ones.
   const std::string on_ranks = ranks == 1 ? "" : fmt::format("r{} {} {} ", ranks, decomposition, halo);
-  return fmt::format("{} {} {}{}{} {}t{} {} {} {} {} steps{}", scene, set_text(), variant,
+  return fmt::format("{} {} {}{}{} {}t{} {} {} {}{} {} steps{}", scene, set_text(), variant,
                      hybrid.empty() ? "" : "[" + hybrid + "]", device.empty() ? "" : "@" + device, on_ranks, threads,
-                     model, precision, integrator, steps, is_twin ? " (A/A)" : "");
+                     model, precision, integrator, step_text(), steps, is_twin ? " (A/A)" : "");
 }
 
 std::string Cell::label() const {
@@ -155,17 +162,19 @@ Study load_study(const std::string& name_or_path, const std::string& scale, int 
   study.path = study_path(name_or_path);
   const nlohmann::json json = parse_json_file(study.path);
   const JsonPlace root(json, study.path);
-  root.require_keys({"experiment", "title", "cells", "base", "twin", "paper", "scales", "simulation"});
+  root.require_keys(
+      {"experiment", "title", "cells", "base", "twin", "paper", "scales", "simulation", "work_precision"});
   study.name = root["experiment"].text();
   if (study.name.find_first_of("/ ") != std::string::npos) root["experiment"].fail("names files: no slash, no space");
   study.title = root["title"].text();
-  study.scale = read_scale(root["scales"], scale);
+  study.scale = read_scale(root["scales"], scale, root.has("work_precision"));
+  if (root.has("work_precision")) study.precision = read_precision_rules(root["work_precision"]);
   const JsonPlace scale_place = root["scales"][scale];
   const Sets scale_sets = scale_place.has("set") ? combinations(scale_place["set"]) : Sets(1);
   for (const JsonPlace& block : root["cells"].items()) add_block(block, scale_sets, cores, study);
   if (study.cells.empty()) root["cells"].fail("no cell; give at least one scene with a variant");
   if (scale_place.has("steps_by_set")) require_sets(scale_place["steps_by_set"], study);
-  study.bases = root["base"].texts();
+  if (!study.precision || root.has("base")) study.bases = root["base"].texts();
   for (const std::string& base : study.bases) require_cell_of(base, study, root["base"]);
   if (root.has("twin")) {
     require_cell_of(root["twin"].text(), study, root["twin"]);

@@ -1,8 +1,11 @@
 #pragma once
 /// A study: which cells are measured, on which scale, by which rules (experiments/README.md describes the JSON).
+#include "experiments/runner/precision/precision_rules.hpp"
+#include "experiments/runner/precision/saved_times.hpp"
 #include "solver/scene/scene.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +22,9 @@ struct Cell {
   std::string device; ///< that computes, as choose_device takes it; of a hybrid: that must be there; empty: any
   std::string hybrid; ///< members, see parse_members, or "auto"; empty: no hybrid
   std::string model, precision, integrator;
+  double dt = 0;         ///< [s]; 0: the scene's
+  double step_limit = 0; ///< of a cell of precision: largest stable step [s]
+  SavedTimes times;      ///< at which it is compared with the solution; none in studies of speed alone
   long steps = 0;
   long full_steps = 0;         ///< of the study; `steps` is less where the variant is too slow for them
   bool is_twin = false;        ///< the second of an A/A pair
@@ -29,12 +35,15 @@ struct Cell {
 
   /// "n=100"
   std::string set_text() const;
+  bool is_of_precision() const { return times.count > 0; }
   /// Unique in a study: "plate_paper n=100 avx512 t2 spatial f64 rk4 500 steps (A/A)", on ranks "... avx512 r4 strips
   /// deep t1 ..."
   std::string key() const;
   /// Cells with equal physics and steps, whose states are comparable: the key without what computes them (variant,
   /// threads, ranks and what belongs to them) and twin.
   std::string problem_key() const;
+  /// " dt 1e-06 s" of one that has a step of its own, else empty.
+  std::string step_text() const;
   /// For people: "avx512, 2 threads", "avx512, 2 ranks x 1 thread, halo deep"
   std::string label() const;
   /// More workers than cores: shown, but no measure of speed.
@@ -55,6 +64,9 @@ struct Scale {
   long tail_checks = 0; ///< repetitions whose ends the oracle checks, the others must have their bits; 0: all
   long min_repetitions = 6, max_repetitions = 30;
   long retries = 3;          ///< of a contaminated repetition
+  double shorten = 1;        ///< of cells of precision: end times, times this; ...
+  double repeat_for = 0.1;   ///< ... runs shorter than this start again until so much was measured [s]; ...
+  std::vector<int> halvings; ///< ... and in place of those of the blocks, if there are any
   double half_width = 0.02;  ///< a cell is converged at this relative half-width of its interval
   double budget_s = 240;     ///< for the whole study [s]
   double time_limit_s = 120; ///< for one repetition [s]
@@ -74,6 +86,7 @@ struct Study {
   Scale scale;
   std::string paper_source;
   std::vector<PaperRow> paper;
+  std::optional<PrecisionRules> precision; ///< of a study of work against precision
 };
 
 /// A study of the study directory.

@@ -1,5 +1,6 @@
 #include "experiments/runner/study_block.hpp"
 #include "experiments/runner/job.hpp"
+#include "experiments/runner/precision/precision_cells.hpp"
 #include "experiments/runner/study_devices.hpp"
 #include "solver/decomposition/decomposition.hpp"
 #include "solver/model/model.hpp"
@@ -15,13 +16,6 @@
 
 namespace dss {
 namespace {
-
-std::string override_text(const JsonPlace& place) {
-  const nlohmann::json& value = place.value();
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number()) return value.dump();
-  place.fail(fmt::format("{} is neither a number nor a text", value.dump()));
-}
 
 /// Numbers of threads or ranks, ascending.
 std::vector<int> counts(const JsonPlace& place, int cores, const char* what) {
@@ -117,6 +111,8 @@ void read_variants(const JsonPlace& place, int cores, Block& block) {
     place["variants"].fail("a block has variants, or the members of a hybrid; give the other a block of its own");
   if (!place.has("hybrid")) {
     block.variants = place["variants"].texts();
+    for (std::string& name : block.variants)
+      if (name == "auto") name = load_variant(name).name; // the fastest here, under its own name
     for (const std::string& name : block.variants) require_device_variant(name, block.device, place["variants"]);
     return;
   }
@@ -130,7 +126,7 @@ void read_variants(const JsonPlace& place, int cores, Block& block) {
 
 Block read_block(const JsonPlace& place, const Sets& scale_sets, int cores) {
   place.require_keys({"scene", "set", "variants", "device", "hybrid", "threads", "ranks", "decompositions", "halos",
-                      "weak", "models", "precisions", "integrators"});
+                      "weak", "models", "precisions", "integrators", "accuracy"});
   Block block;
   for (const auto& own : place.has("set") ? combinations(place["set"]) : Sets(1))
     for (const auto& of_scale : scale_sets) {
@@ -253,21 +249,6 @@ void require_loadable(const JsonPlace& place, const Block& block, const std::vec
 
 } // namespace
 
-Sets combinations(const JsonPlace& place) {
-  if (!place.value().is_object()) place.fail("is not an object of overrides, such as {\"n\": [50, 100]}");
-  Sets sets(1);
-  for (const auto& [key, value] : place.value().items()) {
-    Sets longer;
-    for (const auto& set : sets)
-      for (const JsonPlace& item : place[key].items()) {
-        longer.push_back(set);
-        longer.back().push_back({key, override_text(item)});
-      }
-    sets = std::move(longer);
-  }
-  return sets;
-}
-
 const VariantStatus& known_variant(const std::string& name, const JsonPlace& place) {
   std::vector<std::string> names;
   for (const VariantStatus& status : variants()) {
@@ -279,8 +260,9 @@ const VariantStatus& known_variant(const std::string& name, const JsonPlace& pla
 
 void add_block(const JsonPlace& place, const Sets& scale_sets, int cores, Study& study) {
   const Block block = read_block(place, scale_sets, cores);
-  const std::vector<Cell> cells = cells_of(place, block, study.scale);
+  std::vector<Cell> cells = cells_of(place, block, study.scale);
   require_loadable(place, block, cells);
+  if (place.has("accuracy")) cells = with_steps(place["accuracy"], cells, study.scale);
   std::set<std::string> keys;
   for (const Cell& cell : cells) {
     if (!keys.insert(cell.key()).second) place.fail(fmt::format("the same cell twice: {}", cell.key()));

@@ -39,6 +39,11 @@ std::vector<std::string> JsonPlace::texts() const {
   return all;
 }
 
+bool JsonPlace::flag() const {
+  if (!value_.is_boolean()) fail(fmt::format("{} is neither true nor false", value_.dump()));
+  return value_.get<bool>();
+}
+
 double JsonPlace::positive() const {
   if (!value_.is_number() || !(value_.get<double>() > 0))
     fail(fmt::format("{} is not a positive number", value_.dump()));
@@ -49,6 +54,16 @@ long JsonPlace::count(long least) const {
   if (!value_.is_number_integer() || value_.get<long>() < least)
     fail(fmt::format("{} is not a whole number of at least {}", value_.dump(), least));
   return value_.get<long>();
+}
+
+std::vector<int> JsonPlace::whole_numbers() const {
+  std::vector<int> all;
+  for (const JsonPlace& item : items()) {
+    if (!item.value().is_number_integer()) item.fail(fmt::format("{} is not a whole number", item.value().dump()));
+    all.push_back(item.value().get<int>());
+  }
+  if (all.empty()) fail("is empty; give at least one whole number");
+  return all;
 }
 
 nlohmann::json parse_json_file(const std::string& path) {

@@ -33,8 +33,10 @@ public:
 
   std::string text() const;
   std::vector<std::string> texts() const;
+  bool flag() const;
   double positive() const;
   long count(long least) const;
+  std::vector<int> whole_numbers() const; ///< of either sign, one at least
 
 private:
   const nlohmann::json& value_;

@@ -58,32 +58,6 @@ std::vector<std::string> table_columns(const Study& study) {
   return columns;
 }
 
-void put_identity(const Study& study, const Cell& cell, const CellSample& sample, Record& row) {
-  row["experiment"] = study.name;
-  row["scale"] = study.scale.name;
-  row["source"] = "measured";
-  row["label"] = cell.label();
-  row["device"] = cell.device;
-  row["hybrid"] = cell.hybrid;
-  row["scene"] = cell.scene;
-  row["set"] = cell.set_text();
-  row["weak_base_set"] = cell.weak_base_set;
-  row["variant"] = cell.variant;
-  row["threads"] = fmt::format("{}", cell.threads);
-  row["ranks"] = fmt::format("{}", cell.ranks);
-  if (cell.ranks > 1) {
-    row["decomposition"] = cell.decomposition;
-    row["halo"] = cell.halo;
-  }
-  row["model"] = cell.model;
-  row["precision"] = cell.precision;
-  row["integrator"] = cell.integrator;
-  row["steps"] = fmt::format("{}", cell.steps);
-  for (const char* column : {"isa", "workers", "cores", "elements", "status", "reason", "check_tolerance",
-                             "state_digest", "imbalance", "messages_per_step", "bytes_per_step"})
-    row[column] = text_in(sample.last, column);
-}
-
 /// What differs from repetition to repetition of a cell on several ranks.
 void put_exchange(const CellSample& sample, Record& row) {
   std::set<std::string> halos; // an automatic choice need not be the same each time
@@ -94,29 +68,6 @@ void put_exchange(const CellSample& sample, Record& row) {
   }
   row["halo_used"] = fmt::format("{}", fmt::join(halos, " or "));
   if (!shares.empty()) row["communication_share"] = number_text(median(shares));
-}
-
-void put_times(const Study& study, const Cell& cell, const CellSample& sample, Record& row) {
-  const std::vector<double> times = sample.wall_s();
-  const Estimate wall = estimate(times);
-  row["repetitions"] = fmt::format("{}", times.size());
-  row["contaminated"] = fmt::format("{}", sample.contaminated);
-  row["short"] = fmt::format("{}", sample.too_short);
-  row["outliers"] = fmt::format("{}", outliers(times).size());
-  row["measured_wall_s"] = number_text(wall.median);
-  if (wall.interval) {
-    row["measured_wall_low_s"] = number_text(wall.interval->low);
-    row["measured_wall_high_s"] = number_text(wall.interval->high);
-  }
-  if (const auto half = wall.half_width()) row["half_width"] = number_text(*half);
-  row["converged"] = wall.half_width() && *wall.half_width() <= study.scale.half_width ? "yes" : "no";
-  row["element_steps_per_s"] = number_text(number_in(sample.last, "elements") * double(cell.steps) / wall.median);
-  if (cell.steps < cell.full_steps) {
-    row["extrapolated_wall_s"] = number_text(wall.median * double(cell.full_steps) / double(cell.steps));
-    row["extrapolated_to_steps"] = fmt::format("{}", cell.full_steps);
-  }
-  row["check"] = sample.check();
-  row["check_error"] = number_text(sample.check_error());
 }
 
 void put_speedups(const Study& study, const StudySamples& samples, const Cell& cell, Record& row) {
@@ -163,6 +114,55 @@ Record published_row(const Study& study, const PaperRow& paper) {
 }
 
 } // namespace
+
+void put_identity(const Study& study, const Cell& cell, const CellSample& sample, Record& row) {
+  row["experiment"] = study.name;
+  row["scale"] = study.scale.name;
+  row["source"] = "measured";
+  row["label"] = cell.label();
+  row["device"] = cell.device;
+  row["hybrid"] = cell.hybrid;
+  row["scene"] = cell.scene;
+  row["set"] = cell.set_text();
+  row["weak_base_set"] = cell.weak_base_set;
+  row["variant"] = cell.variant;
+  row["threads"] = fmt::format("{}", cell.threads);
+  row["ranks"] = fmt::format("{}", cell.ranks);
+  if (cell.ranks > 1) {
+    row["decomposition"] = cell.decomposition;
+    row["halo"] = cell.halo;
+  }
+  row["model"] = cell.model;
+  row["precision"] = cell.precision;
+  row["integrator"] = cell.integrator;
+  row["steps"] = fmt::format("{}", cell.steps);
+  for (const char* column : {"isa", "workers", "cores", "elements", "status", "reason", "check_tolerance",
+                             "state_digest", "imbalance", "messages_per_step", "bytes_per_step"})
+    row[column] = text_in(sample.last, column);
+}
+
+void put_times(const Study& study, const Cell& cell, const CellSample& sample, Record& row) {
+  const std::vector<double> times = sample.wall_s();
+  const Estimate wall = estimate(times);
+  row["repetitions"] = fmt::format("{}", times.size());
+  row["contaminated"] = fmt::format("{}", sample.contaminated);
+  row["short"] = fmt::format("{}", sample.too_short);
+  row["outliers"] = fmt::format("{}", outliers(times).size());
+  row["measured_wall_s"] = number_text(wall.median);
+  if (wall.interval) {
+    row["measured_wall_low_s"] = number_text(wall.interval->low);
+    row["measured_wall_high_s"] = number_text(wall.interval->high);
+  }
+  if (const auto half = wall.half_width()) row["half_width"] = number_text(*half);
+  row["converged"] = wall.half_width() && *wall.half_width() <= study.scale.half_width ? "yes" : "no";
+  row["element_steps_per_s"] = number_text(number_in(sample.last, "elements") * double(cell.steps) / wall.median);
+  if (cell.steps < cell.full_steps) {
+    row["extrapolated_wall_s"] = number_text(wall.median * double(cell.full_steps) / double(cell.steps));
+    row["extrapolated_to_steps"] = fmt::format("{}", cell.full_steps);
+  }
+  row["check"] = sample.check();
+  row["check_error"] = number_text(sample.check_error());
+}
 
 std::optional<double> resolution_of(const std::vector<Record>& records) {
   const std::vector<CellSample> samples = samples_of(records);

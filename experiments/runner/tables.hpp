@@ -1,7 +1,7 @@
 #pragma once
 /// Derives the table of a study, one row a cell, from its raw records.
 #include "experiments/runner/records.hpp"
-#include "experiments/runner/study.hpp"
+#include "experiments/runner/study_samples.hpp"
 
 #include <optional>
 #include <string>
@@ -13,6 +13,10 @@ namespace dss {
 /// in extrapolated_wall_s, published ones in paper_wall_s: no column mixes them. Speed-ups are medians of ratios of
 /// interleaved pairs; a cell that failed its check, or has more workers than cores, gets none.
 Table derive_table(const Study& study, const std::vector<Record>& records);
+
+/// What a row says of its cell, and of the times and the check of its sample, in the columns of derive_table.
+void put_identity(const Study& study, const Cell& cell, const CellSample& sample, Record& row);
+void put_times(const Study& study, const Cell& cell, const CellSample& sample, Record& row);
 
 /// Resolution of a set of records: how far the ratio of an A/A pair, or its interval's ends, is from 1; nothing without
 /// a pair.

@@ -14,4 +14,7 @@ namespace dss {
 /// @throws InputError if the state has another size
 double total_energy(const Problem& problem, std::span<const double> state, Rotation rotation = Rotation::quaternion);
 
+/// Whether total_energy is constant in time: no link or tie is damped, nothing loads or accelerates the bodies.
+bool conserves_energy(const Problem& problem);
+
 } // namespace dss

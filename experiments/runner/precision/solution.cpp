@@ -1,0 +1,112 @@
+#include "experiments/runner/precision/solution.hpp"
+#include "experiments/runner/precision/accuracy.hpp"
+#include "solver/io/atomic_file.hpp"
+#include "solver/numerics/stability.hpp"
+#include "solver/reference/oracle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <sstream>
+
+namespace dss {
+namespace {
+
+constexpr const char* magic = "dssbench-solution-1";
+constexpr double first_part_of_limit = 0.9; ///< the first step over the stability limit
+constexpr double safety = 1.2;              ///< more steps than the order promises to need
+
+using States = std::vector<std::vector<double>>;
+
+/// Of two runs of which the second has twice the steps: their error of order p, the lowest, eliminated.
+States extrapolated(const States& coarse, const States& fine, int order) {
+  const double weight = 1 / (std::exp2(order) - 1);
+  States limit = fine;
+  for (std::size_t k = 0; k < fine.size(); ++k)
+    for (std::size_t n = 0; n < fine[k].size(); ++n) limit[k][n] += weight * (fine[k][n] - coarse[k][n]);
+  return limit;
+}
+
+/// Three runs, each with twice the steps of the one before.
+Solution solution_of_three(const Problem& problem, const Method& method, const SavedTimes& times, long steps_between) {
+  std::array<States, 3> runs;
+  for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = oracle_states(problem, method, times, steps_between << r);
+  Solution solution{"", times, 0, times.interval() / double(steps_between << 2), {}};
+  solution.states = extrapolated(runs[1], runs[2], method.order);
+  const States coarser = extrapolated(runs[0], runs[1], method.order);
+  solution.error = accuracy_of(problem, solution.states, coarser).max / (std::exp2(method.order + 1) - 1);
+  return solution;
+}
+
+} // namespace
+
+std::vector<std::vector<double>> oracle_states(const Problem& problem, const Method& method, const SavedTimes& times,
+                                               long steps_between) {
+  std::vector<double> state(problem.lattice.element_count * field_count);
+  initial_state(problem, 0, problem.lattice.element_count, state.data());
+  const double dt = times.interval() / double(steps_between);
+  Oracle<long double> oracle(problem, method, dt);
+  oracle.write(state);
+  std::vector<std::vector<double>> states;
+  for (long k = 0; k < times.count; ++k) {
+    if (const auto breakdown = oracle.advance(steps_between))
+      throw UnstableError(fmt::format("{}: the oracle ({}, dt = {:g} s) is not finite after t = {:g} s, element {}",
+                                      problem.name, method.name, dt, double(k) * times.interval(), breakdown->element));
+    oracle.read(state);
+    states.push_back(state);
+  }
+  return states;
+}
+
+Solution find_solution(const Problem& problem, const Method& method, const SolutionRule& rule, const SavedTimes& times,
+                       const std::function<void(const std::string&)>& note) {
+  const StabilityLimit limit = stable_step(problem, method); // a lower bound is enough to begin with
+  const auto steps_of_finest = [&](long steps) { return 4 * steps * times.count; };
+  long steps = times.steps_between(std::min(first_part_of_limit * limit.dt, times.interval()));
+  while (true) {
+    const Solution solution = solution_of_three(problem, method, times, steps);
+    if (note)
+      note(fmt::format("solution of {}: {} steps of {:.3g} s, estimated error {:.1e}", problem.name,
+                       steps_of_finest(steps), solution.dt, solution.error));
+    if (solution.error <= rule.tolerance || double(steps_of_finest(2 * steps)) > rule.most_steps) return solution;
+    const double factor = safety * std::pow(solution.error / rule.tolerance, 1.0 / (method.order + 1));
+    const double most = rule.most_steps / double(steps_of_finest(steps));
+    steps = long(std::ceil(double(steps) * std::clamp(factor, 1.2, most)));
+  }
+}
+
+void write_solution(const std::string& path, const Solution& solution) {
+  AtomicFile file(path);
+  const std::size_t width = solution.states.empty() ? 0 : solution.states.front().size();
+  file.write(fmt::format("{}\n{}\n{:.17g} {} {:.17g} {:.17g} {}\n", magic, solution.key, solution.times.end,
+                         solution.times.count, solution.error, solution.dt, width));
+  for (const std::vector<double>& state : solution.states)
+    file.write({reinterpret_cast<const char*>(state.data()), width * sizeof(double)});
+  file.commit();
+}
+
+Solution read_solution(const std::string& path) {
+  const std::string text = read_text(path);
+  std::istringstream head(text);
+  std::string first_line, numbers;
+  Solution solution;
+  std::size_t width = 0;
+  std::getline(head, first_line);
+  std::getline(head, solution.key);
+  std::getline(head, numbers);
+  std::istringstream values(numbers);
+  values >> solution.times.end >> solution.times.count >> solution.error >> solution.dt >> width;
+  if (first_line != magic || !values || !head || solution.times.count < 1 || !(solution.times.end > 0))
+    throw InputError(
+        fmt::format("{}: is no solution; `dssbench experiment` makes them for studies of precision", path));
+  const std::size_t begin = first_line.size() + solution.key.size() + numbers.size() + 3;
+  const auto count = std::size_t(solution.times.count);
+  if ((text.size() - begin) / sizeof(double) / count != width || text.size() != begin + count * width * sizeof(double))
+    throw InputError(fmt::format("{}: is cut off; delete it, and `dssbench experiment` makes it anew", path));
+  solution.states.assign(count, std::vector<double>(width));
+  for (std::size_t k = 0; k < count && width > 0; ++k)
+    std::memcpy(solution.states[k].data(), text.data() + begin + k * width * sizeof(double), width * sizeof(double));
+  return solution;
+}
+
+} // namespace dss
