@@ -2,6 +2,7 @@
 #include "experiments/runner/circumstances.hpp"
 #include "experiments/runner/oracle_state.hpp"
 #include "experiments/runner/run_plan.hpp"
+#include "solver/numerics/stability.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ std::string ExpectedFiles::file_of(const Cell& cell) {
 
 void ExpectedFiles::make_oracle_state(const Cell& cell, const Scene& scene, const std::string& key,
                                       const std::string& path) const {
-  const Method& method = require_method(cell.integrator);
+  const Method method = fitted(scene.problem, require_method(cell.integrator), scene.problem.dt);
   const long steps = std::min(cell.steps, study_.scale.oracle_steps);
   require_stable(scene.problem, method, scene.problem.dt, false);
   note_(fmt::format("oracle: {} {}, {} steps", cell.scene, cell.set_text(), steps));

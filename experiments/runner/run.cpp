@@ -243,6 +243,7 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
   result.model = name(plan.model);
   result.precision = name(plan.precision);
   result.integrator = plan.method->name;
+  result.stages = plan.method->stages;
   result.rotation = name(plan.rotation);
   result.threads = request.threads;
   result.elements = plan.scene.problem.lattice.element_count;
@@ -255,11 +256,11 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
 }
 
 /// Of the final energy against that of the start; nothing where it need not be the same, or is zero.
-std::optional<double> energy_drift(const Problem& problem, std::optional<double> final_j) {
+std::optional<double> energy_drift(const Problem& problem, Rotation rotation, std::optional<double> final_j) {
   if (!final_j || !conserves_energy(problem)) return {};
   std::vector<double> start(problem.lattice.element_count * field_count);
   initial_state(problem, 0, problem.lattice.element_count, start.data());
-  const double start_j = total_energy(problem, start);
+  const double start_j = total_energy(problem, start, rotation);
   if (start_j == 0) return {};
   return *final_j / start_j - 1;
 }
@@ -289,7 +290,7 @@ RunResult run_scene(const RunRequest& request) {
   result.digest = state_digest(timed.executor(), count, plan.precision);
   if (count <= energy_elements)
     result.energy_j = total_energy(problem, whole_state(timed.executor(), count), plan.rotation);
-  result.energy_drift = energy_drift(problem, result.energy_j);
+  result.energy_drift = energy_drift(problem, plan.rotation, result.energy_j);
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), count);
     const WorkAlone alone(timed.executor(), request.is_root);

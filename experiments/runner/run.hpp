@@ -73,6 +73,7 @@ struct RunResult {
   double communication_share = 0;                   ///< of the wall time, mean over the ranks
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
+  int stages = 0; ///< force evaluations a step
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
   long runs = 1;           ///< that were timed: wall_s is their mean, usage their sum
   double first_step_s = 0; ///< time to the first step: making the executor, and the very first step

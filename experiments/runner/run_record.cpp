@@ -90,6 +90,7 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["dt_s"] = result.dt_s;
   json["stability_limit_s"] = result.stability_limit_s;
   json["wall_s"] = result.wall_s;
+  json["stages"] = result.stages;
   json["runs"] = result.runs;
   json["sample_s"] = result.sample_s();
   json["first_step_s"] = result.first_step_s;

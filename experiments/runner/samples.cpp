@@ -54,6 +54,7 @@ const std::vector<std::string>& raw_columns() {
                                                    "repetition",
                                                    "attempt",
                                                    "wall_s",
+                                                   "stages",
                                                    "runs",
                                                    "sample_s",
                                                    "cpu_s",

@@ -10,24 +10,25 @@
 namespace dss {
 namespace {
 
-/// Step limit of a cell's method on its problem [s], found once in this process.
-double step_limit(const Cell& cell) {
-  static std::map<std::string, double> limits;
-  const auto [place, is_new] =
-      limits.try_emplace(fmt::format("{} {} {}", cell.scene, cell.set_text(), cell.integrator), 0);
-  if (is_new) {
-    const Scene scene = load_scene(cell.scene, cell.set);
-    const bool is_small = scene.problem.lattice.element_count <= sharp_stability_elements;
-    place->second = stable_step(scene.problem, require_method(cell.integrator), is_small).dt;
-  }
+/// Step limits of all methods on a cell's problem [s], by name; found once in this process.
+const std::map<std::string_view, double>& step_limits(const Cell& cell) {
+  static std::map<std::string, std::map<std::string_view, double>> known;
+  const auto [place, is_new] = known.try_emplace(fmt::format("{} {}", cell.scene, cell.set_text()));
+  if (!is_new) return place->second;
+  const Scene scene = load_scene(cell.scene, cell.set);
+  std::vector<const Method*> all;
+  for (const auto* kind : {&methods(), &implicit_methods()})
+    for (const Method& method : *kind) all.push_back(&method);
+  const std::vector<StabilityLimit> limits = stable_steps(scene.problem, all);
+  for (std::size_t n = 0; n < all.size(); ++n) place->second[all[n]->name] = limits[n].dt;
   return place->second;
 }
 
 /// Steps from one saved time to the next.
 std::set<long> step_counts(const JsonPlace& accuracy, const Cell& cell, const Scale& scale) {
   std::set<long> counts;
-  const double largest =
-      std::min(cell.step_limit, cell.times.interval()); // methods without a limit have an infinite one
+  // Of methods that bear any step the interval, and of those that bear none.
+  const double largest = cell.step_limit > 0 ? std::min(cell.step_limit, cell.times.interval()) : cell.times.interval();
   if (accuracy.has("halvings"))
     for (const int halvings : scale.halvings.empty() ? accuracy["halvings"].whole_numbers() : scale.halvings)
       counts.insert(cell.times.steps_between(largest / std::exp2(halvings)));
@@ -56,11 +57,13 @@ std::vector<Cell> with_steps(const JsonPlace& accuracy, const std::vector<Cell>&
   std::vector<Cell> more;
   for (Cell cell : cells) {
     cell.times = times;
-    cell.step_limit = step_limit(cell);
+    cell.step_limit = step_limits(cell).at(require_method(cell.integrator).name);
     for (const long count : step_counts(accuracy, cell, scale)) {
       cell.dt = times.interval() / double(count);
       cell.steps = cell.full_steps = count * times.count;
       more.push_back(cell);
+      if (cell.integrator == "rkc2")
+        more.back().step_limit = 0; // its stages are fitted to each step, and so is its limit
     }
   }
   return more;

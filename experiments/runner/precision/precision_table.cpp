@@ -56,16 +56,15 @@ std::vector<std::string> columns() {
   return all;
 }
 
-void put_point(const Cell& cell, Record& row) {
+/// `sample`: its last record says how many stages ran, which rkc2 fits to its step.
+void put_point(const Cell& cell, const CellSample* sample, Record& row) {
   row["dt_s"] = number_text(cell.dt);
   row["end_time_s"] = number_text(cell.times.end);
   row["saved_times"] = fmt::format("{}", cell.times.count);
-  if (const Method* method = find_method(cell.integrator)) {
-    row["order"] = fmt::format("{}", method->order);
-    row["stages"] = fmt::format("{}", method->stages);
-    const double evaluations = double(method->stages) * double(cell.steps) * number_in(row, "elements");
-    row["evaluations"] = number_text(evaluations);
-  }
+  if (const Method* method = find_method(cell.integrator)) row["order"] = fmt::format("{}", method->order);
+  if (sample == nullptr || text_in(sample->last, "stages").empty()) return;
+  row["stages"] = text_in(sample->last, "stages");
+  row["evaluations"] = number_text(number_in(row, "stages") * double(cell.steps) * number_in(row, "elements"));
 }
 
 /// Errors differ between repetitions only if the bits do, which StudySamples sees.
@@ -83,7 +82,7 @@ Record point_row(const Study& study, const StudySamples& samples, const Cell& ce
   const CellSample* sample = samples.of(cell);
   Record row;
   put_identity(study, cell, sample == nullptr ? CellSample{} : *sample, row);
-  put_point(cell, row);
+  put_point(cell, sample, row);
   if (sample == nullptr) row["status"] = "not measured";
   if (sample == nullptr || sample->is_empty()) return row;
   put_times(study, cell, *sample, row);
