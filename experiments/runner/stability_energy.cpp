@@ -54,6 +54,8 @@ std::vector<double> energy_range(const Method& method, int points) {
   std::vector<double> range = {std::sqrt(6.0)};
   for (int n = 1; n <= points; ++n) range.push_back(end * n / points);
   if (range.front() > end) range.erase(range.begin());
+  // At the limit itself a symplectic method has a double root, with which motion grows in proportion to time.
+  std::erase_if(range, [&](double h) { return std::abs(h - method.imaginary_limit) < 1e-6; });
   std::sort(range.begin(), range.end());
   return range;
 }
