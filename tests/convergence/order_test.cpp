@@ -100,10 +100,10 @@ protected:
 
 TEST_P(PulledPair, approaches_its_closed_form_at_the_order_of_the_method) {
   for (const Method& method : methods()) {
-    const double dt = method.order == 4 ? 1e-3 : 1e-4;
+    const double dt = method.order > 4 ? 2.5e-4 : method.order == 4 ? 1e-3 : 1e-4; // above the rounding of tables
     const Real coarse = error(method, dt, std::lround(0.1 / dt)), fine = error(method, dt / 2, std::lround(0.2 / dt));
     EXPECT_NEAR(double(std::log2(coarse / fine)), method.order, 0.1) << method.name;
-    EXPECT_LT(fine, 1e-5) << method.name;
+    EXPECT_LT(fine, method.order == 1 ? 1e-4 : 1e-5) << method.name;
   }
 }
 

@@ -43,6 +43,11 @@ inline State flattened(State state) {
   return state;
 }
 
+/// Methods for what a variant does by itself: all, but not again where its bits are those of the fastest variant.
+inline std::vector<Method> distinct_methods(const Plugin& plugin) {
+  return plugin.has_fma && plugin.name != std::string_view(load_variant("auto").name) ? brief_methods() : methods();
+}
+
 struct VariantRun {
   const Plugin& plugin;
   const Problem& problem;

@@ -45,9 +45,9 @@ protected:
   }
   std::vector<Scheme> tested_schemes() const {
     if (plugin.devices != nullptr) return brief_schemes(); // which take seconds for each program
-    std::vector<Scheme> all = schemes();
-    if (!plugin.is_compensated)
-      std::erase_if(all, [](const Scheme& scheme) { return scheme.precision == Precision::f32c; });
+    std::vector<Scheme> all;
+    for (const Scheme& scheme : schemes())
+      if (plugin.is_compensated || scheme.precision != Precision::f32c) all.push_back(scheme);
     return all;
   }
   State start(const Case& c, Model model, Precision precision, unsigned seed) const {
@@ -88,6 +88,7 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
   const std::vector<int> counts = is_on_device ? std::vector{2, 7} : std::vector{2, 3, 4, 7};
   for (const Case& c : cases())
     for (const auto& [method, precision] : brief_schemes()) {
+      if (is_on_device && c.name.starts_with("row_of") && !c.name.starts_with("row_of_17")) continue;
       const State state = rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
       const State one = VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
       for (const int threads : counts)
@@ -175,11 +176,16 @@ TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
         State state = fixture::random_state(c.problem, 4, c.gap * 0.01, 0.02, 0.01);
         state = rounded(model == Model::planar ? flattened(state) : state, precision);
         const State first = VariantRun{*fused[0], c.problem, method, model, precision}.after(state, 60);
-        for (const Plugin* other : fused)
+        for (const Plugin* other : fused) {
+          // A row is made for the lanes of packs on this CPU; a launch takes as long as all of its steps.
+          const bool is_left_out =
+              other->devices != nullptr && (c.name.starts_with("row_of") || !is_brief({method, precision}));
+          if (other == fused[0] || is_left_out) continue;
           EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60),
                                    precision),
                     0u)
               << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name << ' ' << other->name;
+        }
       }
 }
 

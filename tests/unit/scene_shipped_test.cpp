@@ -36,7 +36,11 @@ TEST(shipped_scenes, have_small_versions_whose_step_is_at_most_half_the_limit_of
       EXPECT_LE(small.problem.lattice.element_count, 300U) << listing.name;
       EXPECT_EQ(small.problem.steps, verify.steps);
       EXPECT_LE(small.problem.steps, 200) << listing.name;
-      EXPECT_LE(small.problem.dt, 0.5 * stable_step(small.problem, *find_method("rk4"), true).dt) << listing.name;
+      const Method& rk4 =
+          *find_method("rk4"); // the exact limit takes seconds, and is asked for where the bound is too low
+      if (small.problem.dt > 0.5 * stable_step(small.problem, rk4).dt) {
+        EXPECT_LE(small.problem.dt, 0.5 * stable_step(small.problem, rk4, true).dt) << listing.name;
+      }
       EXPECT_LE(small.problem.tolerance_f64.run, 1e-9) << listing.name;
       EXPECT_LE(small.problem.tolerance_f64.evaluation, 1e-13) << listing.name;
       EXPECT_LE(small.problem.tolerance_f32.evaluation, 1e-5) << listing.name;

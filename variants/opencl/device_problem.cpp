@@ -109,11 +109,19 @@ void DeviceProblem<T, W>::make_constant_tables() {
   free_lanes_ = table(free_lanes);
 }
 
+/// What is compiled together: all that Runge-Kutta methods may ask for, so that they, and rates, share one program.
+static std::set<row_action> compiled_actions(std::set<row_action> actions) {
+  if (actions.contains(plain_stage)) actions.insert({combined_stage, wide_stage});
+  if (actions.contains(kept_step)) actions.insert(kept_stage);
+  return actions;
+}
+
 template <class T, int W>
 void DeviceProblem<T, W>::finish() {
   const Device& device = queue.device();
-  const ProgramKind kind{model_, sizeof(T) == 8 ? Precision::f64 : Precision::f32, W, layout.has_items, actions_,
-                         terms_};
+  const ProgramKind kind{
+      model_, sizeof(T) == 8 ? Precision::f64 : Precision::f32, W, layout.has_items, compiled_actions(actions_),
+      terms_};
   program_ = build_program(device, row_program(kind));
   build_s_ += program_.build_s, is_cached_ &= program_.is_cached;
   if (has_extra_links()) {

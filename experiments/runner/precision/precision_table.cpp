@@ -61,9 +61,11 @@ void put_point(const Cell& cell, const CellSample* sample, Record& row) {
   row["dt_s"] = number_text(cell.dt);
   row["end_time_s"] = number_text(cell.times.end);
   row["saved_times"] = fmt::format("{}", cell.times.count);
-  if (const Method* method = find_method(cell.integrator)) row["order"] = fmt::format("{}", method->order);
-  if (sample == nullptr || text_in(sample->last, "stages").empty()) return;
-  row["stages"] = text_in(sample->last, "stages");
+  const Method* method = find_method(cell.integrator);
+  if (method == nullptr) return;
+  const std::string ran = sample == nullptr ? "" : text_in(sample->last, "stages");
+  row["order"] = fmt::format("{}", method->order);
+  row["stages"] = ran.empty() ? fmt::format("{}", method->stages) : ran;
   row["evaluations"] = number_text(number_in(row, "stages") * double(cell.steps) * number_in(row, "elements"));
 }
 
