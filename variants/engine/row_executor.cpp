@@ -3,6 +3,7 @@
 #include "solver/error.hpp"
 #include "solver/numerics/denormals.hpp"
 #include "variants/engine/barrier.hpp"
+#include "variants/tried_steps.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -42,7 +43,8 @@ RowExecutor<T>::RowExecutor(const Setup& setup)
       packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part),
       rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows) row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
-  if (!setup_.problem.extra_links.empty() || (part_ != nullptr && part_->is_every_stage))
+  if (setup_.method.has_error_stage || !setup_.problem.extra_links.empty() ||
+      (part_ != nullptr && part_->is_every_stage))
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(), setup_.threads, part_);
   else
     make_blocks();
@@ -183,6 +185,7 @@ void RowExecutor<T>::start_leapfrog(std::span<const double> signals) {
 template <class T>
 Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
+  if (setup_.method.has_error_stage) return advance_by_tries(*this, setup_, steps, signals);
   const std::size_t width = signal_count(setup_.problem);
   if (rows_.is_staggered() && !is_started_) start_leapfrog(signals.first(width)), is_started_ = true;
   end_rates_ = {};
@@ -283,10 +286,33 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
 }
 
 template <class T>
+StepMaxima RowExecutor<T>::try_step(double dt, std::span<const double> signals) {
+  staged_->set_step(dt);
+  StepSignals<T> values(signal_count(setup_.problem), setup_.method.stages);
+  values.set(signals.data(), setup_.method.stages);
+  std::vector<StepMaxima> maxima(std::size_t(staged_->threads()));
+  if (is_part()) exchange(&Halo::send, current_copy());
+  run_team(staged_->threads(), [&](int thread, auto&& synchronise) {
+    const FlushDenormals guard;
+    staged_->step(thread, values, true, synchronise);
+    maxima[std::size_t(thread)] = staged_->maxima(thread);
+  });
+  StepMaxima all;
+  for (const StepMaxima& one : maxima) all.add(one);
+  return all;
+}
+
+template <class T>
+void RowExecutor<T>::accept_step() {
+  run_team(staged_->threads(), [&](int thread, auto&&) { staged_->accept(thread); });
+}
+
+template <class T>
 std::string RowExecutor<T>::schedule() const {
   if (staged_)
-    return setup_.problem.extra_links.empty() ? "stage by stage: halos are exchanged in between"
-                                              : "stage by stage: extra links break the order of rows";
+    return setup_.method.has_error_stage        ? "stage by stage: adaptive steps"
+           : setup_.problem.extra_links.empty() ? "stage by stage: halos are exchanged in between"
+                                                : "stage by stage: extra links break the order of rows";
   return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place";
 }
 

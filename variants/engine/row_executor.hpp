@@ -19,6 +19,8 @@ public:
   void read(std::size_t first, std::span<double> fields) override;
   void derivative(std::span<const double> signals, std::span<double> rates) override;
   Outcome advance(long steps, std::span<const double> signals) override;
+  StepMaxima try_step(double dt, std::span<const double> signals) override;
+  void accept_step() override;
   std::string schedule() const override;
   std::size_t bytes() const override;
   int workers() const override { return staged_ ? staged_->threads() : threads_; }
