@@ -2,6 +2,7 @@
 /// One run of one scene on one variant: the body of `dssbench run`.
 #include "experiments/runner/usage.hpp"
 #include "solver/model/model.hpp"
+#include "solver/numerics/step_control.hpp"
 #include "solver/scene/scene.hpp"
 #include "variants/device.hpp"
 #include "variants/distribution.hpp"
@@ -27,16 +28,17 @@ struct RunRequest {
   std::optional<std::string> model, precision, integrator, rotation;
   std::optional<double> dt; ///< [s]
   std::optional<long> steps;
-  bool is_root = true;     ///< of several ranks all do the same, and one writes
-  bool is_forced = false;  ///< run above the stability limit
-  long warmup_steps = 0;   ///< steps before the clock starts; the state then starts anew
-  std::string output;      ///< .vtu file, or empty
-  int frames = 0;          ///< files of a series besides the final one
-  std::string state_csv;   ///< or empty
-  std::string json;        ///< file, "-" for standard output, or empty
-  std::string check_state; ///< file of the oracle's state, or empty
-  long check_step = 0;     ///< the step of that state
-  long check_tail = 2;     ///< steps at the end of a longer run that the oracle checks; 0: none
+  std::optional<double> rtol, atol; ///< with rtol steps are adaptive
+  bool is_root = true;              ///< of several ranks all do the same, and one writes
+  bool is_forced = false;           ///< run above the stability limit
+  long warmup_steps = 0;            ///< steps before the clock starts; the state then starts anew
+  std::string output;               ///< .vtu file, or empty
+  int frames = 0;                   ///< files of a series besides the final one
+  std::string state_csv;            ///< or empty
+  std::string json;                 ///< file, "-" for standard output, or empty
+  std::string check_state;          ///< file of the oracle's state, or empty
+  long check_step = 0;              ///< the step of that state
+  long check_tail = 2;              ///< steps at the end of a longer run that the oracle checks; 0: none
 };
 
 /// A comparison with the oracle.
@@ -62,7 +64,12 @@ struct RunResult {
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
-  double first_step_s = 0; ///< time to the first step: making the executor, and the very first step
+  double end_s = 0;                      ///< of the run
+  std::optional<StepTolerance> adaptive; ///< dt_s is then the first step tried, `steps` those that were accepted
+  long rejected_steps = 0;
+  double least_step_s = 0, largest_step_s = 0; ///< of the accepted ones
+  std::optional<double> evaluations;           ///< of all forces, where their number is known
+  double first_step_s = 0;                     ///< time to the first step: making the executor, and the very first step
   Usage usage;
   std::optional<double> energy_j; ///< absent for states too large to hold twice
   double max_displacement_m = 0;
