@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace dss {
 namespace {
@@ -116,7 +117,7 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
 }
 
 /// Of --rtol and --atol; nothing without them.
-std::optional<StepTolerance> chosen_tolerance(const RunRequest& request, const Method& method) {
+std::optional<StepTolerance> chosen_tolerance(const RunRequest& request, const Method& method, Precision precision) {
   const auto refuse = [](const std::string& what) { throw InputError(what); };
   if (!request.rtol) {
     if (request.atol) refuse(fmt::format("--atol {:g}: only with --rtol, which makes steps adaptive", *request.atol));
@@ -129,6 +130,12 @@ std::optional<StepTolerance> chosen_tolerance(const RunRequest& request, const M
     refuse(fmt::format("--rtol {:g}: give a positive number, 1e-6 for one", *request.rtol));
   const double atol = request.atol.value_or(0);
   if (!(atol >= 0) || !std::isfinite(atol)) refuse(fmt::format("--atol {:g}: give 0 or more", atol));
+  // Rounding alone leaves some units in the last place of an estimate: no step would be short enough.
+  const double least = 4 * (is_single(precision) ? double(std::numeric_limits<float>::epsilon())
+                                                 : std::numeric_limits<double>::epsilon());
+  if (*request.rtol < least && atol == 0)
+    refuse(fmt::format("--rtol {:g}: is below the rounding of {}; give {:.2g} or more, or --atol", *request.rtol,
+                       name(precision), least));
   return StepTolerance{*request.rtol, atol};
 }
 
@@ -204,7 +211,7 @@ RunPlan plan_run(const RunRequest& request) {
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
     throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));
   if (request.is_root) require_outputs_writable(request);
-  plan.adaptive = chosen_tolerance(request, *plan.method);
+  plan.adaptive = chosen_tolerance(request, *plan.method, plan.precision);
   plan.stability_limit = require_stable(problem, *plan.method, plan.dt, request.is_forced || plan.adaptive);
   if (plan.adaptive) plan.method = &dopri5_adaptive();
   if (!request.check_state.empty()) plan.expected = expected_state(request, plan);

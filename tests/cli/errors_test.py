@@ -57,7 +57,8 @@ class Errors(ProgramTest):
         self.assert_refused(2, ["--atol", "only with --rtol"], *adaptive, "--atol", "1e-9")
         for option, value in (("--rtol", "0"), ("--rtol", "nan"), ("--atol", "-1")):
             self.assert_refused(2, [option], *adaptive, "--rtol=1e-6" if option == "--atol" else "--force", f"{option}={value}")
-        self.assert_refused(3, ["plate_paper", "t = ", "even a step of", "--rtol 1e-30"], *adaptive, "--rtol", "1e-30")
+        self.assert_refused(2, ["--rtol 1e-07", "rounding of f32", "4.8e-07"], *adaptive, "--precision", "f32", "--rtol", "1e-7")
+        self.assert_refused(3, ["plate_paper", "t = ", "even a step of", "--rtol 1e-30"], *adaptive, "--rtol", "1e-30", "--atol", "1e-30")
 
     def test_numbers_out_of_range_are_refused(self):
         for option, value in (("--threads", "0"), ("--threads", "-1"), ("--steps", "0"), ("--dt", "0"), ("--dt", "nan"), ("--ranks", "0")):

@@ -200,7 +200,7 @@ TEST(AdaptiveSteps, with_one_number_that_is_not_finite_are_told_so) {
   const Problem problem = fixture::make_block(9, 3, 1, LinkLaw::paper);
   for (const std::string& variant : usable_variants()) {
     const Plugin& plugin = load_variant(variant);
-    if (plugin.devices != nullptr) continue; // below
+    if (plugin.devices != nullptr || variant == "hybrid") continue; // below; a hybrid chooses among all
     const auto run = plugin.create({problem, dopri5_adaptive()});
     State state(problem.lattice.element_count * field_count, 0.0);
     state[13 * field_count + uy] = std::numeric_limits<double>::infinity();

@@ -6,6 +6,7 @@
 #include "tests/fixtures/problems.hpp"
 #include "variants/loader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -125,38 +126,30 @@ TEST(AdaptiveSteps, are_rejected_at_a_jump_of_a_load_and_seldom_elsewhere) {
   EXPECT_LT(least, 0.1 * steps.counts().largest_dt) << "the jump asks for a short step";
 }
 
-/// A chain with a slow motion that needs no short steps, so that stability alone limits them: an elementary controller swings there
-/// between rejection and growth (Hairer, Norsett, Wanner II, section IV.2).
+/// A chain in its slowest mode, which needs no short steps, so that stability alone limits them: an elementary controller swings there between
+/// rejection and growth (Hairer, Norsett, Wanner II, section IV.2). Just above the limit amplitudes grow by 2e-4 a step, so the step comes
+/// down to it slowly.
 TEST(AdaptiveSteps, of_an_undamped_chain_settle_at_the_stability_limit) {
-  Problem chain = fixture::make_block(20, 1, 1, LinkLaw::paper, 0);
+  constexpr int elements = 20;
+  constexpr double end = 100;
+  Problem chain = fixture::make_block(elements, 1, 1, LinkLaw::paper, 0);
   std::vector<double> start = at_rest(chain);
-  for (std::size_t e = 0; e < chain.lattice.element_count; ++e)
-    start[e * field_count + vx] = 1e-3 * std::cos(M_PI * (double(e) + 0.5) / 20);
+  for (std::size_t e = 0; e < elements; ++e)
+    start[e * field_count + vx] = 1e-3 * std::cos(M_PI * (double(e) + 0.5) / elements);
   Recorder run(chain, start);
-  AdaptiveSteps steps(run, chain, dopri5_adaptive(), {1e-2, 0}, 1e-3, 5);
-  ASSERT_FALSE(steps.advance_to(5));
+  AdaptiveSteps steps(run, chain, dopri5_adaptive(), {1e-2, 0}, 1e-3, end);
+  ASSERT_FALSE(steps.advance_to(end));
   const double k = chain.bodies[0].axis[0].k_normal, m = chain.bodies[0].mass;
-  const double highest = 2 * std::sqrt(k / m) * std::sin(M_PI * 19 / 40);
+  const double highest = 2 * std::sqrt(k / m) * std::sin(M_PI * (elements - 1) / (2 * elements));
   const double limit = mode_step_limit(*find_method("dopri5"), highest, 0);
-  std::vector<Try> late;
-  for (const Try& one : run.tries)
-    if (one.time > 2) late.push_back(one);
-  double least = 1, most = 0, sum = 0;
-  long rejected = 0;
-  for (std::size_t n = 0; n + 2 < late.size(); ++n) {
-    sum += late[n].dt, rejected += !late[n].is_accepted;
-    if (n == 0) continue;
-    least = std::min(least, late[n].dt / late[n - 1].dt), most = std::max(most, late[n].dt / late[n - 1].dt);
+  const std::size_t first = run.tries.size() / 2, last = run.tries.size() - 2; // which are cut to end in time
+  for (std::size_t n = first; n < last; ++n) {
+    ASSERT_TRUE(run.tries[n].is_accepted) << n;
+    ASSERT_NEAR(run.tries[n].dt / run.tries[n - 1].dt, 1, 0.1) << n;
   }
-  const double mean = sum / double(late.size() - 2);
-  RecordProperty("mean_over_limit", std::to_string(mean / limit));
-  RecordProperty("least_ratio", std::to_string(least));
-  RecordProperty("most_ratio", std::to_string(most));
-  RecordProperty("rejected", std::to_string(rejected) + " of " + std::to_string(late.size()));
-  EXPECT_EQ(rejected, 0);
-  EXPECT_NEAR(mean / limit, 1, 0.3);
-  EXPECT_GT(least, 0.7);
-  EXPECT_LT(most, 1.4);
+  const double mean = (run.tries[last].time - run.tries[first].time) / double(last - first);
+  EXPECT_GT(mean, 0.95 * limit);
+  EXPECT_LT(mean, 1.25 * limit);
 }
 
 TEST(AdaptiveSteps, that_would_have_to_be_too_short_are_refused_with_time_and_step) {
