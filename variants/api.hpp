@@ -60,8 +60,8 @@ public:
   virtual Outcome advance(long steps, std::span<const double> signals) = 0;
   /// Of a method with an error stage: tries a step of dt [s] from the present state, which stays as it is. `signals`: method.stages rows, see
   /// stage_signals. @return maxima over all elements, which depend on no order
-  virtual StepMaxima try_step(double dt, std::span<const double> signals) {
-    return (void)dt, (void)signals, throw std::logic_error("no adaptive steps here"), StepMaxima{};
+  virtual StepMaxima try_step(double /*dt*/, std::span<const double> /*signals*/) {
+    throw std::logic_error("this executor has no adaptive steps");
   }
   /// Makes the result of the step tried last, which is finite, the state.
   virtual void accept_step() {}

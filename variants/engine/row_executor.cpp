@@ -1,41 +1,14 @@
 #include "variants/engine/row_executor.hpp"
 
-#include "solver/error.hpp"
 #include "solver/numerics/denormals.hpp"
-#include "variants/engine/barrier.hpp"
+#include "variants/engine/thread_team.hpp"
 #include "variants/tried_steps.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <omp.h>
 
 namespace dss {
-
-/// Runs work(thread, synchronise) on a team of exactly `threads` threads; with fewer, blocks of rows would silently stay behind.
-/// @throws InputError if OpenMP grants fewer
-template <class Work>
-static void run_team(int threads, Work&& work) {
-  if (threads == 1) {
-    work(0, [] {});
-    return;
-  }
-  int granted = threads;
-  Barrier barrier(threads);
-  omp_set_dynamic(0);
-#pragma omp parallel num_threads(threads)
-  {
-    if (omp_get_num_threads() == threads) {
-      work(omp_get_thread_num(), [&] { barrier.arrive_and_wait(); });
-    } else {
-#pragma omp single
-      granted = omp_get_num_threads();
-    }
-  }
-  if (granted != threads)
-    throw InputError("--threads " + std::to_string(threads) + ": OpenMP grants only " + std::to_string(granted) +
-                     " (OMP_THREAD_LIMIT?); give at most that");
-}
 
 template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
@@ -95,11 +68,6 @@ HaloLayout RowExecutor<T>::halo_layout(std::span<const std::size_t> elements, in
   }
   layout.is_stable = is_stable;
   return layout;
-}
-
-template <class T>
-void RowExecutor<T>::exchange(void (Halo::*act)(Side, int), int copy) {
-  for (const Side side : all_sides) (part_->halo.*act)(side, copy);
 }
 
 template <class T>
@@ -283,28 +251,6 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
   };
   run_team(staged_->threads(), work);
   return failure.outcome(steps);
-}
-
-template <class T>
-StepMaxima RowExecutor<T>::try_step(double dt, std::span<const double> signals) {
-  staged_->set_step(dt);
-  StepSignals<T> values(signal_count(setup_.problem), setup_.method.stages);
-  values.set(signals.data(), setup_.method.stages);
-  std::vector<StepMaxima> maxima(std::size_t(staged_->threads()));
-  if (is_part()) exchange(&Halo::send, current_copy());
-  run_team(staged_->threads(), [&](int thread, auto&& synchronise) {
-    const FlushDenormals guard;
-    staged_->step(thread, values, true, synchronise);
-    maxima[std::size_t(thread)] = staged_->maxima(thread);
-  });
-  StepMaxima all;
-  for (const StepMaxima& one : maxima) all.add(one);
-  return all;
-}
-
-template <class T>
-void RowExecutor<T>::accept_step() {
-  run_team(staged_->threads(), [&](int thread, auto&&) { staged_->accept(thread); });
 }
 
 template <class T>

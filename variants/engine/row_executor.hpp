@@ -40,7 +40,9 @@ private:
   /// Row of a copy that parts exchange, and where else it is kept (or null).
   std::pair<T*, T*> copy_row(int copy, int r);
   int current_copy() const { return staged_ ? staged_->current_copy() : parity_; }
-  void exchange(void (Halo::*act)(Side, int), int copy);
+  void exchange(void (Halo::*act)(Side, int), int copy) {
+    for (const Side side : all_sides) (part_->halo.*act)(side, copy);
+  }
   /// All of the halo anew, of the present state. Every part must take part.
   void refresh_halo();
   /// Rates of all model fields, packs of packed_.fields() fields, at the present state.

@@ -153,13 +153,7 @@ void ResidentExecutor<T, W>::warm_up() {
     if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_.front());
     set_stage_arguments(nothing, 0, 0);
     problem_.launch(problem_.queue, kernel_, bands_);
-    if (setup_.method.has_error_stage) {
-      for (Kernel* const kernel : {&maxima_kernel_, &accept_kernel_}) {
-        kernel->set_one(DeviceProblem<T, W>::table_arguments, nothing);
-        problem_.launch(problem_.queue, *kernel, bands_);
-        kernel->set_one(DeviceProblem<T, W>::table_arguments, list_tables_.back());
-      }
-    }
+    if (setup_.method.has_error_stage) warm_up_error_kernels(nothing);
   } else {
     set_pass_arguments(0);
     run_to(0, false);

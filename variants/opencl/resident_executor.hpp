@@ -85,6 +85,7 @@ private:
   /// All stages of a step, with their halos. `is_last`: nobody waits for the halo of its result.
   void launch_step(long step, bool is_last);
   void make_error_kernels();
+  void warm_up_error_kernels(const opencl::Buffer& nothing);
   void launch_stage(int stage, long step);
   void forget_failures();
   Outcome outcome(long steps);

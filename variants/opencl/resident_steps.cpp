@@ -192,12 +192,22 @@ constexpr std::size_t maxima_of_band = 2 * StepMaxima::kinds + 1;
 
 template <class T, int W>
 void ResidentExecutor<T, W>::make_error_kernels() {
-  constexpr cl_uint lists = DeviceProblem<T, W>::table_arguments; // set where they are launched first
+  constexpr cl_uint lists = DeviceProblem<T, W>::table_arguments; // set by warm_up_error_kernels
   maxima_ = problem_.queue.make_buffer(std::size_t(bands_) * maxima_of_band * sizeof(T));
   maxima_kernel_ = problem_.kernel("step_maxima");
   maxima_kernel_.set_one(lists + 1, maxima_);
   maxima_kernel_.set_one(lists + 2, cl::Local(problem_.group_size() * maxima_of_band * sizeof(T)));
   accept_kernel_ = problem_.kernel("accept_rows");
+}
+
+template <class T, int W>
+void ResidentExecutor<T, W>::warm_up_error_kernels(const opencl::Buffer& nothing) {
+  constexpr cl_uint lists = DeviceProblem<T, W>::table_arguments;
+  for (Kernel* const kernel : {&maxima_kernel_, &accept_kernel_}) {
+    kernel->set_one(lists, nothing);
+    problem_.launch(problem_.queue, *kernel, bands_);
+    kernel->set_one(lists, list_tables_.back()); // of the last stage
+  }
 }
 
 template <class T, int W>
@@ -251,6 +261,7 @@ Outcome ResidentExecutor<T, W>::outcome(long steps) {
   template StepMaxima ResidentExecutor<T, W>::try_step(double, std::span<const double>);                               \
   template void ResidentExecutor<T, W>::accept_step();                                                                 \
   template void ResidentExecutor<T, W>::make_error_kernels();                                                          \
+  template void ResidentExecutor<T, W>::warm_up_error_kernels(const opencl::Buffer&);                                  \
   template void ResidentExecutor<T, W>::forget_failures();                                                             \
   template void ResidentExecutor<T, W>::set_pass_arguments(long);                                                      \
   template void ResidentExecutor<T, W>::run_to(long, bool);                                                            \
