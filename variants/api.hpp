@@ -6,6 +6,7 @@
 #include "solver/model/problem.hpp"
 #include "solver/model/rotation.hpp"
 #include "solver/numerics/method.hpp"
+#include "solver/numerics/step_control.hpp"
 #include "variants/device.hpp"
 #include "variants/distribution.hpp"
 #include "variants/halo.hpp"
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +28,7 @@ struct Setup {
   const Method& method;
   Model model = Model::spatial;
   Precision precision = Precision::f64;
-  double dt = 0;
+  double dt = 0; ///< of a method with an error stage that of advance alone
   int threads = 1;
   const PartSetup* part = nullptr;            ///< `problem` is a part of a larger one; outlives the executor
   const Distribution* distribution = nullptr; ///< for distributed variants, which take the default without
@@ -56,6 +58,13 @@ public:
   /// Advances by `steps` steps; stops at the first step that leaves a non-finite state.
   /// `signals`: steps * method.stages + 1 rows, see solver/numerics/signal_rows.hpp.
   virtual Outcome advance(long steps, std::span<const double> signals) = 0;
+  /// Of a method with an error stage: tries a step of dt [s] from the present state, which stays as it is. `signals`: method.stages rows, see
+  /// stage_signals. @return maxima over all elements, which depend on no order
+  virtual StepMaxima try_step(double /*dt*/, std::span<const double> /*signals*/) {
+    throw std::logic_error("this executor has no adaptive steps");
+  }
+  /// Makes the result of the step tried last, which is finite, the state.
+  virtual void accept_step() {}
   /// One line for the record: "wavefront, reach 1" or "stage by stage: extra links".
   virtual std::string schedule() const = 0;
   /// Threads that compute: what Setup asks for, or fewer where the problem has fewer rows.
@@ -110,7 +119,7 @@ struct Plugin {
   bool has_all = false; ///< implicit methods and every Rotation too; others have the explicit methods, and quaternions
 };
 
-constexpr int plugin_abi = 5;
+constexpr int plugin_abi = 6;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

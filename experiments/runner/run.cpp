@@ -1,4 +1,5 @@
 #include "experiments/runner/run.hpp"
+#include "experiments/runner/adaptive_steps.hpp"
 #include "experiments/runner/output.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/state_access.hpp"
@@ -60,15 +61,19 @@ public:
     if (warmup_steps > 0) {
       RunResult discarded;
       write_initial_state(*executor_, problem_);
-      advance_to(0, warmup_steps, discarded);
+      if (plan_.adaptive)
+        adaptive_steps().advance_to(double(warmup_steps) * plan_.dt);
+      else
+        advance_to(0, warmup_steps, discarded);
     }
     write_initial_state(*executor_, problem_);
+    if (plan_.adaptive) adaptive_.emplace(adaptive_steps());
     const Traffic before = executor_->traffic();
     const DeviceUse used_before = executor_->device_use();
     long step = 0;
     look(step);
     for (const long stop : stops()) {
-      if (!advance_to(step, stop, result_) || !is_finite_after(stop)) return;
+      if (!(adaptive_ ? adapt_to(stop) : advance_to(step, stop, result_)) || !is_finite_after(stop)) return;
       step = stop;
       look(step);
     }
@@ -80,9 +85,9 @@ public:
   }
 
   /// Times a short run anew: straight through, from the start, until the clock has run for `least_s`. The run that was looked at
-  /// while it went warms up.
+  /// while it went warms up. Adaptive runs are timed once.
   void repeat(double least_s) {
-    if (result_.wall_s >= least_s) return;
+    if (adaptive_ || result_.wall_s >= least_s) return;
     RunResult again;
     long runs = 0;
     for (; again.wall_s < least_s; ++runs) {
@@ -133,10 +138,33 @@ private:
   /// A leapfrog cannot start anew from a state without its half-step velocities, so only Runge-Kutta runs have their
   /// ends checked.
   bool has_tail() const {
-    return plan_.expected && plan_.tail_steps > 0 && plan_.expected->steps < plan_.steps &&
+    return plan_.expected && plan_.tail_steps > 0 && !plan_.adaptive && plan_.expected->steps < plan_.steps &&
            plan_.method->family == Method::Family::runge_kutta;
   }
   long tail_start() const { return std::max(plan_.expected->steps, plan_.steps - plan_.tail_steps); }
+
+  AdaptiveSteps adaptive_steps() {
+    return {*executor_, problem_, *plan_.method, *plan_.adaptive, plan_.dt, double(plan_.steps) * plan_.dt};
+  }
+
+  /// To the time of that step, were all as long as the first.
+  bool adapt_to(long stop) {
+    if (plan_.plugin->is_distributed) executor_->gather(0); // as in advance_to
+    const UsageMeter usage;
+    const auto failure = adaptive_->advance_to(double(stop) * plan_.dt);
+    result_.usage += usage.read();
+    const AdaptiveCounts& counts = adaptive_->counts();
+    if (!std::exchange(has_begun_, true)) result_.first_step_s += counts.first_step_s;
+    result_.wall_s = counts.wall_s;
+    result_.steps = counts.accepted;
+    result_.rejected_steps = counts.rejected;
+    result_.evaluations = double(counts.accepted + counts.rejected) * plan_.method->stages;
+    if (counts.accepted > 0) result_.least_step_s = counts.least_dt, result_.largest_step_s = counts.largest_dt;
+    if (!failure) return true;
+    result_.status = "unstable";
+    result_.reason = *failure;
+    return false;
+  }
 
   bool advance_to(long step, long stop, RunResult& result) {
     bool is_finite = true;
@@ -174,7 +202,7 @@ private:
       return total;
     };
     const Traffic now = executor_->traffic();
-    const double steps = double(plan_.steps);
+    const double steps = double(result_.steps);
     result_.messages_per_step = sum(now.messages - before.messages) / steps;
     result_.bytes_per_step = sum(now.bytes - before.bytes) / steps;
     result_.communication_share = sum(now.wait_s - before.wait_s) / (result_.wall_s * result_.ranks.ranks);
@@ -196,7 +224,8 @@ private:
     if (plan_.expected && step == plan_.expected->steps) {
       CheckResult& check = result_.check;
       check.is_done = true;
-      check.how = fmt::format("oracle after {} steps", step);
+      check.how = plan_.adaptive ? fmt::format("oracle at t = {:g} s", double(step) * plan_.dt)
+                                 : fmt::format("oracle after {} steps", step);
       check.tolerance = plan_.tolerance().run;
       const std::vector<double> state = whole_state(*executor_, count);
       const WorkAlone alone(*executor_, is_root_);
@@ -230,6 +259,7 @@ private:
   FrameSeries series_;
   bool is_root_;
   bool has_begun_ = false;
+  std::optional<AdaptiveSteps> adaptive_;
   std::vector<double> tail_state_;
   std::optional<AccuracyMeter> meter_;
 };
@@ -252,6 +282,9 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
   result.warmup_steps = request.warmup_steps;
   result.dt_s = plan.dt;
   result.stability_limit_s = plan.stability_limit;
+  result.end_s = double(plan.steps) * plan.dt;
+  result.adaptive = plan.adaptive;
+  if (!plan.method->is_implicit()) result.evaluations = double(plan.steps) * plan.method->stages;
   return result;
 }
 

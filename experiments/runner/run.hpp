@@ -4,6 +4,7 @@
 #include "experiments/runner/precision/saved_times.hpp"
 #include "experiments/runner/usage.hpp"
 #include "solver/model/model.hpp"
+#include "solver/numerics/step_control.hpp"
 #include "solver/scene/scene.hpp"
 #include "variants/device.hpp"
 #include "variants/distribution.hpp"
@@ -29,6 +30,7 @@ struct RunRequest {
   std::optional<std::string> model, precision, integrator, rotation;
   std::optional<double> dt; ///< [s]
   std::optional<long> steps;
+  std::optional<double> rtol, atol;      ///< with rtol steps are adaptive
   bool is_root = true;                   ///< of several ranks all do the same, and one writes
   bool is_forced = false;                ///< run above the stability limit
   std::optional<double> stability_limit; ///< known from before, and not predicted again [s]
@@ -75,8 +77,13 @@ struct RunResult {
   long steps = 0, warmup_steps = 0;
   int stages = 0; ///< force evaluations a step
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
-  long runs = 1;           ///< that were timed: wall_s is their mean, usage their sum
-  double first_step_s = 0; ///< time to the first step: making the executor, and the very first step
+  long runs = 1;                         ///< that were timed: wall_s is their mean, usage their sum
+  double end_s = 0;                      ///< of the run
+  std::optional<StepTolerance> adaptive; ///< dt_s is then the first step tried, `steps` those that were accepted
+  long rejected_steps = 0;
+  double least_step_s = 0, largest_step_s = 0; ///< of the accepted ones
+  std::optional<double> evaluations;           ///< of all forces, where their number is known
+  double first_step_s = 0;                     ///< time to the first step: making the executor, and the very first step
   Usage usage;
   std::optional<double> energy_j;     ///< absent for states too large to hold twice
   std::optional<double> energy_drift; ///< relative, of the whole run, where energy is conserved and some is there

@@ -38,13 +38,18 @@ void print_device(const RunResult& result) {
 }
 
 void print_summary(const RunResult& result) {
-  fmt::print("{}: {} elements, {} links, {} steps of {:g} s ({}, {}, {})\n", result.scene, result.elements,
-             result.links, result.steps, result.dt_s, result.model, result.precision, result.integrator);
+  fmt::print("{}: {} elements, {} links, {} steps of {}{:g} s ({}, {}, {})\n", result.scene, result.elements,
+             result.links, result.steps, result.adaptive ? "first " : "", result.dt_s, result.model, result.precision,
+             result.integrator);
   fmt::print("{} ({}), {} thread{}{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
              result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "", result.schedule);
   fmt::print("wall {:.6g} s{}, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
              result.runs > 1 ? fmt::format(" (mean of {} runs)", result.runs) : "", 1e-6 * result.element_steps_per_s(),
              double(result.bytes) / double(result.elements));
+  if (result.adaptive)
+    fmt::print("adaptive, rtol {:g}, atol {:g}: {} steps of {:.3g} to {:.3g} s accepted, {} rejected, to t = {:g} s\n",
+               result.adaptive->rtol, result.adaptive->atol, result.steps, result.least_step_s, result.largest_step_s,
+               result.rejected_steps, result.end_s);
   fmt::print("time to the first step {:.3g} s\n", result.first_step_s);
   print_device(result);
   fmt::print("largest displacement {:.6g} m, energy {}, state {:016x}\n", result.max_displacement_m,
@@ -139,6 +144,12 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
                       "quaternion (default); of the variant reference also tait_bryan, tait_bryan_raw, linearised");
   command->add_option("--dt", request.dt, "Time step [s] (default: the scene's)");
   command->add_option("--steps", request.steps, "Number of steps (default: the scene's)");
+  command->add_option(
+      "--rtol", request.rtol,
+      "With --integrator dopri5: adaptive steps whose error each stays below this share of the largest "
+      "displacement, velocity, rotation, spin met; --dt is the first step tried, the end that of --steps "
+      "such steps");
+  command->add_option("--atol", request.atol, "And besides an error of so much, in SI units (default: 0)");
   command->add_flag("--force", request.is_forced, "Run above the predicted stability limit");
   command
       ->add_option(

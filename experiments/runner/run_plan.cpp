@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace dss {
 namespace {
@@ -119,6 +120,29 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
     refuse(fmt::format("--output {}: give a name that ends in .vtu", request.output));
 }
 
+/// Of --rtol and --atol; nothing without them.
+std::optional<StepTolerance> chosen_tolerance(const RunRequest& request, const Method& method, Precision precision) {
+  const auto refuse = [](const std::string& what) { throw InputError(what); };
+  if (!request.rtol) {
+    if (request.atol) refuse(fmt::format("--atol {:g}: only with --rtol, which makes steps adaptive", *request.atol));
+    return std::nullopt;
+  }
+  if (method.name != dopri5_adaptive().name)
+    refuse(fmt::format("--rtol {:g}: {} has no adaptive steps; give --integrator {}", *request.rtol, method.name,
+                       dopri5_adaptive().name));
+  if (!(*request.rtol > 0) || !std::isfinite(*request.rtol))
+    refuse(fmt::format("--rtol {:g}: give a positive number, 1e-6 for one", *request.rtol));
+  const double atol = request.atol.value_or(0);
+  if (!(atol >= 0) || !std::isfinite(atol)) refuse(fmt::format("--atol {:g}: give 0 or more", atol));
+  // Rounding alone leaves some units in the last place of an estimate: no step would be short enough.
+  const double least = 4 * (is_single(precision) ? double(std::numeric_limits<float>::epsilon())
+                                                 : std::numeric_limits<double>::epsilon());
+  if (*request.rtol < least && atol == 0)
+    refuse(fmt::format("--rtol {:g}: is below the rounding of {}; give {:.2g} or more, or --atol", *request.rtol,
+                       name(precision), least));
+  return StepTolerance{*request.rtol, atol};
+}
+
 void require_outputs_writable(const RunRequest& request) {
   for (const std::string& path :
        {request.output, request.state_csv, request.json == "-" ? std::string() : request.json})
@@ -218,7 +242,10 @@ RunPlan plan_run(const RunRequest& request) {
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
     throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));
   if (request.is_root) require_outputs_writable(request);
-  plan.stability_limit = require_stable(problem, *plan.method, plan.dt, request.is_forced, request.stability_limit);
+  plan.adaptive = chosen_tolerance(request, *plan.method, plan.precision);
+  plan.stability_limit =
+      require_stable(problem, *plan.method, plan.dt, request.is_forced || plan.adaptive, request.stability_limit);
+  if (plan.adaptive) plan.method = &dopri5_adaptive();
   if (!request.check_state.empty()) plan.expected = expected_state(request, plan);
   for (int frame = 0; frame <= request.frames && !request.output.empty(); ++frame) {
     const double share = request.frames == 0 ? 1 : double(frame) / request.frames;

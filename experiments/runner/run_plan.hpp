@@ -15,12 +15,13 @@ struct RunPlan {
   const Plugin* plugin = nullptr;
   Distribution distribution;            ///< of a distributed variant
   std::shared_ptr<const Method> fitted; ///< to the problem and its step
-  const Method* method = nullptr;       ///< fitted.get()
+  const Method* method = nullptr;       ///< fitted.get(), or of adaptive steps dopri5_adaptive()
   Model model = Model::spatial;
   Precision precision = Precision::f64;
   Rotation rotation = Rotation::quaternion;
-  double dt = 0;
-  long steps = 0;
+  double dt = 0;  ///< of adaptive steps the first that is tried
+  long steps = 0; ///< adaptive ones end where so many of dt would
+  std::optional<StepTolerance> adaptive;
   long tail_steps = 0; ///< over which the end of a longer run is compared with the oracle
   double stability_limit = 0;
   std::optional<OracleState> expected; ///< at step expected->steps

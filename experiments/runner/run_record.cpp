@@ -88,6 +88,15 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["steps"] = result.steps;
   json["warmup_steps"] = result.warmup_steps;
   json["dt_s"] = result.dt_s;
+  json["end_s"] = result.end_s;
+  const auto if_adaptive = [&](const auto& value) { return result.adaptive ? Json(value) : Json(); };
+  const StepTolerance tolerance = result.adaptive.value_or(StepTolerance{});
+  json["rtol"] = if_adaptive(tolerance.rtol);
+  json["atol"] = if_adaptive(tolerance.atol);
+  json["rejected_steps"] = if_adaptive(result.rejected_steps);
+  json["least_step_s"] = if_adaptive(result.least_step_s);
+  json["largest_step_s"] = if_adaptive(result.largest_step_s);
+  json["evaluations"] = result.evaluations ? Json(*result.evaluations) : nullptr;
   json["stability_limit_s"] = result.stability_limit_s;
   json["wall_s"] = result.wall_s;
   json["stages"] = result.stages;

@@ -8,6 +8,8 @@ static inline REAL rk_increment(REAL ratio, REAL stage, REAL y, REAL t) { return
 static inline REAL rk_finish(REAL alpha_1, REAL t, REAL y) { return FMA(alpha_1, t, y); }
 /* y + beta f; the first term of t is the same operation on Y_1 - y */
 static inline REAL rk_first(REAL y, REAL beta, REAL rate) { return FMA(beta, rate, y); }
+/* Without y: an estimate of a step's error is a sum of increments alone. */
+static inline REAL rk_estimate(REAL alpha_1, REAL t) { return alpha_1 * t; }
 /* With three increments: y1, y2, y3 are the Y_m, the ratios those of the later alpha to the first. */
 static inline REAL rk_combined(REAL y, REAL beta, REAL rate, REAL y1, REAL y2, REAL y3, REAL alpha_1, REAL ratio_2,
                                REAL ratio_3) {

@@ -48,6 +48,14 @@ public:
       });
     case wide_stage:
       return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return wide(n, beta, rate); });
+    case error_stage:
+      return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
+        return P::rk_estimate(alpha_[0], increments(n, load(base_ + n), beta, rate));
+      });
+    case kept_error:
+      if constexpr (is_compensated)
+        runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return kept_wide(n, beta, rate); });
+      return;
     case leapfrog_step:
       return leapfrog(at, e, e.v, e.w, force, turn, false);
     case predicted_step: {
@@ -105,10 +113,13 @@ private:
 
   R wide(std::ptrdiff_t at, R beta, R rate) const {
     const R y = load(base_ + at);
+    return P::rk_finish(alpha_[0], increments(at, y, beta, rate), y);
+  }
+  R increments(std::ptrdiff_t at, R y, R beta, R rate) const {
     R t = P::rk_first(load(task_.increment[0] + at) - y, beta, rate);
     for (int m = 1; m < task_.increments; ++m)
       t = P::rk_increment(R(task_.alpha[m]), load(task_.increment[m] + at), y, t);
-    return P::rk_finish(alpha_[0], t, y);
+    return t;
   }
 
   /// Leaves the increment, or of a last stage the state's low part, behind the field.
@@ -129,11 +140,13 @@ private:
         t = P::kept_later(alpha_[1], load(increment_[1] + low_ + n), t);
         return alpha_[0] * P::kept_later(alpha_[2], load(increment_[2] + low_ + n), t);
       });
-    with([&](std::ptrdiff_t n, R beta, R rate) {
-      R t = P::kept_first(load(increment_[0] + low_ + n), beta, rate);
-      for (int m = 1; m < count; ++m) t = P::kept_later(R(task_.alpha[m]), load(task_.increment[m] + low_ + n), t);
-      return alpha_[0] * t;
-    });
+    with([&](std::ptrdiff_t n, R beta, R rate) { return kept_wide(n, beta, rate); });
+  }
+  R kept_wide(std::ptrdiff_t at, R beta, R rate) const {
+    R t = P::kept_first(load(increment_[0] + low_ + at), beta, rate);
+    for (int m = 1; m < task_.increments; ++m)
+      t = P::kept_later(R(task_.alpha[m]), load(task_.increment[m] + low_ + at), t);
+    return alpha_[0] * t;
   }
 
   struct Velocities {

@@ -12,5 +12,7 @@ enum row_action {
   kept_stage,     /* compensated (f32c): the increment is kept behind the stage's fields */
   kept_step,      /* the last such stage: the sum of the increments, added to the state and its low parts */
   kept_leapfrog,
-  kept_predicted
+  kept_predicted,
+  error_stage, /* of an adaptive method: out = the sum of increments without the state, an estimate of the step's error */
+  kept_error
 };

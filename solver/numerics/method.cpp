@@ -70,7 +70,19 @@ Method midpoint() {
           .note = "two force evaluations a step; an undamped mode grows by (h omega)^4 / 8 a step, whatever the step"};
 }
 
-/// Dormand and Prince's method of order 5 (J. Comput. Appl. Math. 6 (1980) 19-26; Hairer, Norsett, Wanner I, table II.5.2).
+/// Dormand and Prince's method of order 5 (J. Comput. Appl. Math. 6 (1980) 19-26; Hairer, Norsett, Wanner I, table II.5.2), of which
+/// the last row is that of the step.
+const std::vector<std::vector<double>>& dopri5_rows() {
+  static const std::vector<std::vector<double>> rows = {
+      {1. / 5},
+      {3. / 40, 9. / 40},
+      {44. / 45, -56. / 15, 32. / 9},
+      {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
+      {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
+      {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}};
+  return rows;
+}
+
 Method dopri5() {
   Method method{.name = "dopri5",
                 .family = Method::Family::runge_kutta,
@@ -84,13 +96,7 @@ Method dopri5() {
                 .is_symplectic = false,
                 .keeps_energy_bounded = false,
                 .note = "six force evaluations a step"};
-  set_butcher({{1. / 5},
-               {3. / 40, 9. / 40},
-               {44. / 45, -56. / 15, 32. / 9},
-               {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
-               {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
-               {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}},
-              method);
+  set_butcher(dopri5_rows(), method);
   return method;
 }
 
@@ -144,6 +150,22 @@ Method implicit_midpoint() {
 }
 
 } // namespace
+
+// The seventh stage evaluates f at y_{n+1}; its weights are those of table II.5.2 less those of the method of fourth order there.
+const Method& dopri5_adaptive() {
+  static const Method adaptive = [] {
+    Method method = dopri5();
+    std::vector<std::vector<double>> rows = dopri5_rows();
+    rows.push_back({71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40});
+    method.stages = int(rows.size());
+    method.has_error_stage = true;
+    method.note = "seven force evaluations a step that is tried";
+    method.beta.clear(), method.alpha.clear();
+    set_butcher(rows, method);
+    return method;
+  }();
+  return adaptive;
+}
 
 // With w0 = 1 + epsilon / s^2, w1 = T_s'(w0) / T_s''(w0), b_j = T_j''(w0) / T_j'(w0)^2, a_j = 1 - b_j T_j(w0):
 //   Y_j = (1 - mu - nu) y + mu Y_{j-1} + nu Y_{j-2} + mu~ h F_{j-1} + gamma~ h F_0, and h F_0 = (Y_1 - y) / mu~_1.

@@ -2,16 +2,29 @@
 
 namespace dss {
 
+namespace {
+
+void append_row(const Problem& problem, double t, std::vector<double>& rows) {
+  for (const Signal& signal : problem.frame_acceleration) rows.push_back(signal(t));
+  for (const Load& load : problem.loads) rows.push_back(load.signal(t));
+}
+
+} // namespace
+
 std::vector<double> signal_rows(const Problem& problem, const Method& method, double dt, long first_step, long steps) {
   std::vector<double> rows;
   rows.reserve((std::size_t(steps) * std::size_t(method.stages) + 1) * signal_count(problem));
-  const auto append_row = [&](double t) {
-    for (const Signal& signal : problem.frame_acceleration) rows.push_back(signal(t));
-    for (const Load& load : problem.loads) rows.push_back(load.signal(t));
-  };
   for (long n = 0; n < steps; ++n)
-    for (int s = 0; s < method.stages; ++s) append_row((double(first_step + n) + method.node[std::size_t(s)]) * dt);
-  append_row(double(first_step + steps) * dt);
+    for (int s = 0; s < method.stages; ++s)
+      append_row(problem, (double(first_step + n) + method.node[std::size_t(s)]) * dt, rows);
+  append_row(problem, double(first_step + steps) * dt, rows);
+  return rows;
+}
+
+std::vector<double> stage_signals(const Problem& problem, const Method& method, double t, double dt) {
+  std::vector<double> rows;
+  rows.reserve(std::size_t(method.stages) * signal_count(problem));
+  for (const double node : method.node) append_row(problem, t + node * dt, rows);
   return rows;
 }
 

@@ -14,4 +14,7 @@ inline std::size_t signal_count(const Problem& problem) { return 3 + problem.loa
 /// each, and a last row at (first_step + steps) * dt.
 std::vector<double> signal_rows(const Problem& problem, const Method& method, double dt, long first_step, long steps);
 
+/// The rows of a single step of dt from time t [s]: one for each stage.
+std::vector<double> stage_signals(const Problem& problem, const Method& method, double t, double dt);
+
 } // namespace dss

@@ -127,19 +127,50 @@ std::optional<Breakdown> Oracle<T>::step_once(long step, const SignalSource& sig
 }
 
 template <class T>
+T Oracle<T>::moved(std::size_t row, std::size_t n, T h) const {
+  T slope = 0;
+  for (std::size_t j = 0; j < row; ++j) slope += weights_[row][j] * slopes_[j][n];
+  return state_[n] + h * slope;
+}
+
+template <class T>
 void Oracle<T>::runge_kutta_step(long step, const SignalSource& signals) {
   const T h = T(dt_);
-  const auto moved = [&](std::size_t s, std::size_t n) {
-    T slope = 0;
-    for (std::size_t j = 0; j < s; ++j) slope += weights_[s][j] * slopes_[j][n];
-    return state_[n] + h * slope;
-  };
   dynamics_.rates(state_, signals(step, 0), slopes_[0]);
   for (std::size_t s = 1; s < slopes_.size(); ++s) {
-    for (std::size_t n = 0; n < state_.size(); ++n) trial_[n] = moved(s, n);
+    for (std::size_t n = 0; n < state_.size(); ++n) trial_[n] = moved(s, n, h);
     dynamics_.rates(trial_, signals(step, int(s)), slopes_[s]);
   }
-  for (std::size_t n = 0; n < state_.size(); ++n) state_[n] = moved(slopes_.size(), n);
+  for (std::size_t n = 0; n < state_.size(); ++n) state_[n] = moved(slopes_.size(), n, h);
+}
+
+template <class T>
+StepMaxima Oracle<T>::try_step(double dt, std::span<const double> signals) {
+  const std::size_t stages = slopes_.size(), width = signals.size() / stages;
+  const T h = T(dt);
+  dynamics_.rates(state_, signals.first(width), slopes_[0]);
+  for (std::size_t s = 1; s < stages; ++s) {
+    for (std::size_t n = 0; n < state_.size(); ++n) trial_[n] = moved(s, n, h);
+    dynamics_.rates(trial_, signals.subspan(s * width, width), slopes_[s]);
+  }
+  StepMaxima maxima;
+  for (std::size_t n = 0; n < state_.size(); ++n) {
+    T error = 0;
+    for (std::size_t j = 0; j < stages; ++j) error += weights_[stages][j] * slopes_[j][n];
+    const std::size_t kind = StepMaxima::kind(int(n % field_count));
+    const double size = double(std::abs(h * error)), reached = double(std::abs(trial_[n]));
+    maxima.error[kind] = std::max(maxima.error[kind], size);
+    maxima.state[kind] = std::max(maxima.state[kind], reached);
+    maxima.is_finite &= std::isfinite(size) && std::isfinite(reached);
+  }
+  return maxima;
+}
+
+template <class T>
+void Oracle<T>::accept_step() {
+  state_ = trial_;
+  ++step_count_;
+  reframe(state_);
 }
 
 /// v_{-1/2} = v_0 - (h/2) a_0 and p_0 = v_0; symplectic Euler keeps v_0 itself. Leaves a_0 in the slopes.

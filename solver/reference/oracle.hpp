@@ -2,6 +2,7 @@
 /// The oracle: a plain solver of any problem by any method, against which every variant is checked (DESIGN.md sections
 /// 5 and 6). It shares no arithmetic with kernels/; its precision is that of T in every operation.
 #include "solver/numerics/method.hpp"
+#include "solver/numerics/step_control.hpp"
 #include "solver/reference/dynamics.hpp"
 
 #include <functional>
@@ -55,6 +56,10 @@ public:
   std::optional<Breakdown> advance(long steps);
   std::optional<Breakdown> advance(long steps, const SignalSource& signals);
 
+  /// Of a method with an error stage: tries a step of dt [s], with one row of signals for each stage. @return as Executor::try_step
+  StepMaxima try_step(double dt, std::span<const double> signals);
+  void accept_step();
+
   /// Kinetic, elastic and stabilization energy of the present state [J].
   T energy() { return dynamics_.energy(state_); }
   /// Steps since the start or the last write.
@@ -65,6 +70,8 @@ public:
 private:
   std::span<const double> signals_at(double t);
   std::optional<Breakdown> step_once(long step, const SignalSource& signals);
+  /// y + h sum_j weights[row][j] k_j of field n.
+  T moved(std::size_t row, std::size_t n, T h) const;
   void runge_kutta_step(long step, const SignalSource& signals);
   void start_leapfrog(std::span<const double> signals);
   void leapfrog_step(long step, const SignalSource& signals);

@@ -52,6 +52,15 @@ class Errors(ProgramTest):
         self.assertEqual(dssbench(*implicit, "1e-2").returncode, 0)
         self.assert_refused(3, ["finds no state", "step 1 ", "t = 0.5 s", "element", "--dt below 0.25 s"], *implicit, "0.5")
 
+    def test_adaptive_steps_are_refused_of_other_integrators_and_where_no_step_is_short_enough(self):
+        self.assert_refused(2, ["--rtol", "rk4", "--integrator dopri5"], *SMALL, "--rtol", "1e-6")
+        adaptive = (*SMALL, "--integrator", "dopri5")
+        self.assert_refused(2, ["--atol", "only with --rtol"], *adaptive, "--atol", "1e-9")
+        for option, value in (("--rtol", "0"), ("--rtol", "nan"), ("--atol", "-1")):
+            self.assert_refused(2, [option], *adaptive, "--rtol=1e-6" if option == "--atol" else "--force", f"{option}={value}")
+        self.assert_refused(2, ["--rtol 1e-07", "rounding of f32", "4.8e-07"], *adaptive, "--precision", "f32", "--rtol", "1e-7")
+        self.assert_refused(3, ["plate_paper", "t = ", "even a step of", "--rtol 1e-30"], *adaptive, "--rtol", "1e-30", "--atol", "1e-30")
+
     def test_numbers_out_of_range_are_refused(self):
         for option, value in (("--threads", "0"), ("--threads", "-1"), ("--steps", "0"), ("--dt", "0"), ("--dt", "nan"), ("--ranks", "0")):
             self.assert_refused(2, [option], "run", "plate_paper", "--set", "n=10", f"{option}={value}")

@@ -35,6 +35,20 @@ class Outputs(ProgramTest):
             record = json.loads(dssbench("run", "plate_paper", *sets, "--steps", "5", "--json", "-").stdout)
             self.assertEqual(record["elements"], elements)
 
+    def test_adaptive_steps_are_counted_and_end_where_the_steps_would(self):
+        adaptive = ("--integrator", "dopri5", "--rtol")
+        coarse, fine = self.run_json(*adaptive, "1e-4"), self.run_json(*adaptive, "1e-8")
+        for record in (coarse, fine):
+            self.assertEqual((record["status"], record["end_s"]), ("ok", 50 * record["dt_s"]))
+            self.assertEqual(record["evaluations"], 7 * (record["steps"] + record["rejected_steps"]))
+            self.assertLess(record["least_step_s"], record["largest_step_s"])
+        self.assertLess(coarse["steps"], fine["steps"])
+        self.assertEqual(self.run_json(*adaptive, "1e-8", "--threads", "2", "--warmup", "5")["state_digest"], fine["state_digest"])
+        fixed = self.run_json("--integrator", "dopri5", "--dt", "2.5e-7", steps=200)
+        self.assertEqual((fixed["rtol"], fixed["rejected_steps"], fixed["evaluations"]), (None, None, 1200))
+        displacement = fixed["max_displacement_m"]
+        self.assertAlmostEqual(fine["max_displacement_m"], displacement, delta=1e-5 * displacement)
+
     def test_threads_without_rows_are_told_from_those_that_compute(self):
         for scene, workers in (("chain", 1), ("plate_paper", 2)):
             result = dssbench("run", scene, "--steps", "20", "--threads", "2", "--json", "-")

@@ -64,6 +64,14 @@ def processes(word):
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)
 class Bits(ProgramTest):
+    def test_adaptive_steps_are_those_of_one_process(self):
+        adaptive = (*PLATE, "--integrator", "dopri5", "--rtol", "1e-5")
+        one = record(*adaptive)
+        for ranks, halo in ((2, "sendrecv"), (3, "deep-overlap"), (2, "shared"), (2, "auto")):
+            other = record(*adaptive, "--ranks", str(ranks), "--halo", halo)
+            for key in ("state_digest", "steps", "rejected_steps", "least_step_s"):
+                self.assertEqual(other[key], one[key], (halo, key))
+
     def test_states_equal_those_of_one_process_with_each_strategy(self):
         scenes = (PLATE, ("run", "l_bracket", "--steps", "30"))
         for number, strategy in enumerate(STRATEGIES):

@@ -114,6 +114,24 @@ TEST(Methods, of_the_runge_kutta_family_meet_the_order_conditions_of_their_order
   }
 }
 
+TEST(Dopri5, with_an_error_stage_takes_the_same_step_and_estimates_the_error_by_a_method_of_fourth_order) {
+  const Table plain = butcher_table(*find_method("dopri5")), w = butcher_table(dopri5_adaptive());
+  ASSERT_EQ(w.size(), 8u);
+  for (std::size_t s = 0; s < plain.size(); ++s)
+    for (std::size_t j = 0; j < 6; ++j) EXPECT_EQ(w[s][j], plain[s][j]) << s << ' ' << j;
+  EXPECT_NEAR(dopri5_adaptive().node.back(), 1, 1e-14);
+  const auto error = [&](const Tree& tree) { // of the step less the estimate
+    double sum = 0;
+    for (std::size_t i = 0; i < 7; ++i) sum += ((i < 6 ? plain.back()[i] : 0) - w.back()[i]) * tree.weight(w, i);
+    return std::abs(sum - 1 / tree.density());
+  };
+  for (int order = 1; order <= 4; ++order)
+    for (const Tree& tree : trees_of(order)) EXPECT_LT(error(tree), 1e-14) << order;
+  double next = 0;
+  for (const Tree& tree : trees_of(5)) next = std::max(next, error(tree));
+  EXPECT_GT(next, 1e-6);
+}
+
 TEST(Rkc2, has_a_limit_that_grows_with_the_square_of_its_stages) {
   for (int stages = 2; stages <= 20; ++stages) {
     const Method method = rkc2(stages);

@@ -1,40 +1,14 @@
 #include "variants/engine/row_executor.hpp"
 
-#include "solver/error.hpp"
 #include "solver/numerics/denormals.hpp"
-#include "variants/engine/barrier.hpp"
+#include "variants/engine/thread_team.hpp"
+#include "variants/tried_steps.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <omp.h>
 
 namespace dss {
-
-/// Runs work(thread, synchronise) on a team of exactly `threads` threads; with fewer, blocks of rows would silently stay behind.
-/// @throws InputError if OpenMP grants fewer
-template <class Work>
-static void run_team(int threads, Work&& work) {
-  if (threads == 1) {
-    work(0, [] {});
-    return;
-  }
-  int granted = threads;
-  Barrier barrier(threads);
-  omp_set_dynamic(0);
-#pragma omp parallel num_threads(threads)
-  {
-    if (omp_get_num_threads() == threads) {
-      work(omp_get_thread_num(), [&] { barrier.arrive_and_wait(); });
-    } else {
-#pragma omp single
-      granted = omp_get_num_threads();
-    }
-  }
-  if (granted != threads)
-    throw InputError("--threads " + std::to_string(threads) + ": OpenMP grants only " + std::to_string(granted) +
-                     " (OMP_THREAD_LIMIT?); give at most that");
-}
 
 template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
@@ -42,7 +16,8 @@ RowExecutor<T>::RowExecutor(const Setup& setup)
       packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part),
       rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows) row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
-  if (!setup_.problem.extra_links.empty() || (part_ != nullptr && part_->is_every_stage))
+  if (setup_.method.has_error_stage || !setup_.problem.extra_links.empty() ||
+      (part_ != nullptr && part_->is_every_stage))
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(), setup_.threads, part_);
   else
     make_blocks();
@@ -93,11 +68,6 @@ HaloLayout RowExecutor<T>::halo_layout(std::span<const std::size_t> elements, in
   }
   layout.is_stable = is_stable;
   return layout;
-}
-
-template <class T>
-void RowExecutor<T>::exchange(void (Halo::*act)(Side, int), int copy) {
-  for (const Side side : all_sides) (part_->halo.*act)(side, copy);
 }
 
 template <class T>
@@ -183,6 +153,7 @@ void RowExecutor<T>::start_leapfrog(std::span<const double> signals) {
 template <class T>
 Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
+  if (setup_.method.has_error_stage) return advance_by_tries(*this, setup_, steps, signals);
   const std::size_t width = signal_count(setup_.problem);
   if (rows_.is_staggered() && !is_started_) start_leapfrog(signals.first(width)), is_started_ = true;
   end_rates_ = {};
@@ -285,8 +256,9 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
 template <class T>
 std::string RowExecutor<T>::schedule() const {
   if (staged_)
-    return setup_.problem.extra_links.empty() ? "stage by stage: halos are exchanged in between"
-                                              : "stage by stage: extra links break the order of rows";
+    return setup_.method.has_error_stage        ? "stage by stage: adaptive steps"
+           : setup_.problem.extra_links.empty() ? "stage by stage: halos are exchanged in between"
+                                                : "stage by stage: extra links break the order of rows";
   return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place";
 }
 

@@ -19,6 +19,8 @@ public:
   void read(std::size_t first, std::span<double> fields) override;
   void derivative(std::span<const double> signals, std::span<double> rates) override;
   Outcome advance(long steps, std::span<const double> signals) override;
+  StepMaxima try_step(double dt, std::span<const double> signals) override;
+  void accept_step() override;
   std::string schedule() const override;
   std::size_t bytes() const override;
   int workers() const override { return staged_ ? staged_->threads() : threads_; }
@@ -38,7 +40,9 @@ private:
   /// Row of a copy that parts exchange, and where else it is kept (or null).
   std::pair<T*, T*> copy_row(int copy, int r);
   int current_copy() const { return staged_ ? staged_->current_copy() : parity_; }
-  void exchange(void (Halo::*act)(Side, int), int copy);
+  void exchange(void (Halo::*act)(Side, int), int copy) {
+    for (const Side side : all_sides) (part_->halo.*act)(side, copy);
+  }
   /// All of the halo anew, of the present state. Every part must take part.
   void refresh_halo();
   /// Rates of all model fields, packs of packed_.fields() fields, at the present state.

@@ -9,11 +9,12 @@ StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Problem& problem, c
                              const RowStorage& storage, int threads, const PartSetup* exchange)
     : packed_(packed), method_(method), exchange_(exchange), fields_(storage.stored()),
       pack_size_(std::size_t(fields_) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
-      failed_rows_(cuts_.size() - 1, -1), updates_(stage_updates<T>(method, storage, W, dt)),
+      failed_rows_(cuts_.size() - 1, -1), storage_(storage), updates_(stage_updates<T>(method, storage, W, dt)),
       extra_links_(problem, packed) {
-  const int copies = std::max(method.stages, 2);
+  const int copies = std::max(method.stages + int(method.has_error_stage), 2);
   for (int m = 0; m < copies; ++m) stages_.emplace_back(packed.readable_packs() * pack_size_, packed.memory);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
+  if (method.has_error_stage) own_lanes_ = own_lanes(packed, exchange == nullptr ? nullptr : &exchange->part);
   plan_rows();
 }
 
@@ -56,9 +57,10 @@ RowTask<T> StagedRows<T, W>::task_of(int thread, int stage, int r, bool is_whole
   RowTask<T> task;
   set_row(task, packed_, r, fields_, carry_[std::size_t(thread)], [&](int row) { return stage_row(stage, row); });
   if (!is_whole) return task;
-  const bool is_last = stage + 1 == method_.stages;
+  const bool is_last = stage + 1 == method_.stages && !method_.has_error_stage;
   T* const out = is_swapped() ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(stage + 1, r);
-  updates_[std::size_t(stage)].set(task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); });
+  updates_[std::size_t(stage)].set(
+      task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); }, step_);
   return task;
 }
 
@@ -76,6 +78,24 @@ void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& sign
     if (!is_finite && failed_rows_[std::size_t(thread)] < 0 && packed_.first_failed(r, task.out, fields_))
       failed_rows_[std::size_t(thread)] = r;
   }
+}
+
+template <class T, int W>
+StepMaxima StagedRows<T, W>::maxima(int thread) {
+  LaneMaxima<T, W> lanes;
+  for (int r = cuts_[std::size_t(thread)]; r < cuts_[std::size_t(thread) + 1]; ++r) {
+    const PackedRow<T>& row = packed_.rows[std::size_t(r)];
+    for (std::size_t p = 0; p < std::size_t(row.packs); ++p)
+      lanes.add(error_row(r) + p * pack_size_, tried_row(r) + p * pack_size_, own_lanes_[row.pack_offset + p],
+                packed_.layout.fields);
+  }
+  return lanes.maxima();
+}
+
+template <class T, int W>
+void StagedRows<T, W>::accept(int thread) {
+  for (int r = cuts_[std::size_t(thread)]; r < cuts_[std::size_t(thread) + 1]; ++r)
+    accept_row(storage_, packed_.rows[std::size_t(r)].packs, W, tried_row(r), row(r));
 }
 
 template <class T, int W>

@@ -1,6 +1,7 @@
 #pragma once
 /// Stage by stage: for scenes whose extra links break the order of rows, and for parts whose halo is exchanged after
 /// every stage. Every stage keeps all rows; threads meet twice a stage.
+#include "variants/engine/step_error.hpp"
 #include "variants/engine/wavefront.hpp"
 #include "variants/halo.hpp"
 
@@ -39,6 +40,15 @@ public:
   StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt,
              const RowStorage& storage, int threads, const PartSetup* exchange);
   T* row(int r) { return stage_row(0, r); }
+  /// Of a method with an error stage: the length of the steps that follow [s]. A step leaves the state as it is, and where it leads in
+  /// the tried rows.
+  void set_step(double dt) { step_ = T(dt); }
+  T* tried_row(int r) { return stage_row(method_.stages - 1, r); }
+  T* error_row(int r) { return stage_row(method_.stages, r); }
+  /// Of the rows of a thread, after a step that was tried.
+  StepMaxima maxima(int thread);
+  /// Makes the result of that step the state, in the rows of a thread.
+  void accept(int thread);
   /// Row r of a copy that parts exchange: an input of a stage, or the present and the next state of a method of one stage.
   T* copy_row(int copy, int r) { return buffer_row(std::size_t(copy), r); }
   int copies() const {
@@ -102,6 +112,9 @@ private:
   int parity_ = 0;
   std::vector<CarryRings<T>> carry_;
   std::vector<int> failed_rows_;
+  const RowStorage storage_;
+  T step_ = 1;                            ///< of a method with an error stage
+  std::vector<simd::LaneMask> own_lanes_; ///< the same: of each pack
   const std::vector<StageUpdate<T>> updates_;
   ExtraLinks<T, W> extra_links_;
 };

@@ -27,6 +27,8 @@ std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts) {
 
 static row_action action_of(const Method& method, const RowStorage& storage, std::size_t increments, bool is_last) {
   const bool is_kept = storage.is_compensated();
+  if (method.has_error_stage && is_last) return is_kept ? kept_error : error_stage;
+  if (method.has_error_stage) is_last = false; // what is accepted is not known yet
   if (method.is_in_place()) {
     if (storage.is_predicted()) return is_kept ? kept_predicted : predicted_step;
     return is_kept ? kept_leapfrog : leapfrog_step;
@@ -37,6 +39,7 @@ static row_action action_of(const Method& method, const RowStorage& storage, std
 
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage, int lanes, double dt) {
+  if (method.has_error_stage) dt = 1;
   std::vector<StageUpdate<T>> updates;
   for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
     StageUpdate<T> update;
@@ -49,6 +52,7 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage
     }
     update.is_last = int(s) + 1 == method.stages;
     update.action = action_of(method, storage, update.increments.size(), update.is_last);
+    if (method.has_error_stage) update.is_last = false; // StepMaxima says what is not finite
     update.low = storage.first_low() * lanes;
     update.beta = T(dt * method.beta[s] / (first == 0 ? 1 : first));
     if (update.increments.size() > RowTask<T>::most_increments)

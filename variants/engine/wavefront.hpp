@@ -80,13 +80,13 @@ struct StageUpdate {
   std::vector<std::pair<int, T>> increments; ///< (stage whose output Y_m is; alpha or ratio)
   /// The part of a task that it determines; `stage_output(m)` is the row of the output of stage m.
   template <class StageOutput>
-  void set(RowTask<T>& task, T* base, T* out, StageOutput&& stage_output) const {
+  void set(RowTask<T>& task, T* base, T* out, StageOutput&& stage_output, T step = 1) const {
     task.action = action;
     task.is_last = is_last;
     task.low = low;
     task.base = base;
     task.out = out;
-    task.beta = beta;
+    task.beta = step * beta;
     task.increments = int(increments.size());
     for (std::size_t m = 0; !increments.empty() && m < std::size(task.alpha); ++m) {
       const bool is_used = m < increments.size();
@@ -95,7 +95,7 @@ struct StageUpdate {
     }
   }
 };
-/// One for each stage of the method; `lanes` of a pack. @throws std::logic_error for more terms in a stage than a task holds.
+/// One for each stage of the method; `lanes` of a pack. A method with an error stage has a step of 1 here, and each its own in `set`. @throws std::logic_error for more terms in a stage than a task holds.
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage, int lanes, double dt);
 /// The last stage of a method that reads the output of stage s.

@@ -15,6 +15,8 @@ public:
     chosen_.derivative(signals, rates);
   }
   Outcome advance(long steps, std::span<const double> signals) override { return chosen_.advance(steps, signals); }
+  StepMaxima try_step(double dt, std::span<const double> signals) override { return chosen_.try_step(dt, signals); }
+  void accept_step() override { chosen_.accept_step(); }
   std::string schedule() const override { return chosen_.schedule(); }
   int workers() const override { return chosen_.workers(); }
   std::size_t bytes() const override { return chosen_.bytes(); }

@@ -27,6 +27,9 @@ public:
   /// A member whose state fails goes on to the end of the block of steps; then the first failure of all counts. After an exception of
   /// a member no more can be computed.
   Outcome advance(long steps, std::span<const double> signals) override;
+  /// With the shares as they are.
+  StepMaxima try_step(double dt, std::span<const double> signals) override;
+  void accept_step() override;
   std::string schedule() const override;
   int workers() const override;
   std::size_t bytes() const override;

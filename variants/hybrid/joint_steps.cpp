@@ -28,6 +28,18 @@ Outcome JointExecutor::advance(long steps, std::span<const double> signals) {
   return {true, std::max(steps, 0L), 0};
 }
 
+StepMaxima JointExecutor::try_step(double dt, std::span<const double> signals) {
+  std::vector<StepMaxima> maxima(parts_.size());
+  each_member([&](MemberPart& member, std::size_t m) { maxima[m] = member.try_step(dt, signals); });
+  StepMaxima all;
+  for (const StepMaxima& one : maxima) all.add(one);
+  return all;
+}
+
+void JointExecutor::accept_step() {
+  each_member([](MemberPart& member, std::size_t) { member.executor().accept_step(); });
+}
+
 Outcome JointExecutor::run(long steps, std::span<const double> signals) {
   std::vector<Outcome> outcomes(parts_.size());
   each_member([&](MemberPart& member, std::size_t m) { outcomes[m] = member.advance(steps, signals); });

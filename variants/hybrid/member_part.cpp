@@ -40,6 +40,13 @@ Outcome MemberPart::advance(long steps, std::span<const double> signals) {
   return outcome;
 }
 
+StepMaxima MemberPart::try_step(double dt, std::span<const double> signals) {
+  halo_.start_steps();
+  const StepMaxima maxima = executor_->try_step(dt, signals);
+  halo_.end_steps();
+  return maxima;
+}
+
 double MemberPart::step_s() {
   const double steps = double(std::max(1L, block_steps_));
   if (part_.neighbours.empty()) return block_s_ / steps;

@@ -38,6 +38,7 @@ public:
 
   /// Executor::advance, of this block of steps; the element of a failure is a global one.
   Outcome advance(long steps, std::span<const double> signals);
+  StepMaxima try_step(double dt, std::span<const double> signals);
   /// Its own time of a step since the block began [s]: as the executor says, the median between receptions, or, without neighbours, all of it.
   double step_s();
   void begin_block();

@@ -107,6 +107,18 @@ Outcome DistributedExecutor::advance(long steps, std::span<const double> signals
   return {false, long(step), std::size_t(world_.least(is_first ? double(global_of(own.element)) : never))};
 }
 
+StepMaxima DistributedExecutor::try_step(double dt, std::span<const double> signals) {
+  StepMaxima maxima = part_->try_step(dt, signals);
+  std::vector<double> values(maxima.error.begin(), maxima.error.end());
+  values.insert(values.end(), maxima.state.begin(), maxima.state.end());
+  values.push_back(maxima.is_finite ? 0 : 1);
+  world_.largest(values);
+  std::copy_n(values.begin(), StepMaxima::kinds, maxima.error.begin());
+  std::copy_n(values.begin() + StepMaxima::kinds, StepMaxima::kinds, maxima.state.begin());
+  maxima.is_finite = values.back() == 0;
+  return maxima;
+}
+
 std::string DistributedExecutor::schedule() const {
   return fmt::format("{} rank{}, {}, halo {}; {}", info_.ranks, info_.ranks == 1 ? "" : "s", info_.decomposition,
                      info_.halo, part_->executor().schedule());

@@ -16,6 +16,8 @@ public:
   /// A rank whose state fails goes on to the end of the call, since others wait for it; then all agree on the first
   /// failure.
   Outcome advance(long steps, std::span<const double> signals) override;
+  StepMaxima try_step(double dt, std::span<const double> signals) override;
+  void accept_step() override { part_->executor().accept_step(); }
   std::string schedule() const override;
   int workers() const override { return workers_; }
   std::size_t bytes() const override { return bytes_; }

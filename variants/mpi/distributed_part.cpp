@@ -56,15 +56,24 @@ std::vector<MessageOrder> DistributedPart::neighbours_orders(std::size_t number_
   return theirs;
 }
 
-Outcome DistributedPart::advance(long steps, std::span<const double> signals) {
+template <class Work>
+auto DistributedPart::counted(Work&& work) {
   if (faulty_halo_) faulty_halo_->start();
   const Traffic before = exchange_->traffic();
   const double before_s = halo_.total_s();
-  const Outcome outcome = executor_->advance(steps, signals);
+  const auto result = work();
   traffic_.messages += exchange_->traffic().messages - before.messages;
   traffic_.bytes += exchange_->traffic().bytes - before.bytes;
   traffic_.wait_s += halo_.total_s() - before_s;
-  return outcome;
+  return result;
+}
+
+Outcome DistributedPart::advance(long steps, std::span<const double> signals) {
+  return counted([&] { return executor_->advance(steps, signals); });
+}
+
+StepMaxima DistributedPart::try_step(double dt, std::span<const double> signals) {
+  return counted([&] { return executor_->try_step(dt, signals); });
 }
 
 } // namespace dss

@@ -21,6 +21,7 @@ public:
 
   /// Of this part: a state that fails is this rank's own.
   Outcome advance(long steps, std::span<const double> signals);
+  StepMaxima try_step(double dt, std::span<const double> signals);
   const Part& part() const { return part_; }
   Executor& executor() { return *executor_; }
   const Executor& executor() const { return *executor_; }
@@ -28,6 +29,9 @@ public:
   const Traffic& traffic() const { return traffic_; }
 
 private:
+  /// Does what exchanges halos, and counts what it takes.
+  template <class Work>
+  auto counted(Work&& work);
   std::vector<MessageOrder> neighbours_orders(std::size_t number_bytes, MPI_Comm comm);
 
   const Part part_;

@@ -93,6 +93,11 @@ double World::least(double value) {
 
 double World::largest(double value) { return -least(-value); }
 
+void World::largest(std::span<double> values) {
+  const Waiting waiting(Waiting::for_all);
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, MPI_MAX, comm_);
+}
+
 void World::meet() {
   const Waiting waiting(Waiting::for_all);
   MPI_Barrier(comm_);

@@ -33,6 +33,8 @@ public:
   void join(std::span<double> values);
   double least(double value);
   double largest(double value);
+  /// Of each value, for all.
+  void largest(std::span<double> values);
   void meet();
   /// See Executor::work_alone.
   void work_alone(bool is_alone);

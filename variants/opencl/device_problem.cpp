@@ -156,7 +156,7 @@ std::size_t DeviceProblem<T, W>::largest_group() const {
 template <class T, int W>
 Kernel DeviceProblem<T, W>::kernel(const char* name) const {
   Kernel kernel = queue.make_kernel(program_, name);
-  kernel.set(arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_);
+  kernel.set(arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_, T(1));
   return kernel;
 }
 

@@ -55,8 +55,10 @@ public:
   void finish();
   /// A kernel with the tables as its first arguments.
   Kernel kernel(const char* name) const;
-  static constexpr cl_uint table_arguments = 7;
+  static constexpr cl_uint table_arguments = 8, step_argument = 7; ///< the last: see tables_of_device.h
 
+  /// Work-items that compute a band.
+  std::size_t group_size() const { return group_size_; }
   /// Launches a kernel over bands, by a queue of the device and after these events. @return its event
   cl::Event launch(Queue& by, const Kernel& kernel, int bands, const Events& after = {});
   /// The host may use the arena until to_device(). Without shared memory [from, to) of these ranges are copied.

@@ -17,8 +17,9 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
   // Work-items of a group read what others update in place: methods in place take turns between two states there.
   // Where bands are thinner than their halo, most of what they do is done by others as well.
   const int rows = packed_.own_end - packed_.own_begin, halo = setup_.method.stages * packed_.reach;
-  const bool is_staged = (layout.has_items && rows < layout.bands * halo) || !setup_.problem.extra_links.empty() ||
-                         (is_part() && part_->is_every_stage) || (layout.has_items && setup_.method.is_in_place());
+  const bool is_staged = setup_.method.has_error_stage || (layout.has_items && rows < layout.bands * halo) ||
+                         !setup_.problem.extra_links.empty() || (is_part() && part_->is_every_stage) ||
+                         (layout.has_items && setup_.method.is_in_place());
   if (is_staged)
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(), layout.bands, part_);
   else
@@ -129,6 +130,7 @@ void ResidentExecutor<T, W>::make_kernels() {
     progress_ = problem_.queue.make_buffer(std::size_t(bands_) * sizeof(cl_int));
     return;
   }
+  if (setup_.method.has_error_stage) make_error_kernels();
   for (const auto& lists : lists_) list_tables_.push_back(problem_.table(lists));
   for (int parity = 0; problem_.has_extra_links() && parity < (staged_->is_swapped() ? 2 : 1); ++parity) {
     for (int stage = 0; stage < setup_.method.stages; ++stage) {
@@ -151,6 +153,7 @@ void ResidentExecutor<T, W>::warm_up() {
     if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_.front());
     set_stage_arguments(nothing, 0, 0);
     problem_.launch(problem_.queue, kernel_, bands_);
+    if (setup_.method.has_error_stage) warm_up_error_kernels(nothing);
   } else {
     set_pass_arguments(0);
     run_to(0, false);

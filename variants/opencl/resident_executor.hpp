@@ -19,6 +19,8 @@ public:
   void read(std::size_t first, std::span<double> fields) override;
   void derivative(std::span<const double> signals, std::span<double> rates) override;
   Outcome advance(long steps, std::span<const double> signals) override;
+  StepMaxima try_step(double dt, std::span<const double> signals) override;
+  void accept_step() override;
   std::string schedule() const override;
   int workers() const override { return bands_; }
   std::size_t bytes() const override { return problem_.bytes(); }
@@ -80,6 +82,10 @@ private:
   /// Passes up to and with the one that failed, at most `passes`.
   long passes_to_do(long passes);
   Outcome run_stages(long steps);
+  /// All stages of a step, with their halos. `is_last`: nobody waits for the halo of its result.
+  void launch_step(long step, bool is_last);
+  void make_error_kernels();
+  void warm_up_error_kernels(const opencl::Buffer& nothing);
   void launch_stage(int stage, long step);
   void forget_failures();
   Outcome outcome(long steps);
@@ -106,6 +112,8 @@ private:
   opencl::Buffer sweep_table_, neighbour_table_, failed_, progress_;
   std::vector<opencl::Buffer> list_tables_, row_starts_;
   Kernel kernel_;
+  Kernel maxima_kernel_, accept_kernel_;                         ///< of a method with an error stage
+  opencl::Buffer maxima_;                                        ///< the same: of each band, see device/step_error.cl
   mutable HaloRows<T, W> halo_rows_;                             ///< as the problem's queue: counts wait for transfers
   std::vector<typename HaloRows<T, W>::Ranges> sent_, received_; ///< by copy
   bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before

@@ -3,6 +3,7 @@
 #include "kernels/rk_update/update.hpp"
 #include "solver/numerics/denormals.hpp"
 #include "variants/engine/packs.hpp"
+#include "variants/tried_steps.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,7 +19,9 @@ RhsExecutor<T, W>::RhsExecutor(const Setup& setup, const Device& device, const L
   state_ = dss::Buffer<T>(stored);
   plain_ = dss::Buffer<T>(rates_.size());
   sums_ = dss::Buffer<T>(rates_.size());
-  for (int s = 0; s + 1 < setup_.method.stages; ++s) stages_.emplace_back(stored);
+  const bool has_error = setup_.method.has_error_stage;
+  for (int s = 0; s + 1 < setup_.method.stages + int(has_error); ++s) stages_.emplace_back(stored);
+  if (has_error) own_lanes_ = own_lanes<T, W>(packed_, nullptr);
 }
 
 template <class T, int W>
@@ -112,12 +115,12 @@ int RhsExecutor<T, W>::each_row(Update&& update) {
 template <class T, int W>
 template <class Physics>
 int RhsExecutor<T, W>::update_stage(int stage) {
-  const bool is_last = stage + 1 == setup_.method.stages;
+  const bool is_last = stage + 1 == setup_.method.stages && !setup_.method.has_error_stage;
   return each_row([&](int r) {
     const PackedRow<T>& packed_row = packed_.rows[std::size_t(r)];
     RowTask<T> task;
-    updates_[std::size_t(stage)].set(task, row(r), is_last ? row(r) : stage_row(stage, r),
-                                     [&](int m) { return stage_row(m, r); });
+    updates_[std::size_t(stage)].set(
+        task, row(r), is_last ? row(r) : stage_row(stage, r), [&](int m) { return stage_row(m, r); }, step_);
     task.body = packed_row.body;
     RowUpdate<Physics, T, W> update(task, scales_of(packed_, r).parts[3].factor);
     const T* const in = stage == 0 ? row(r) : stage_row(stage - 1, r);
@@ -152,8 +155,32 @@ int RhsExecutor<T, W>::step(std::span<const double> signals) {
 }
 
 template <class T, int W>
+StepMaxima RhsExecutor<T, W>::try_step(double dt, std::span<const double> signals) {
+  step_ = T(dt);
+  step(signals);
+  const int stages = setup_.method.stages;
+  const std::size_t pack_size = std::size_t(rows_.stored_fields() * W);
+  LaneMaxima<T, W> lanes;
+  for (int r = 0; r < int(packed_.rows.size()); ++r)
+    for (std::size_t p = 0; p < std::size_t(packed_.rows[std::size_t(r)].packs); ++p)
+      lanes.add(stage_row(stages - 1, r) + p * pack_size, stage_row(stages - 2, r) + p * pack_size,
+                own_lanes_[packed_.rows[std::size_t(r)].pack_offset + p], packed_.layout.fields);
+  return lanes.maxima();
+}
+
+template <class T, int W>
+void RhsExecutor<T, W>::accept_step() {
+  each_row([&](int r) {
+    const int packs = packed_.rows[std::size_t(r)].packs;
+    accept_row(rows_.storage(), packs, W, stage_row(setup_.method.stages - 2, r), row(r));
+    return true;
+  });
+}
+
+template <class T, int W>
 Outcome RhsExecutor<T, W>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
+  if (setup_.method.has_error_stage) return advance_by_tries(*this, setup_, steps, signals);
   const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
   if (rows_.is_staggered() && !is_started_) rows_.start(scaled_rates(signals.first(width)).data()), is_started_ = true;
   end_rates_.clear();

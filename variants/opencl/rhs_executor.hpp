@@ -4,6 +4,7 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "variants/api.hpp"
 #include "variants/engine/state_rows.hpp"
+#include "variants/engine/step_error.hpp"
 #include "variants/engine/wavefront.hpp"
 #include "variants/opencl/device_rates.hpp"
 
@@ -17,6 +18,8 @@ public:
   void read(std::size_t first, std::span<double> fields) override;
   void derivative(std::span<const double> signals, std::span<double> rates) override;
   Outcome advance(long steps, std::span<const double> signals) override;
+  StepMaxima try_step(double dt, std::span<const double> signals) override;
+  void accept_step() override;
   std::string schedule() const override;
   int workers() const override { return rates_.bands(); }
   std::size_t bytes() const override;
@@ -44,7 +47,10 @@ private:
   const PackedRows<T, W>& packed_ = rates_.device().packed;
   StateRows<T, W> rows_;
   dss::Buffer<T> state_, plain_, sums_;
-  std::vector<dss::Buffer<T>> stages_; ///< output of all stages but the last
+  std::vector<dss::Buffer<T>>
+      stages_; ///< output of all stages but the last; of a method with an error stage also of that
+  T step_ = 1; ///< of such a method
+  std::vector<simd::LaneMask> own_lanes_; ///< the same: of each pack
   const std::vector<StageUpdate<T>> updates_;
   bool is_started_ = false;
   std::vector<double> end_signals_;

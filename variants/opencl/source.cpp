@@ -88,7 +88,9 @@ std::string row_program(const ProgramKind& kind) {
   text += fmt::format("static int run_task(device d, global const row_stage* task, global const NUMBER* signals) {{\n"
                       "{}  return 1;\n}}\n",
                       cases);
-  return text + device_text("passes.cl");
+  text += device_text("passes.cl");
+  if (kind.actions.contains(error_stage) || kind.actions.contains(kept_error)) text += device_text("step_error.cl");
+  return text;
 }
 
 std::string extra_link_program(const ProgramKind& kind) { return head(kind, true) + device_text("extra_links.cl"); }

@@ -2,7 +2,7 @@
 /// hand.
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
-#include "variants/api.hpp"
+#include "variants/tried_steps.hpp"
 
 namespace dss {
 namespace {
@@ -12,8 +12,8 @@ template <class T>
 class ReferenceExecutor final : public Executor {
 public:
   explicit ReferenceExecutor(const Setup& setup)
-      : oracle_(setup.problem, setup.method, setup.dt, setup.rotation), row_width_(signal_count(setup.problem)),
-        stages_(setup.method.stages) {}
+      : setup_(setup), oracle_(setup.problem, setup.method, setup.dt, setup.rotation),
+        row_width_(signal_count(setup.problem)), stages_(setup.method.stages) {}
 
   void write(std::size_t first, std::span<const double> fields) override { oracle_.write(fields, first); }
   void read(std::size_t first, std::span<double> fields) override { oracle_.read(fields, first); }
@@ -21,17 +21,21 @@ public:
     oracle_.derivative(signals, rates);
   }
   Outcome advance(long steps, std::span<const double> signals) override {
+    if (setup_.method.has_error_stage) return advance_by_tries(*this, setup_, steps, signals);
     const auto breakdown = oracle_.advance(steps, [&](long step, int stage) {
       return signals.subspan(std::size_t(step * stages_ + stage) * row_width_, row_width_);
     });
     if (breakdown) return {false, breakdown->step, breakdown->element, breakdown->what};
     return {true, steps, 0};
   }
+  StepMaxima try_step(double dt, std::span<const double> signals) override { return oracle_.try_step(dt, signals); }
+  void accept_step() override { oracle_.accept_step(); }
   std::string schedule() const override { return "stage by stage: straightforward code"; }
   int workers() const override { return 1; }
   std::size_t bytes() const override { return oracle_.bytes(); }
 
 private:
+  const Setup setup_;
   Oracle<T> oracle_;
   std::size_t row_width_;
   long stages_;

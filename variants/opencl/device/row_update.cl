@@ -4,28 +4,36 @@
 /* Calls act on all components of what the fields' rates are, with their factor to the increment as `beta`. */
 #define NEXT(factor, each, act, t) { const REAL beta = factor; each(act, t) }
 #define EACH_NEXT(act) \
-    NEXT(SPLAT(task->beta), EACH_OF_VEC, act, next_u) \
-    NEXT(SPLAT(task->beta) * inverse_mass, EACH_OF_VEC, act, next_v) \
-    NEXT(SPLAT(task->beta * (NUMBER)0.5), EACH_OF_ROTOR, act, next_q) \
-    NEXT(SPLAT(task->beta) * turn_scale, EACH_OF_SPIN, act, next_w)
+    NEXT(SPLAT(h), EACH_OF_VEC, act, next_u) \
+    NEXT(SPLAT(h) * inverse_mass, EACH_OF_VEC, act, next_v) \
+    NEXT(SPLAT(h * (NUMBER)0.5), EACH_OF_ROTOR, act, next_q) \
+    NEXT(SPLAT(h) * turn_scale, EACH_OF_SPIN, act, next_w)
 
-static inline REAL wide_sum(device d, global const row_stage* task, const long at, REAL y, REAL beta, REAL rate) {
+static inline REAL increments(device d, global const row_stage* task, const long at, REAL y, REAL beta, REAL rate) {
   REAL t = rk_first(LOAD(d.arena + task->increment[0] + at) - y, beta, rate);
   for (int m = 1; m < task->increments; ++m)
     t = rk_increment(SPLAT(task->alpha[m]), LOAD(d.arena + task->increment[m] + at), y, t);
-  return rk_finish(SPLAT(task->alpha[0]), t, y);
+  return t;
+}
+static inline REAL wide_sum(device d, global const row_stage* task, const long at, REAL y, REAL beta, REAL rate) {
+  return rk_finish(SPLAT(task->alpha[0]), increments(d, task, at, y, beta, rate), y);
+}
+static inline REAL estimate(device d, global const row_stage* task, const long at, REAL y, REAL beta, REAL rate) {
+  return rk_estimate(SPLAT(task->alpha[0]), increments(d, task, at, y, beta, rate));
 }
 
+static inline REAL kept_increment(device d, global const row_stage* task, const long at, REAL beta, REAL rate) {
+  const int low = task->low;
+  if (task->increments == 0) return beta * rate;
+  REAL t = kept_first(LOAD(d.arena + task->increment[0] + low + at), beta, rate);
+  for (int m = 1; m < task->increments; ++m)
+    t = kept_later(SPLAT(task->alpha[m]), LOAD(d.arena + task->increment[m] + low + at), t);
+  return SPLAT(task->alpha[0]) * t;
+}
 /* Leaves the increment, or of a last stage the state's low part, behind the field. */
 static inline REAL kept_sum(device d, global const row_stage* task, const long at, REAL beta, REAL rate) {
   const int low = task->low;
-  REAL t = beta * rate;
-  if (task->increments > 0) {
-    t = kept_first(LOAD(d.arena + task->increment[0] + low + at), beta, rate);
-    for (int m = 1; m < task->increments; ++m)
-      t = kept_later(SPLAT(task->alpha[m]), LOAD(d.arena + task->increment[m] + low + at), t);
-    t = SPLAT(task->alpha[0]) * t;
-  }
+  const REAL t = kept_increment(d, task, at, beta, rate);
   const REAL y = LOAD(d.arena + task->base + at), s = LOAD(d.arena + task->base + low + at) + t, sum = y + s;
   STORE(task->action == kept_step ? lost_of_sum(y, s, sum) : t, d.arena + task->out + low + at);
   return sum;
@@ -103,6 +111,7 @@ static inline REAL row_update(device d, global const row_stage* task, const long
     return kept_leapfrog_update(d, task, place, e, force, inverse_mass, angular, turn_scale, action == kept_predicted,
                                 check);
   global const NUMBER* y = d.arena + task->base + place;
+  const NUMBER h = task->beta * d.step;
   vec next_u = e.v, next_v = force;
   rotor next_q = rotor_spun(e.q, e.w);
   spin next_w = angular;
@@ -121,6 +130,14 @@ static inline REAL row_update(device d, global const row_stage* task, const long
     long at = place;
 #define KEEP_SUM(c) c = kept_sum(d, task, at, beta, c), STORE(c, p), p += W, at += W;
     EACH_NEXT(KEEP_SUM)
+  } else if (HAS(error_stage) && action == error_stage) {
+    long at = place;
+#define ESTIMATE(c) c = estimate(d, task, at, LOAD(y), beta, c), STORE(c, p), p += W, y += W, at += W;
+    EACH_NEXT(ESTIMATE)
+  } else if (HAS(kept_error) && action == kept_error) {
+    long at = place;
+#define KEPT_ESTIMATE(c) c = kept_increment(d, task, at, beta, c), STORE(c, p), p += W, at += W;
+    EACH_NEXT(KEPT_ESTIMATE)
   } else {
 #define ADVANCE(c) c = rk_first(LOAD(y), beta, c), STORE(c, p), p += W, y += W;
     EACH_NEXT(ADVANCE)

@@ -1,4 +1,4 @@
-/* All tables, as kernels hand them on. */
+/* All tables, as kernels hand them on. `step`: of a method with an error stage the length of the step, else 1. */
 typedef struct {
   global NUMBER* arena;
   global const row_stage* tasks;
@@ -7,10 +7,11 @@ typedef struct {
   global const applied_row* applied;
   global const pattern* patterns;
   global const ushort* free_lanes;
+  NUMBER step;
 } device;
 #define TABLES                                                                                                         \
   global NUMBER *arena, global const row_stage *tasks, global const body_constants *bodies,                            \
       global const pack_masks *masks, global const applied_row *applied, global const pattern *patterns,               \
-      global const ushort *free_lanes
+      global const ushort *free_lanes, const NUMBER step_length
 #define DEVICE                                                                                                         \
-  { arena, tasks, bodies, masks, applied, patterns, free_lanes }
+  { arena, tasks, bodies, masks, applied, patterns, free_lanes, step_length }
