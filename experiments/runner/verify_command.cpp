@@ -171,8 +171,11 @@ std::vector<VerifyRow> rows_of_jobs(const VerifyArguments& arguments, const std:
 
 std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments, const std::vector<std::string>& names) {
   std::vector<VerifyRow> rows;
-  const std::vector<const Plugin*> plugins = chosen_plugins(arguments.variants, rows);
-  require_device(arguments.device, plugins);
+  std::vector<const Plugin*> plugins = chosen_plugins(arguments.variants, rows);
+  if (arguments.device == "none")
+    std::erase_if(plugins, [](const Plugin* plugin) { return plugin->devices != nullptr; });
+  else
+    require_device(arguments.device, plugins);
   each_case(names, [&](const std::string& set, const Scene& scene, long steps) {
     add_rows(verify_scene(scene, steps, plugins, arguments.device), set, rows);
   });
@@ -229,7 +232,7 @@ void add_verify_command(CLI::App& app, Chosen& chosen) {
       ->check(CLI::Range(1, 4096))
       ->allow_extra_args(false);
   command->add_option("--device", arguments->device,
-                      "For variants on devices, as for `dssbench run` (default: their first)");
+                      "For variants on devices, as for `dssbench run` (default: their first); none: leave them out");
   command->add_option("--json", arguments->json, "File for the table, or - for standard output");
   command->add_flag("--quiet", arguments->is_quiet, "Print only what failed or was skipped");
   command->footer("Example: dssbench verify plate_paper tumbling_box --variant avx2,avx512\n"

@@ -30,7 +30,7 @@ TEST_F(OpenCl, states_have_the_bits_of_packs_after_200_steps_of_its_right_hand_s
 TEST_F(OpenCl, states_and_rates_have_the_bits_of_packs_in_the_work_groups_of_a_gpu) {
   const DeviceAs gpu("gpu");
   each_run(packs(), [](const VariantRun& run, const State& start) {
-    if (run.problem.name != "everything" || run.model == Model::planar || run.precision == Precision::f32) return;
+    if (run.problem.name != "everything" || run.model == Model::planar || run.precision != Precision::f64) return;
     const VariantRun other{load_variant("opencl"), run.problem, run.method, run.model, run.precision};
     EXPECT_NE(other.executor()->schedule().find("work-groups of 16 lanes"), std::string::npos);
     EXPECT_EQ(differing_bits(run.after(start, 12), other.after(start, 12), run.precision), 0u);
@@ -40,7 +40,9 @@ TEST_F(OpenCl, states_and_rates_have_the_bits_of_packs_in_the_work_groups_of_a_g
 TEST_F(OpenCl, states_have_the_bits_of_packs_in_the_wavefront_of_a_gpu) {
   const DeviceAs gpu("gpu");
   each_run(packs(), [](const VariantRun& run, const State& start) {
+    const bool is_compensated = run.precision == Precision::f32c && run.method.name == "rk4";
     if (run.problem.name != "plate" || (run.model == Model::spatial) == (run.precision == Precision::f32)) return;
+    if (run.precision == Precision::f32c && !is_compensated) return;
     for (const char* variant : {"opencl", "opencl-rhs"}) {
       const VariantRun other{load_variant(variant), run.problem, run.method, run.model, run.precision};
       EXPECT_EQ(differing_bits(run.after(start, 12), other.after(start, 12), run.precision), 0u) << variant;
@@ -53,7 +55,7 @@ TEST_F(OpenCl, states_have_the_bits_of_packs_on_a_device_with_memory_of_its_own)
   const DeviceAs device("discrete");
   EXPECT_FALSE(opencl::find_device("", Precision::f32).is_unified);
   each_run(packs(), [&](const VariantRun& run, const State& start) {
-    if (run.precision == Precision::f32 || !is_chosen(run)) return;
+    if (run.precision == Precision::f32 || !is_chosen(run) || run.method.name == "dopri5") return;
     const VariantRun other{load_variant("opencl"), run.problem, run.method, run.model, run.precision, 2};
     EXPECT_EQ(differing_bits(run.after(start, 12), other.after(start, 12), run.precision), 0u);
   });

@@ -104,7 +104,7 @@ TEST_P(Parts, make_up_the_whole_to_the_last_bit) {
   const bool is_on_device = plugin.devices != nullptr; // a launch takes there what all steps of a run take here
   const std::vector<int> counts = is_on_device ? std::vector{3} : std::vector{2, 3, 4};
   for (const Case& c : cases())
-    for (const auto& [method, precision] : brief_schemes()) {
+    for (const auto& [method, precision] : is_on_device ? device_schemes() : brief_schemes()) {
       const State start = rounded(fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01), precision);
       const State whole = VariantRun{plugin, c.problem, method, Model::spatial, precision}.after(start, 30);
       for (const std::string_view how : usable_methods())

@@ -44,7 +44,7 @@ protected:
     return c.is_planar ? std::vector{Model::spatial, Model::planar} : std::vector{Model::spatial};
   }
   std::vector<Scheme> tested_schemes() const {
-    if (plugin.devices != nullptr) return brief_schemes(); // which take seconds for each program
+    if (plugin.devices != nullptr) return device_schemes();
     std::vector<Scheme> all;
     for (const Scheme& scheme : schemes())
       if (plugin.is_compensated || scheme.precision != Precision::f32c) all.push_back(scheme);
@@ -87,7 +87,7 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
   const bool is_on_device = plugin.devices != nullptr; // each is a device of its own there, which takes time to make
   const std::vector<int> counts = is_on_device ? std::vector{2, 7} : std::vector{2, 3, 4, 7};
   for (const Case& c : cases())
-    for (const auto& [method, precision] : brief_schemes()) {
+    for (const auto& [method, precision] : is_on_device ? device_schemes() : brief_schemes()) {
       if (is_on_device && c.name.starts_with("row_of") && !c.name.starts_with("row_of_17")) continue;
       const State state = rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
       const State one = VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
@@ -143,7 +143,7 @@ TEST_P(EveryVariant, reports_the_same_first_failure_however_many_steps_and_threa
     const auto failure = [&](int threads, long at_once) {
       const auto run =
           plugin.create({problem, method, Model::spatial, Precision::f64, dt, plugin.is_threaded ? threads : 1});
-      run->write(0, fixture::random_state(problem, 5, 1e-20, 1e-18, 1e-18));
+      run->write(0, fixture::random_state(problem, 5, 1e-60, 1e-58, 1e-58));
       return advance_until_failure(*run, problem, method, dt, at_once);
     };
     const Outcome first = failure(1, 1);
@@ -179,7 +179,7 @@ TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
         for (const Plugin* other : fused) {
           // A row is made for the lanes of packs on this CPU; a launch takes as long as all of its steps.
           const bool is_left_out =
-              other->devices != nullptr && (c.name.starts_with("row_of") || !is_brief({method, precision}));
+              other->devices != nullptr && (c.name.starts_with("row_of") || !is_for_devices({method, precision}));
           if (other == fused[0] || is_left_out) continue;
           EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60),
                                    precision),
