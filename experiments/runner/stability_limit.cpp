@@ -148,7 +148,9 @@ void judge(LimitComparison& row) {
   if (limit == 0) {
     row.reason = "grows however small the step";
     if (row.measured.dt == 0) return;
-    row.status = "failed";
+    // A mode has a small share of the random start: it is seen when it has grown by some e^10.
+    const double growth = spectral_radius(*row.method, row.measured.dt, row.predicted.omega_max, 0) - 1;
+    row.status = growth * double(row.measured.steps) < 10 ? "unresolved" : "failed";
     row.reason = fmt::format("should grow at every step, but is bounded at {:.4g} s", row.measured.dt);
     return;
   }
