@@ -73,7 +73,7 @@ private:
   std::vector<const Method*> verified_methods(const Plugin& plugin) const {
     std::vector<const Method*> chosen;
     for (const Method& method : methods())
-      if ((precision_ == Precision::f64 && plugin.devices == nullptr) || is_of_the_tables(method))
+      if ((precision_ == Precision::f64 && (plugin.kernels != nullptr || plugin.has_all)) || is_of_the_tables(method))
         chosen.push_back(&method);
     return chosen;
   }

@@ -43,6 +43,9 @@ inline State flattened(State state) {
   return state;
 }
 
+/// Whether a variant computes by kernels that are not its own: on devices, by members, on ranks. What kernels do is tested in theirs.
+inline bool is_composed(const Plugin& plugin) { return plugin.kernels == nullptr && !plugin.has_all; }
+
 /// Methods for what a variant does by itself: all, but not again where its bits are those of the fastest variant.
 inline std::vector<Method> distinct_methods(const Plugin& plugin) {
   return plugin.has_fma && plugin.name != std::string_view(load_variant("auto").name) ? brief_methods() : methods();

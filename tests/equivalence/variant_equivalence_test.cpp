@@ -44,7 +44,7 @@ protected:
     return c.is_planar ? std::vector{Model::spatial, Model::planar} : std::vector{Model::spatial};
   }
   std::vector<Scheme> tested_schemes() const {
-    if (plugin.devices != nullptr) return device_schemes();
+    if (is_composed(plugin)) return device_schemes();
     std::vector<Scheme> all;
     for (const Scheme& scheme : schemes())
       if (plugin.is_compensated || scheme.precision != Precision::f32c) all.push_back(scheme);
@@ -179,7 +179,7 @@ TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
         for (const Plugin* other : fused) {
           // A row is made for the lanes of packs on this CPU; a launch takes as long as all of its steps.
           const bool is_left_out =
-              other->devices != nullptr && (c.name.starts_with("row_of") || !is_for_devices({method, precision}));
+              is_composed(*other) && (c.name.starts_with("row_of") || !is_for_devices({method, precision}));
           if (other == fused[0] || is_left_out) continue;
           EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60),
                                    precision),
