@@ -1,5 +1,6 @@
 #pragma once
 /// What a tried step leaves in rows of packs: maxima of its estimated error and of the state it leads to, and that state as the next one.
+#include "kernels/physics.hpp"
 #include "solver/numerics/step_control.hpp"
 #include "variants/engine/row_storage.hpp"
 
@@ -75,8 +76,7 @@ void accept_row(const RowStorage& storage, int packs, int lanes, const T* next, 
   for (int p = 0; p < packs; ++p, next += pack_size, state += pack_size)
     for (std::size_t n = 0; n < fields; ++n) {
       const T y = state[n], s = state[low + n] + next[low + n], sum = next[n];
-      const T t = sum - y; // as lost_of_sum of kernels/rk_update
-      state[low + n] = (y - (sum - t)) + (s - t);
+      state[low + n] = SpatialPhysics<T>::lost_of_sum(y, s, sum);
       state[n] = sum;
     }
 }

@@ -2,6 +2,7 @@
 
 #include "solver/error.hpp"
 #include "variants/engine/packs.hpp"
+#include "variants/engine/step_error.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -79,6 +80,7 @@ void DeviceProblem<T, W>::make_constant_tables() {
   using K = Tables<T>;
   std::vector<typename K::body_constants> bodies(problem_.bodies.size());
   std::vector<typename K::pack_masks> masks;
+  const std::vector<simd::LaneMask> own = own_lanes(packed, part_);
   std::vector<typename K::applied_row> applied(packed.rows.size());
   std::vector<typename K::pattern> patterns;
   std::vector<ushort> free_lanes;
@@ -88,12 +90,8 @@ void DeviceProblem<T, W>::make_constant_tables() {
     std::memcpy(&bodies[std::size_t(packed.lattice.rows[r].body)], row.body, sizeof(BodyConstants<T>));
     for (int p = 0; p < row.packs; ++p) {
       const PackMasks& m = row.masks[p];
-      masks.push_back({m.link_x, m.link_y, m.link_z, m.below_y, m.below_z, 0});
+      masks.push_back({m.link_x, m.link_y, m.link_z, m.below_y, m.below_z, own[masks.size()]});
     }
-    each_cell(packed.lattice, packed.lattice.rows[r], [&](std::size_t element, int x) {
-      if (part_ == nullptr || part_->layer[element] == 0)
-        masks[row.pack_offset + std::size_t(x / W - row.first_pack)].own |= ushort(1u << (x % W));
-    });
     if (row.applied == nullptr) continue;
     const Applied<T>& a = *row.applied;
     applied[r] = {a.first, a.packs, int(patterns.size()), a.pattern_count,
