@@ -45,7 +45,7 @@ struct CellState {
 class ExperimentRun {
 public:
   ExperimentRun(const Study& study, const std::string& directory, bool resume, const std::string& program)
-      : study_(study), paths_(experiment_paths(directory, study.name)), program_(program), resume_(resume),
+      : study_(study), paths_(experiment_paths(directory, study.name)), program_(program),
         file_(paths_.raw, raw_columns(), resume), start_(std::chrono::steady_clock::now()), cores_(usable_cores()),
         expected_(study, paths_.oracle_directory, resume, [this](const std::string& line) { progress_.note(line); }) {
     for (const Cell& cell : study.cells)
@@ -219,7 +219,7 @@ private:
   const Study& study_;
   ExperimentPaths paths_;
   std::string program_;
-  bool resume_, has_context_ = false;
+  bool has_context_ = false;
   nlohmann::json context_; ///< of the last child
   RecordFile file_;
   std::chrono::steady_clock::time_point start_;
