@@ -17,7 +17,7 @@ from matplotlib.ticker import NullFormatter  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision. Methods that come later take those that are left.
-COLOURS = {"rk4": "#0072B2", "velocity_verlet": "#D55E00", "midpoint": "#009E73", "symplectic_euler": "#CC79A7", "dopri5": "#E69F00", "rkc2": "#56B4E9",
+COLOURS = {"rk4": "#0072B2", "velocity_verlet": "#D55E00", "midpoint": "#009E73", "symplectic_euler": "#CC79A7", "dopri5": "#E69F00", "dopri5 adaptive": "#8B6100", "rkc2": "#56B4E9",
            "implicit_midpoint": "#000000"}
 OTHER_COLOUR = "#999999"
 LINES = {"f64": "-", "f32": ":", "f32c": "--"}
@@ -29,7 +29,7 @@ EDGE = {"refused": "above the stability limit", "unstable": "unstable", "inaccur
 
 def draw_line(axes, rows, work, colour, line, marker):
     """Points of one method, precision and variant, joined in order of their steps."""
-    rows = rows.sort_values("dt_s")
+    rows = rows.sort_values(["dt_s", "rtol"])
     axes.plot(rows[work], rows["error_max"], color=colour, linestyle=line, linewidth=1.1, alpha=0.8, zorder=2)
     for below, points in rows.groupby("below_reference"):
         axes.plot(points[work], points["error_max"], linestyle="none", marker=marker, markersize=4, color=colour,
@@ -89,6 +89,7 @@ def draw(path, output):
     table = pandas.read_csv(path)
     if "error_max" not in table.columns or "pareto" not in table.columns:
         return f"{path}: has no errors against work; measure it with `dssbench experiment work_precision`"
+    table.loc[table["rtol"].notna(), "integrator"] += " adaptive"
     if not (table["status"] == "ok").any():
         return f"{path}: no point was measured"
     markers = {variant: MARKERS[place % len(MARKERS)] for place, variant in enumerate(table.loc[table["status"] == "ok", "variant"].unique())}

@@ -1,5 +1,5 @@
 #include "experiments/runner/balance_study.hpp"
-#include "experiments/runner/study.hpp"
+#include "experiments/runner/keyed_study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "variants/balance_model.hpp"
 
@@ -35,17 +35,15 @@ Record modelled_row(const BalanceStudy& study, double ratio, int rows, const Mod
 
 } // namespace
 
-std::optional<BalanceStudy> load_balance(const std::string& study) {
-  const std::string path = study_path(study);
-  const nlohmann::json json = parse_json_file(path);
-  if (!json.is_object() || !json.contains("balance")) return {};
-  const JsonPlace root(json, path);
-  root.require_keys({"experiment", "title", "balance", "scales"});
-  const JsonPlace place = root["balance"];
+std::optional<BalanceStudy> load_balance(const std::string& study, const std::string& scale) {
+  const auto opened = open_study(study, "balance", scale);
+  if (!opened) return {};
+  opened->scale.require_keys({});
+  const JsonPlace& place = opened->work;
   place.require_keys({"slow_element_steps_per_s", "speed_ratios", "n", "links"});
   BalanceStudy balance;
-  balance.name = root["experiment"].text();
-  balance.title = root["title"].text();
+  balance.name = opened->name;
+  balance.title = opened->title;
   balance.slow_speed = place["slow_element_steps_per_s"].positive();
   for (const JsonPlace& ratio : place["speed_ratios"].items()) balance.ratios.push_back(ratio.positive());
   for (const JsonPlace& rows : place["n"].items()) balance.rows.push_back(int(rows.count(2)));

@@ -27,7 +27,7 @@ struct BalanceStudy {
 };
 
 /// Nothing if the study has no key "balance". @throws InputError: file, JSON pointer, what is wrong
-std::optional<BalanceStudy> load_balance(const std::string& study);
+std::optional<BalanceStudy> load_balance(const std::string& study, const std::string& scale);
 
 /// Columns begin with `modelled_`, and every row's status is "modelled".
 Table balance_table(const BalanceStudy& study);

@@ -30,6 +30,7 @@ Record identity(const RecordPlace& place) {
   row["cores"] = fmt::format("{}", place.cores);
   row["steps"] = fmt::format("{}", cell.steps);
   row["full_steps"] = fmt::format("{}", cell.full_steps);
+  if (cell.rtol > 0) row["rtol"] = fmt::format("{}", cell.rtol);
   row["repetition"] = fmt::format("{}", place.repetition);
   row["attempt"] = fmt::format("{}", place.attempt);
   return row;
@@ -63,6 +64,7 @@ std::vector<std::string> run_arguments(const Study& study, const Cell& cell, con
   if (cell.is_of_precision()) line.insert(line.end(), {"--repeat-for", text(study.scale.repeat_for)});
   if (cell.step_limit > 0) line.insert(line.end(), {"--stability-limit", text(cell.step_limit)});
   if (cell.dt > 0) line.insert(line.end(), {"--dt", text(cell.dt)});
+  if (cell.rtol > 0) line.insert(line.end(), {"--rtol", text(cell.rtol)});
   if (cell.ranks > 1)
     line.insert(line.end(), {"--ranks", text(cell.ranks), "--decomposition", cell.decomposition, "--halo", cell.halo});
   if (!cell.hybrid.empty())
@@ -96,6 +98,7 @@ Record result_record(const RecordPlace& place, const nlohmann::json& json, doubl
   }
   put_device_record(json, row);
   row["halo_used"] = json.value("halo", "");
+  if (place.cell.rtol > 0) row["accepted_steps"] = json.contains("steps") ? json["steps"].dump() : "";
   row["contaminated"] = json.value("is_contaminated", false) ? "true" : "false";
   row["process_s"] = number_text(process_s);
   // JSON has no infinity: an error that is missing from a failed check is one

@@ -126,7 +126,7 @@ int experiment(const ExperimentArguments& arguments) {
   if (const auto continuum = load_continuum(arguments.file, arguments.scale))
     return check(*continuum, arguments, continuum->checks.size(), continuum_table, continuum_text);
   if (const auto budget = load_error_budget(arguments.file, arguments.scale)) return account(*budget, arguments);
-  if (const auto balance = load_balance(arguments.file)) return model(*balance, arguments);
+  if (const auto balance = load_balance(arguments.file, arguments.scale)) return model(*balance, arguments);
   if (const auto limits = load_stability(arguments.file, arguments.scale)) return find_limits(*limits, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
   const std::string simulated_only = name_if_simulated_only(arguments.file);

@@ -1,18 +1,16 @@
 #include "experiments/runner/oracle_state.hpp"
+#include "experiments/runner/state_file.hpp"
 #include "solver/error.hpp"
-#include "solver/io/atomic_file.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
 
-#include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
 #include <sstream>
 
 namespace dss {
 namespace {
 
-constexpr const char* magic = "dssbench-oracle-1";
+constexpr const char* format = "dssbench-oracle-1";
 
 } // namespace
 
@@ -44,32 +42,16 @@ std::vector<double> continue_by_oracle(const Problem& problem, const Method& met
 }
 
 void write_oracle_state(const std::string& path, const OracleState& state) {
-  AtomicFile file(path);
-  file.write(fmt::format("{}\n{}\n{} {}\n", magic, state.key, state.steps, state.state.size()));
-  constexpr std::size_t piece = 8192;
-  for (std::size_t first = 0; first < state.state.size(); first += piece) {
-    const std::size_t count = std::min(piece, state.state.size() - first);
-    file.write({reinterpret_cast<const char*>(&state.state[first]), count * sizeof(double)});
-  }
-  file.commit();
+  write_state_file(path, format, state.key, fmt::format("{} {}", state.steps, state.state.size()), {&state.state, 1});
 }
 
 OracleState read_oracle_state(const std::string& path) {
-  const std::string text = read_text(path);
-  std::istringstream head(text);
-  std::string first_line, sizes;
-  OracleState result;
+  const std::string what = "is no oracle state; `dssbench experiment` makes them";
+  StateFile file = read_state_file(path, format, what);
+  OracleState result{std::move(file.key), 0, std::move(file.values)};
   std::size_t count = 0;
-  std::getline(head, first_line);
-  std::getline(head, result.key);
-  std::getline(head, sizes);
-  if (first_line != magic || !(std::istringstream(sizes) >> result.steps >> count) || !head)
-    throw InputError(fmt::format("{}: is no oracle state; `dssbench experiment` makes them", path));
-  const std::size_t begin = first_line.size() + result.key.size() + sizes.size() + 3;
-  if (text.size() != begin + count * sizeof(double))
-    throw InputError(fmt::format("{}: is cut off; delete it, and `dssbench experiment` makes it anew", path));
-  result.state.resize(count);
-  std::memcpy(result.state.data(), text.data() + begin, count * sizeof(double));
+  if (!(std::istringstream(file.figures) >> result.steps >> count)) throw InputError(fmt::format("{}: {}", path, what));
+  if (result.state.size() != count) fail_cut_off(path);
   return result;
 }
 

@@ -84,15 +84,18 @@ public:
     if (const std::string written = series_.finish(); !written.empty()) result_.files.push_back(written);
   }
 
-  /// Times a short run anew: straight through, from the start, until the clock has run for `least_s`. The run that was looked at
-  /// while it went warms up. Adaptive runs are timed once.
+  /// Times a short run anew: from the start, until the clock has run for `least_s`; one of equal steps straight through. The run
+  /// that was looked at while it went warms up.
   void repeat(double least_s) {
-    if (adaptive_ || result_.wall_s >= least_s) return;
+    if (result_.wall_s >= least_s) return;
     RunResult again;
     long runs = 0;
     for (; again.wall_s < least_s; ++runs) {
       write_initial_state(*executor_, problem_);
-      advance_to(0, plan_.steps, again);
+      if (plan_.adaptive)
+        again.wall_s += adapt_again(again.usage);
+      else
+        advance_to(0, plan_.steps, again);
     }
     result_.wall_s = again.wall_s / double(runs);
     result_.usage = again.usage;
@@ -145,6 +148,15 @@ private:
 
   AdaptiveSteps adaptive_steps() {
     return {*executor_, problem_, *plan_.method, *plan_.adaptive, plan_.dt, double(plan_.steps) * plan_.dt};
+  }
+
+  /// The whole adaptive run once more, past the same stops, which steps are cut to. @return its time [s]
+  double adapt_again(Usage& usage) {
+    AdaptiveSteps adaptive = adaptive_steps();
+    const UsageMeter meter;
+    for (const long stop : stops()) adaptive.advance_to(double(stop) * plan_.dt);
+    usage += meter.read();
+    return adaptive.counts().wall_s;
   }
 
   /// To the time of that step, were all as long as the first.

@@ -139,7 +139,8 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--model", request.model, "spatial or planar (default: the scene's)");
   command->add_option("--precision", request.precision,
                       "f64, f32, or f32c: f32 whose state is summed with its low parts kept (default: f64)");
-  command->add_option("--integrator", request.integrator, method_names() + " (default: the scene's)");
+  command->add_option("--integrator", request.integrator,
+                      fmt::format("{} (default: the scene's)", fmt::join(method_names(), ", ")));
   command->add_option("--rotation", request.rotation,
                       "quaternion (default); of the variant reference also tait_bryan, tait_bryan_raw, linearised");
   command->add_option("--dt", request.dt, "Time step [s] (default: the scene's)");

@@ -185,17 +185,7 @@ void read_reference(const RunRequest& request, RunPlan& plan) {
 
 const Method& require_method(const std::string& name) {
   if (const Method* method = find_method(name)) return *method;
-  std::vector<std::string> known;
-  for (const auto* all : {&methods(), &implicit_methods()})
-    for (const Method& method : *all) known.emplace_back(method.name);
-  throw InputError(fmt::format("--integrator {}: unknown integrator; {}", name, nearest_name(name, known)));
-}
-
-std::string method_names() {
-  std::string names;
-  for (const auto* all : {&methods(), &implicit_methods()})
-    for (const Method& method : *all) names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
-  return names;
+  throw InputError(fmt::format("--integrator {}: unknown integrator; {}", name, nearest_name(name, method_names())));
 }
 
 double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced,

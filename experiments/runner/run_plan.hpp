@@ -39,8 +39,6 @@ RunPlan plan_run(const RunRequest& request);
 
 /// Method by its name. @throws InputError for an unknown one, naming the nearest
 const Method& require_method(const std::string& name);
-/// Names of all methods, for the help.
-std::string method_names();
 
 /// @param known  the limit [s], if it need not be predicted
 /// @throws UnstableError if dt exceeds the predicted limit; both numbers are in the message. @return the limit [s]

@@ -88,7 +88,8 @@ void add_simulate_command(CLI::App& app, Chosen& chosen) {
                    "Element-steps/s of a node (default: one core of this machine, measured)")
       ->check(CLI::PositiveNumber);
   command->add_option("--precision", arguments->precision, "f64 or f32")->capture_default_str();
-  command->add_option("--integrator", arguments->integrator, method_names() + " (default: the scene's)");
+  command->add_option("--integrator", arguments->integrator,
+                      fmt::format("{} (default: the scene's)", fmt::join(method_names(), ", ")));
   command->add_option("--steps", arguments->steps, "Steps to simulate")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));

@@ -1,3 +1,4 @@
+#include "experiments/runner/keyed_study.hpp"
 #include "experiments/runner/simulation.hpp"
 #include "experiments/runner/simulation_study.hpp"
 #include "experiments/runner/study.hpp"
@@ -132,13 +133,9 @@ std::vector<SimulationBlock> load_simulation(const std::string& study, const std
   const JsonPlace root(json, path);
   if (!root.has("simulation")) return {};
   std::vector<SimulationBlock> blocks = read_simulation(root["simulation"]);
-  const JsonPlace scales = root["scales"];
-  std::vector<std::string> known;
-  for (const auto& [name, value] : scales.value().items()) known.push_back(name);
-  if (!scales.has(scale))
-    throw InputError(fmt::format("--scale {}: unknown scale; {}", scale, nearest_name(scale, known)));
-  if (!root.has("cells")) scales[scale].require_keys({"most_ranks", "most_elements"});
-  limit(scales[scale], blocks);
+  const JsonPlace chosen_scale = scale_of(root, scale);
+  if (!root.has("cells")) chosen_scale.require_keys({"most_ranks", "most_elements"});
+  limit(chosen_scale, blocks);
   return blocks;
 }
 

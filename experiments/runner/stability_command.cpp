@@ -128,8 +128,9 @@ void add_stability_command(CLI::App& app, Chosen& chosen) {
       app.add_subcommand("stability", "The largest stable step of a scene, predicted, and measured by runs about rest");
   const auto arguments = std::make_shared<StabilityArguments>();
   command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")->required();
-  command->add_option("--integrator", arguments->integrator,
-                      method_names() + "; all: every explicit one (default: the scene's)");
+  command->add_option(
+      "--integrator", arguments->integrator,
+      fmt::format("{}; all: every explicit one (default: the scene's)", fmt::join(method_names(), ", ")));
   command->add_option("--variant", arguments->variant, "A name from `dssbench list variants`; auto: the fastest here")
       ->capture_default_str();
   command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")

@@ -1,10 +1,9 @@
 #include "experiments/runner/stability_study.hpp"
+#include "experiments/runner/keyed_study.hpp"
 #include "experiments/runner/stability_energy.hpp"
 #include "experiments/runner/stability_limit.hpp"
-#include "experiments/runner/study.hpp"
 #include "experiments/runner/study_block.hpp"
 #include "experiments/runner/text_table.hpp"
-#include "solver/nearest_name.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>
@@ -98,22 +97,15 @@ double between(double first, double last, int n, int points) {
 } // namespace
 
 std::optional<StabilityStudy> load_stability(const std::string& name, const std::string& scale_name) {
-  const std::string file = study_path(name);
-  const nlohmann::json json = parse_json_file(file);
-  if (!json.is_object() || !json.contains("stability")) return {};
-  const JsonPlace root(json, file);
-  root.require_keys({"experiment", "title", "stability", "scales"});
-  const JsonPlace scales = root["scales"], place = root["stability"];
-  std::vector<std::string> known;
-  for (const auto& [key, value] : scales.value().items()) known.push_back(key);
-  if (!scales.has(scale_name))
-    throw InputError(fmt::format("--scale {}: unknown scale; {}", scale_name, nearest_name(scale_name, known)));
-  const JsonPlace scale = scales[scale_name];
+  const auto opened = open_study(name, "stability", scale_name);
+  if (!opened) return {};
+  const std::string& file = opened->path;
+  const JsonPlace &scale = opened->scale, &place = opened->work;
   scale.require_keys({"zeta", "most_elements", "element_steps", "energy_points", "map_points"});
   place.require_keys({"variant", "mode", "scenes"});
   StabilityStudy study;
-  study.name = root["experiment"].text();
-  study.title = root["title"].text();
+  study.name = opened->name;
+  study.title = opened->title;
   const std::string variant = place.has("variant") ? place["variant"].text() : "auto";
   if (variant != "auto") known_variant(variant, place["variant"]);
   study.plugin = &load_variant(variant);

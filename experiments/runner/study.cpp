@@ -1,4 +1,5 @@
 #include "experiments/runner/study.hpp"
+#include "experiments/runner/keyed_study.hpp"
 #include "experiments/runner/study_block.hpp"
 #include "experiments/runner/study_reader.hpp"
 #include "solver/error.hpp"
@@ -15,12 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Cells of precision have steps of their own.
-Scale read_scale(const JsonPlace& scales, const std::string& name, bool is_of_precision) {
-  std::vector<std::string> known;
-  for (const auto& [key, value] : scales.value().items()) known.push_back(key);
-  if (!scales.has(name))
-    throw InputError(fmt::format("--scale {}: unknown scale; {}", name, nearest_name(name, known)));
-  const JsonPlace place = scales[name];
+Scale read_scale(const JsonPlace& place, const std::string& name, bool is_of_precision) {
   place.require_keys({"set", "steps", "steps_by_set", "full_steps", "oracle_steps", "tail_checks", "warmup_steps",
                       "steps_for", "repetitions", "retries", "half_width", "budget_s", "time_limit_s", "shorten",
                       "repeat_for", "halvings"});
@@ -108,7 +104,9 @@ std::string Cell::set_text() const {
   return text;
 }
 
-std::string Cell::step_text() const { return dt > 0 ? fmt::format(" dt {:.6g} s", dt) : ""; }
+std::string Cell::step_text() const {
+  return (dt > 0 ? fmt::format(" dt {:.6g} s", dt) : "") + (rtol > 0 ? fmt::format(" rtol {:g}", rtol) : "");
+}
 
 std::string Cell::problem_key() const {
   return fmt::format("{} {} {} {} {}{} {} steps", scene, set_text(), model, precision, integrator, step_text(), steps);
@@ -167,9 +165,9 @@ Study load_study(const std::string& name_or_path, const std::string& scale, int 
   study.name = root["experiment"].text();
   if (study.name.find_first_of("/ ") != std::string::npos) root["experiment"].fail("names files: no slash, no space");
   study.title = root["title"].text();
-  study.scale = read_scale(root["scales"], scale, root.has("work_precision"));
+  const JsonPlace scale_place = scale_of(root, scale);
+  study.scale = read_scale(scale_place, scale, root.has("work_precision"));
   if (root.has("work_precision")) study.precision = read_precision_rules(root["work_precision"]);
-  const JsonPlace scale_place = root["scales"][scale];
   const Sets scale_sets = scale_place.has("set") ? combinations(scale_place["set"]) : Sets(1);
   for (const JsonPlace& block : root["cells"].items()) add_block(block, scale_sets, cores, study);
   if (study.cells.empty()) root["cells"].fail("no cell; give at least one scene with a variant");

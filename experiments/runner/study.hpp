@@ -23,6 +23,7 @@ struct Cell {
   std::string hybrid; ///< members, see parse_members, or "auto"; empty: no hybrid
   std::string model, precision, integrator;
   double dt = 0;         ///< [s]; 0: the scene's
+  double rtol = 0;       ///< steps adapt to this tolerance, and dt is the first that is tried; 0: all are dt
   double step_limit = 0; ///< of a cell of precision: largest stable step [s]
   SavedTimes times;      ///< at which it is compared with the solution; none in studies of speed alone
   long steps = 0;
@@ -42,7 +43,7 @@ struct Cell {
   /// Cells with equal physics and steps, whose states are comparable: the key without what computes them (variant,
   /// threads, ranks and what belongs to them) and twin.
   std::string problem_key() const;
-  /// " dt 1e-06 s" of one that has a step of its own, else empty.
+  /// " dt 1e-06 s" of one that has a step of its own, and " rtol 1e-06" of one that adapts it; else empty.
   std::string step_text() const;
   /// For people: "avx512, 2 threads", "avx512, 2 ranks x 1 thread, halo deep"
   std::string label() const;

@@ -74,12 +74,6 @@ std::vector<std::string> known_names(const JsonPlace& block, const std::string& 
   return names;
 }
 
-std::vector<std::string> method_names() {
-  std::vector<std::string> names;
-  for (const Method& method : methods()) names.emplace_back(method.name);
-  return names;
-}
-
 std::vector<std::string> halo_names() {
   std::vector<std::string> names = {"auto"};
   for (const HaloStrategy& strategy : halo_strategies()) names.emplace_back(strategy.name);

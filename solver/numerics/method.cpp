@@ -223,9 +223,22 @@ const std::vector<Method>& implicit_methods() {
   return all;
 }
 
+std::vector<const Method*> all_methods() {
+  std::vector<const Method*> all;
+  for (const auto* kind : {&methods(), &implicit_methods()})
+    for (const Method& method : *kind) all.push_back(&method);
+  return all;
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Method* method : all_methods()) names.emplace_back(method->name);
+  return names;
+}
+
 const Method* find_method(std::string_view name) {
-  for (const std::vector<Method>* all : {&methods(), &implicit_methods()})
-    if (const auto found = std::ranges::find(*all, name, &Method::name); found != all->end()) return &*found;
+  for (const Method* method : all_methods())
+    if (method->name == name) return method;
   return nullptr;
 }
 

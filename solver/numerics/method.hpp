@@ -1,6 +1,7 @@
 #pragma once
 /// Time integration methods as data. One engine runs them all (variants/engine), the oracle runs them in classical
 /// form.
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -56,6 +57,9 @@ const Method& dopri5_adaptive();
 const std::vector<Method>& methods();
 /// Methods that solve equations in every step: of the variant `reference` alone.
 const std::vector<Method>& implicit_methods();
+/// Of either kind, in this order.
+std::vector<const Method*> all_methods();
+std::vector<std::string> method_names();
 /// Of either kind; nullptr for an unknown name.
 const Method* find_method(std::string_view name);
 

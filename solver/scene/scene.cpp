@@ -63,11 +63,9 @@ void read_run(const Node& node, Scene& scene) {
   ObjectNode run(node);
   scene.problem.dt = run.require("dt").positive();
   scene.problem.steps = run.require("steps").whole(1, max_steps);
-  std::vector<std::string> method_names;
-  for (const auto* all : {&methods(), &implicit_methods()})
-    for (const Method& method : *all) method_names.emplace_back(method.name);
+  const std::vector<std::string> known_methods = method_names();
   const auto integrator = run.find("integrator"), model = run.find("model");
-  scene.integrator = integrator ? method_names[integrator->choice("integrator", method_names)] : "rk4";
+  scene.integrator = integrator ? known_methods[integrator->choice("integrator", known_methods)] : "rk4";
   scene.problem.integrator = scene.integrator;
   const std::vector<std::string> model_names = {std::string(name(Model::spatial)), std::string(name(Model::planar))};
   scene.model = model ? model_names[model->choice("model", model_names)] : model_names[0];

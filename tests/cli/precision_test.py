@@ -78,6 +78,25 @@ class Precision(ProgramTest):
         self.assertEqual([row["status"] for row in self.rows("tables/points_comparisons")], ["ok"])
         self.assertIn("times cheaper", result.stdout)
 
+    def test_adaptive_steps_and_implicit_methods_have_points(self):
+        times = {"end_time": 1e-4, "saved_times": 4}
+        alone = {**BLOCK, "variants": ["reference"], "precisions": ["f64"]}
+        self.study(cells=[{**alone, "integrators": ["dopri5"], "accuracy": {**times, "rtol": [1e-3, 1e-6]}},
+                          {**alone, "integrators": ["implicit_midpoint"], "accuracy": {**times, "halvings": [0, 3]}}])
+        result = self.experiment()
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        table = self.rows("tables/points")
+        self.assertEqual([(row["integrator"], row["rtol"], row["status"]) for row in table],
+                         [("dopri5", "0.001", "ok"), ("dopri5", "1e-06", "ok"), ("implicit_midpoint", "", "ok"), ("implicit_midpoint", "", "ok")])
+        coarse, fine, *implicit = table
+        self.assertGreater(int(fine["steps"]), int(coarse["steps"]))
+        for row in (coarse, fine):
+            self.assertGreaterEqual(float(row["evaluations"]), 7 * 36 * int(row["steps"]))
+        self.assertLess(float(fine["error_max"]), 0.1 * float(coarse["error_max"]))
+        self.assertEqual([row["evaluations"] for row in implicit], ["", ""])
+        self.assertLess(float(implicit[1]["error_max"]), 0.1 * float(implicit[0]["error_max"]))
+        self.assertIn("rtol 0.001", result.stdout)
+
     def test_the_reference_says_how_long_a_run_is(self):
         self.study(cells=[{**BLOCK, "variants": ["reference"], "precisions": ["f64"], "accuracy": {"end_time": 1e-4, "saved_times": 4, "dt": [1e-6]}}])
         self.assertEqual(self.experiment().returncode, 0)
@@ -108,6 +127,7 @@ class Precision(ProgramTest):
         for changes, words in (
             ({"cells": [{**BLOCK, "accuracy": {**BLOCK["accuracy"], "dt": [1.1e-6]}}]}, ["/cells/0/accuracy/dt/0", "1.1e-06"]),
             ({"cells": [{**BLOCK, "accuracy": {"end_time": 1e-4, "saved_times": 4}}]}, ["/cells/0/accuracy", "halvings"]),
+            ({"cells": [{**BLOCK, "accuracy": {**BLOCK["accuracy"], "rtol": [1e-4]}}]}, ["/cells/0/accuracy/rtol", "rk4", "dopri5"]),
             ({"cells": [{**BLOCK, "accuracy": {"end_time": -1, "saved_times": 4}}]}, ["/cells/0/accuracy/end_time", "-1"]),
             ({"work_precision": {**RULES, "tolerances": [0]}}, ["/work_precision/tolerances", "0"]),
             ({"work_precision": {**RULES, "solution": {"integrator": "rk5"}}}, ["/work_precision/solution/integrator", "rk4"]),

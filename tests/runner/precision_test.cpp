@@ -106,6 +106,26 @@ TEST_F(Pair, ARunIsMeasuredAgainstTheSolutionWhateverItsRepetitions) {
   EXPECT_EQ(repeated.digest, once.digest);
 }
 
+TEST_F(Pair, AnAdaptiveRunThatIsRepeatedTakesTheSameSteps) {
+  write_solution(file("a"), found(1e-12));
+  RunRequest request;
+  request.scene = "two_elements";
+  request.variant = "reference";
+  request.integrator = "dopri5";
+  request.dt = 1e-3;
+  request.rtol = 1e-5;
+  request.reference = file("a");
+  const RunResult once = run_scene(request);
+  EXPECT_EQ(once.runs, 1);
+  EXPECT_LT(once.reference->accuracy.max, 1e-3);
+  request.repeat_for = 0.02;
+  const RunResult repeated = run_scene(request);
+  EXPECT_EQ(repeated.status, "ok");
+  EXPECT_GT(repeated.runs, 1);
+  EXPECT_EQ(repeated.steps, once.steps);
+  EXPECT_EQ(repeated.digest, once.digest);
+}
+
 TEST_F(Pair, AStepThatMissesSavedTimesIsRefused) {
   write_solution(file("a"), found(1e-6));
   RunRequest request;

@@ -110,13 +110,13 @@ TEST_F(StudyOfDevices, StepsOfAVariantMayBeOfOneSetAlone) {
 TEST_F(StudyOfDevices, ABalanceIsAModelWithAStatusOfItsOwn) {
   study = {{"experiment", "b"},
            {"title", "B"},
-           {"scales", json::object()},
+           {"scales", {{"smoke", json::object()}}},
            {"balance",
             {{"slow_element_steps_per_s", 1e8},
              {"speed_ratios", {1, 50}},
              {"n", {50, 100}},
              {"links", {{{"label", "L"}, {"latency_us", 10}, {"gb_per_s", 12}}}}}}};
-  const auto balance = load_balance(written());
+  const auto balance = load_balance(written(), "smoke");
   ASSERT_TRUE(balance);
   const Table table = balance_table(*balance);
   ASSERT_EQ(table.rows.size(), 2u * 2 * 2);
@@ -127,7 +127,7 @@ TEST_F(StudyOfDevices, ABalanceIsAModelWithAStatusOfItsOwn) {
   }
   EXPECT_LT(number_in(table.rows[1], "modelled_equal_split_of_fast"), 0.1); // n = 50, 1:50
   study["balance"]["n"] = {1};
-  EXPECT_THROW(load_balance(written()), InputError);
+  EXPECT_THROW(load_balance(written(), "smoke"), InputError);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "experiments/runner/atlas/continuum_study.hpp"
 #include "experiments/runner/atlas/failure_case.hpp"
-#include "experiments/runner/study.hpp"
+#include "experiments/runner/keyed_study.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
@@ -89,17 +89,12 @@ ContinuumCheck read_check(const JsonPlace& place, const std::string& path, doubl
 } // namespace
 
 std::optional<ContinuumStudy> load_continuum(const std::string& study, const std::string& scale) {
-  const std::string path = study_path(study);
-  const nlohmann::json json = parse_json_file(path);
-  if (!json.is_object() || !json.contains("continuum")) return {};
-  const JsonPlace root(json, path);
-  root.require_keys({"experiment", "title", "continuum", "scales"});
-  const JsonPlace scales = root["scales"];
-  if (!scales.has(scale)) scales.fail(fmt::format("has no scale \"{}\"", scale));
-  scales[scale].require_keys({"up_to"});
-  const double most = scales[scale].has("up_to") ? scales[scale]["up_to"].positive() : 1e9;
-  ContinuumStudy continuum{root["experiment"].text(), root["title"].text(), path, {}};
-  for (const JsonPlace& item : root["continuum"].items()) continuum.checks.push_back(read_check(item, path, most));
+  const auto opened = open_study(study, "continuum", scale);
+  if (!opened) return {};
+  opened->scale.require_keys({"up_to"});
+  const double most = opened->scale.has("up_to") ? opened->scale["up_to"].positive() : 1e9;
+  ContinuumStudy continuum{opened->name, opened->title, opened->path, {}};
+  for (const JsonPlace& item : opened->work.items()) continuum.checks.push_back(read_check(item, opened->path, most));
   return continuum;
 }
 

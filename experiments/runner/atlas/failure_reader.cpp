@@ -1,6 +1,7 @@
 #include "experiments/runner/atlas/failure_case.hpp"
-#include "experiments/runner/study.hpp"
+#include "experiments/runner/keyed_study.hpp"
 #include "solver/nearest_name.hpp"
+#include "solver/scene/scene.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>
@@ -14,12 +15,6 @@ template <class Named>
 std::vector<std::string> names_of(const Named& all) {
   std::vector<std::string> names;
   for (const auto& one : all) names.emplace_back(one.name);
-  return names;
-}
-
-std::vector<std::string> method_list() {
-  std::vector<std::string> names = names_of(methods());
-  for (const Method& method : implicit_methods()) names.emplace_back(method.name);
   return names;
 }
 
@@ -84,7 +79,7 @@ AtlasReference read_reference(const JsonPlace& place, const std::string& path) {
 Expectation read_expectation(const JsonPlace& place) {
   place.require_keys({"methods", "precisions", "rotations", "set", "verdict", "why", "predicted", "within"});
   Expectation expected;
-  expected.methods = chosen_list(place, "methods", method_list(), {});
+  expected.methods = chosen_list(place, "methods", method_names(), {});
   expected.precisions = chosen_list(place, "precisions", precision_list(), {});
   expected.rotations = chosen_list(place, "rotations", rotation_list(), {});
   const auto sets = combinations(place, "set");
@@ -141,7 +136,7 @@ void read_run(const JsonPlace& place, FailureCase& atlas) {
     if (!place["forced"].value().is_boolean()) place["forced"].fail("is not true or false");
     atlas.is_forced = place["forced"].value().get<bool>();
   }
-  atlas.methods = chosen_list(place, "methods", method_list(), names_of(methods()));
+  atlas.methods = chosen_list(place, "methods", method_names(), names_of(methods()));
   atlas.precisions = chosen_list(place, "precisions", precision_list(), {"f64"});
   atlas.rotations = chosen_list(place, "rotations", rotation_list(), {"quaternion"});
   if (place.has("model"))
@@ -170,19 +165,14 @@ FailureCase read_case(const JsonPlace& place, const std::string& path) {
 } // namespace
 
 std::optional<FailureStudy> load_failures(const std::string& study, const std::string& scale) {
-  const std::string path = study_path(study);
-  const nlohmann::json json = parse_json_file(path);
-  if (!json.is_object() || !json.contains("failures")) return {};
-  const JsonPlace root(json, path);
-  root.require_keys({"experiment", "title", "failures", "scales"});
-  const JsonPlace scales = root["scales"];
-  if (!scales.has(scale)) scales.fail(fmt::format("has no scale \"{}\"", scale));
-  const JsonPlace chosen_scale = scales[scale];
+  const auto opened = open_study(study, "failures", scale);
+  if (!opened) return {};
+  const JsonPlace& chosen_scale = opened->scale;
   chosen_scale.require_keys({"leave_out"});
-  FailureStudy atlas{root["experiment"].text(), root["title"].text(), path, {}};
+  FailureStudy atlas{opened->name, opened->title, opened->path, {}};
   std::set<std::string> names;
-  for (const JsonPlace& item : root["failures"].items()) {
-    atlas.cases.push_back(read_case(item, path));
+  for (const JsonPlace& item : opened->work.items()) {
+    atlas.cases.push_back(read_case(item, opened->path));
     if (!names.insert(atlas.cases.back().name).second)
       item["case"].fail(fmt::format("a second case \"{}\"; names differ", atlas.cases.back().name));
   }

@@ -1,6 +1,7 @@
 #include "experiments/runner/atlas/tangent.hpp"
 #include "solver/error.hpp"
 #include "solver/numerics/signal_rows.hpp"
+#include "solver/reference/colouring.hpp"
 #include "solver/reference/dynamics.hpp"
 
 #include <Eigen/Dense>
@@ -15,41 +16,6 @@ namespace dss {
 namespace {
 
 using Real = long double; // differences lose half of the digits
-using Neighbours = std::vector<std::vector<std::size_t>>;
-
-/// Every element's linked ones and itself.
-Neighbours neighbours_of(const Problem& problem) {
-  Neighbours near(problem.lattice.element_count);
-  for (std::size_t e = 0; e < near.size(); ++e) near[e].push_back(e);
-  const auto join = [&](std::size_t i, std::size_t j) {
-    near[i].push_back(j);
-    near[j].push_back(i);
-  };
-  problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int) { join(i, j); });
-  for (const ExtraLink& link : problem.extra_links) join(link.i, link.j);
-  for (std::vector<std::size_t>& own : near) { // two elements may have several links
-    std::ranges::sort(own);
-    own.erase(std::unique(own.begin(), own.end()), own.end()); // Clang 14 has no ranges::unique
-  }
-  return near;
-}
-
-/// Colours such that no element is near two of one colour: all elements of a colour can be moved at once, and whatever answers is known to
-/// answer one of them. (Curtis, Powell and Reid, IMA J. Appl. Math. 13 (1974) 117-119.)
-std::vector<std::vector<std::size_t>> colours_of(const Neighbours& near) {
-  std::vector<int> colour(near.size(), -1);
-  std::vector<std::vector<std::size_t>> colours;
-  for (std::size_t e = 0; e < near.size(); ++e) {
-    std::vector<bool> taken(colours.size() + 1, false);
-    for (const std::size_t n : near[e])
-      for (const std::size_t far : near[n])
-        if (colour[far] >= 0) taken[std::size_t(colour[far])] = true;
-    colour[e] = int(std::ranges::find(taken, false) - taken.begin());
-    if (std::size_t(colour[e]) == colours.size()) colours.emplace_back();
-    colours[std::size_t(colour[e])].push_back(e);
-  }
-  return colours;
-}
 
 /// Generalised forces of states without motion.
 class Forces {
@@ -129,12 +95,12 @@ FreeDofs free_dofs(const Problem& problem) {
 
 Eigen::SparseMatrix<double> tangent_stiffness(const Problem& problem, const FreeDofs& dofs,
                                               const std::vector<double>& state) {
-  const Neighbours near = neighbours_of(problem);
+  const auto near = reference::neighbourhoods(problem);
   Forces forces(problem);
   const std::vector<Real> here(state.begin(), state.end());
   const Real angle = 1e-6L, length = angle * Real(shortest_edge(problem));
   std::vector<Eigen::Triplet<double>> entries;
-  for (const std::vector<std::size_t>& colour : colours_of(near))
+  for (const std::vector<std::size_t>& colour : reference::colour_groups(near))
     for (int d = 0; d < 6; ++d) {
       const Real step = d < 3 ? length : angle;
       std::vector<Real> ahead = here, behind = here;

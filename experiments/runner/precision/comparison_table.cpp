@@ -13,7 +13,7 @@ namespace {
 bool is_of(const Record& row, const std::string& scene, const Contender& contender) {
   const double dt = number_in(row, "dt_s");
   return text_in(row, "scene") == scene && text_in(row, "integrator") == contender.integrator &&
-         text_in(row, "precision") == contender.precision &&
+         text_in(row, "rtol").empty() && text_in(row, "precision") == contender.precision &&
          (contender.dt == 0 || std::abs(dt - contender.dt) <= 1e-6 * contender.dt);
 }
 

@@ -1,9 +1,9 @@
 #include "experiments/runner/precision/error_budget_study.hpp"
+#include "experiments/runner/keyed_study.hpp"
 #include "experiments/runner/precision/precision_cells.hpp"
 #include "experiments/runner/precision/precision_rules.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/study_block.hpp"
-#include "solver/nearest_name.hpp"
 
 #include <algorithm>
 
@@ -73,22 +73,14 @@ BudgetScene read_scene(const JsonPlace& place, double shorten) {
 } // namespace
 
 std::optional<ErrorBudgetStudy> load_error_budget(const std::string& study, const std::string& scale) {
-  const std::string path = study_path(study);
-  const nlohmann::json json = parse_json_file(path);
-  if (!json.is_object() || !json.contains("error_budget")) return {};
-  const JsonPlace root(json, path);
-  root.require_keys({"experiment", "title", "error_budget", "scales"});
-  std::vector<std::string> scales;
-  for (const auto& [name, value] : root["scales"].value().items()) scales.push_back(name);
-  if (!root["scales"].has(scale))
-    throw InputError(fmt::format("--scale {}: unknown scale; {}", scale, nearest_name(scale, scales)));
-  const JsonPlace scale_place = root["scales"][scale];
+  const auto opened = open_study(study, "error_budget", scale);
+  if (!opened) return {};
+  const JsonPlace &scale_place = opened->scale, &place = opened->work;
   scale_place.require_keys({"shorten", "scenes"});
   const double shorten = scale_place.has("shorten") ? scale_place["shorten"].positive() : 1;
   const std::vector<std::string> chosen = texts_if(scale_place, "scenes");
-  const JsonPlace place = root["error_budget"];
   place.require_keys({"solution", "scenes"});
-  ErrorBudgetStudy budget{root["experiment"].text(), root["title"].text(), scale, {}, {}};
+  ErrorBudgetStudy budget{opened->name, opened->title, scale, {}, {}};
   if (place.has("solution")) budget.solution = read_solution_rule(place["solution"]);
   for (const JsonPlace& item : place["scenes"].items()) {
     const BudgetScene scene = read_scene(item, shorten);

@@ -16,9 +16,7 @@ const std::map<std::string_view, double>& step_limits(const Cell& cell) {
   const auto [place, is_new] = known.try_emplace(fmt::format("{} {}", cell.scene, cell.set_text()));
   if (!is_new) return place->second;
   const Scene scene = load_scene(cell.scene, cell.set);
-  std::vector<const Method*> all;
-  for (const auto* kind : {&methods(), &implicit_methods()})
-    for (const Method& method : *kind) all.push_back(&method);
+  const std::vector<const Method*> all = all_methods();
   const std::vector<StabilityLimit> limits = stable_steps(scene.problem, all);
   for (std::size_t n = 0; n < all.size(); ++n) place->second[all[n]->name] = limits[n].dt;
   return place->second;
@@ -40,9 +38,22 @@ std::set<long> step_counts(const JsonPlace& accuracy, const Cell& cell, const Sc
         item.fail(error.what());
       }
     }
-  if (counts.empty())
-    accuracy.fail("gives no step; give \"halvings\" such as [0, 1, 2], \"dt\" such as [1e-6], or both");
   return counts;
+}
+
+/// One for each tolerance of adaptive steps. The first step that is tried is the largest stable one.
+std::vector<Cell> adaptive_cells(const JsonPlace& rtol, Cell cell) {
+  if (cell.integrator != dopri5_adaptive().name)
+    rtol.fail(fmt::format("{} has no adaptive steps; {} has", cell.integrator, dopri5_adaptive().name));
+  const long count = cell.times.steps_between(std::min(cell.step_limit, cell.times.interval()));
+  cell.dt = cell.times.interval() / double(count);
+  cell.steps = cell.full_steps = count * cell.times.count;
+  std::vector<Cell> cells;
+  for (const JsonPlace& item : rtol.items()) {
+    cell.rtol = item.positive();
+    cells.push_back(cell);
+  }
+  return cells;
 }
 
 } // namespace
@@ -52,7 +63,7 @@ SavedTimes read_saved_times(const JsonPlace& place, double shorten) {
 }
 
 std::vector<Cell> with_steps(const JsonPlace& accuracy, const std::vector<Cell>& cells, const Scale& scale) {
-  accuracy.require_keys({"end_time", "saved_times", "halvings", "dt"});
+  accuracy.require_keys({"end_time", "saved_times", "halvings", "dt", "rtol"});
   const SavedTimes times = read_saved_times(accuracy, scale.shorten);
   std::vector<Cell> more;
   for (Cell cell : cells) {
@@ -65,7 +76,13 @@ std::vector<Cell> with_steps(const JsonPlace& accuracy, const std::vector<Cell>&
       if (cell.integrator == "rkc2")
         more.back().step_limit = 0; // its stages are fitted to each step, and so is its limit
     }
+    if (!accuracy.has("rtol")) continue;
+    const std::vector<Cell> adaptive = adaptive_cells(accuracy["rtol"], cell);
+    more.insert(more.end(), adaptive.begin(), adaptive.end());
   }
+  if (more.empty())
+    accuracy.fail("gives no step; give \"halvings\" such as [0, 1, 2], \"dt\" such as [1e-6], or \"rtol\" such as "
+                  "[1e-4] for adaptive ones");
   return more;
 }
 

@@ -7,7 +7,7 @@
 
 namespace dss {
 
-/// Every cell with every step that a block's key "accuracy" names. A step is shortened so that it divides the time between saved times;
+/// Every cell with every step and every tolerance of adaptive steps that a block's key "accuracy" names. A step is shortened so that it divides the time between saved times;
 /// steps that become the same are one.
 /// @throws InputError with the place of what is wrong, also for a `dt` that does not divide it
 std::vector<Cell> with_steps(const JsonPlace& accuracy, const std::vector<Cell>& cells, const Scale& scale);

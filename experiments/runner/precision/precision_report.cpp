@@ -22,6 +22,10 @@ std::string shown_time(const Record& row) {
   return std::isnan(half) ? time : fmt::format("{} ± {:.1f} %", time, 100 * half);
 }
 
+std::string shown_step(const Record& row) {
+  return text_in(row, "rtol").empty() ? shown(row, "dt_s", "{:.3g}") : "rtol " + shown(row, "rtol", "{:g}");
+}
+
 std::string shown_status(const Record& row) {
   const std::string status = text_in(row, "status"), reason = text_in(row, "reason");
   return (reason.empty() ? status : status + ": " + reason) +
@@ -33,12 +37,12 @@ std::string points_text(const Table& points) {
   std::vector<std::vector<std::string>> rows;
   for (const Record& row : points.rows)
     rows.push_back({text_in(row, "scene"), text_in(row, "set"), text_in(row, "label"), text_in(row, "precision"),
-                    text_in(row, "integrator"), shown(row, "dt_s", "{:.3g}"), shown(row, "evaluations", "{:.3g}"),
+                    text_in(row, "integrator"), shown_step(row), shown(row, "evaluations", "{:.3g}"),
                     text_in(row, "repetitions"), shown_time(row), shown(row, "error_final", "{:.1e}"),
                     shown(row, "error_l2", "{:.1e}"), shown(row, "error_max", "{:.1e}"),
                     shown(row, "energy_drift", "{:.1e}"), text_in(row, "pareto") == "yes" ? "*" : "",
                     shown_status(row)});
-  return text_table({"scene", "set", "cell", "precision", "integrator", "dt [s]", "evaluations", "n", "wall [s]",
+  return text_table({"scene", "set", "cell", "precision", "integrator", "step [s]", "evaluations", "n", "wall [s]",
                      "final", "l2", "max", "energy", "front", "status"},
                     rows);
 }
@@ -47,11 +51,11 @@ std::string cheapest_text(const Table& cheapest) {
   std::vector<std::vector<std::string>> rows;
   for (const Record& row : cheapest.rows)
     rows.push_back({text_in(row, "scene"), text_in(row, "set"), shown(row, "tolerance", "{:.0e}"),
-                    text_in(row, "label"), text_in(row, "precision"), text_in(row, "integrator"),
-                    shown(row, "dt_s", "{:.3g}"), shown(row, "error_max", "{:.1e}"),
-                    shown(row, "measured_wall_s", "{:.3g}"), text_in(row, "reason")});
+                    text_in(row, "label"), text_in(row, "precision"), text_in(row, "integrator"), shown_step(row),
+                    shown(row, "error_max", "{:.1e}"), shown(row, "measured_wall_s", "{:.3g}"),
+                    text_in(row, "reason")});
   return text_table(
-      {"scene", "set", "tolerance", "cell", "precision", "integrator", "dt [s]", "error", "wall [s]", "note"}, rows);
+      {"scene", "set", "tolerance", "cell", "precision", "integrator", "step [s]", "error", "wall [s]", "note"}, rows);
 }
 
 std::string comparison_text(const Record& row) {

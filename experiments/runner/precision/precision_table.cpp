@@ -39,6 +39,7 @@ std::vector<std::string> columns() {
                                   "order",
                                   "stages",
                                   "dt_s",
+                                  "rtol",
                                   "steps",
                                   "elements",
                                   "evaluations",
@@ -56,17 +57,27 @@ std::vector<std::string> columns() {
   return all;
 }
 
-/// `sample`: its last record says how many stages ran, which rkc2 fits to its step.
+/// `sample`: its last record says how many stages ran, which rkc2 fits to its step, and how many steps, if they adapt.
 void put_point(const Cell& cell, const CellSample* sample, Record& row) {
   row["dt_s"] = number_text(cell.dt);
   row["end_time_s"] = number_text(cell.times.end);
   row["saved_times"] = fmt::format("{}", cell.times.count);
   const Method* method = find_method(cell.integrator);
   if (method == nullptr) return;
-  const std::string ran = sample == nullptr ? "" : text_in(sample->last, "stages");
+  const auto recorded = [&](const char* column, std::string otherwise) {
+    const std::string text = sample == nullptr ? "" : text_in(sample->last, column);
+    return text.empty() ? otherwise : text;
+  };
   row["order"] = fmt::format("{}", method->order);
-  row["stages"] = ran.empty() ? fmt::format("{}", method->stages) : ran;
-  row["evaluations"] = number_text(number_in(row, "stages") * double(cell.steps) * number_in(row, "elements"));
+  row["stages"] = recorded("stages", fmt::format("{}", method->stages));
+  if (cell.rtol > 0) {
+    row["rtol"] = fmt::format("{}", cell.rtol);
+    row["steps"] = recorded("accepted_steps", "");
+  }
+  if (method->is_implicit() || (cell.rtol > 0 && row["steps"].empty())) return; // nobody knows how many
+  const double planned = number_in(row, "stages") * double(cell.steps);
+  row["evaluations"] =
+      number_text(std::stod(recorded("evaluations", number_text(planned))) * number_in(row, "elements"));
 }
 
 /// Errors differ between repetitions only if the bits do, which StudySamples sees.
@@ -122,7 +133,7 @@ Record cheapest_row(const Record& first, const Table& points, double tolerance) 
   row["tolerance"] = number_text(tolerance);
   row["status"] = best == nullptr ? "none" : "ok";
   if (best != nullptr) {
-    for (const char* column : {"label", "variant", "precision", "integrator", "dt_s", "steps", "evaluations",
+    for (const char* column : {"label", "variant", "precision", "integrator", "dt_s", "rtol", "steps", "evaluations",
                                "error_max", "measured_wall_s", "measured_wall_low_s", "measured_wall_high_s"})
       row[column] = text_in(*best, column);
     return row;
@@ -147,9 +158,26 @@ Table precision_table(const Study& study, const std::vector<Record>& records) {
 }
 
 Table cheapest_table(const Study& study, const Table& points) {
-  Table table{{"experiment", "scale", "scene", "set", "end_time_s", "tolerance", "label", "variant", "precision",
-               "integrator", "dt_s", "steps", "evaluations", "error_max", "measured_wall_s", "measured_wall_low_s",
-               "measured_wall_high_s", "status", "reason"},
+  Table table{{"experiment",
+               "scale",
+               "scene",
+               "set",
+               "end_time_s",
+               "tolerance",
+               "label",
+               "variant",
+               "precision",
+               "integrator",
+               "dt_s",
+               "rtol",
+               "steps",
+               "evaluations",
+               "error_max",
+               "measured_wall_s",
+               "measured_wall_low_s",
+               "measured_wall_high_s",
+               "status",
+               "reason"},
               {}};
   std::set<std::string> done;
   for (const Record& first : points.rows)

@@ -1,18 +1,17 @@
 #include "experiments/runner/precision/solution.hpp"
 #include "experiments/runner/precision/accuracy.hpp"
-#include "solver/io/atomic_file.hpp"
+#include "experiments/runner/state_file.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <sstream>
 
 namespace dss {
 namespace {
 
-constexpr const char* magic = "dssbench-solution-1";
+constexpr const char* format = "dssbench-solution-1";
 constexpr double first_part_of_limit = 0.9; ///< the first step over the stability limit
 constexpr double safety = 1.2;              ///< more steps than the order promises to need
 
@@ -76,36 +75,28 @@ Solution find_solution(const Problem& problem, const Method& method, const Solut
 }
 
 void write_solution(const std::string& path, const Solution& solution) {
-  AtomicFile file(path);
   const std::size_t width = solution.states.empty() ? 0 : solution.states.front().size();
-  file.write(fmt::format("{}\n{}\n{:.17g} {} {:.17g} {:.17g} {}\n", magic, solution.key, solution.times.end,
-                         solution.times.count, solution.error, solution.dt, width));
-  for (const std::vector<double>& state : solution.states)
-    file.write({reinterpret_cast<const char*>(state.data()), width * sizeof(double)});
-  file.commit();
+  write_state_file(path, format, solution.key,
+                   fmt::format("{:.17g} {} {:.17g} {:.17g} {}", solution.times.end, solution.times.count,
+                               solution.error, solution.dt, width),
+                   solution.states);
 }
 
 Solution read_solution(const std::string& path) {
-  const std::string text = read_text(path);
-  std::istringstream head(text);
-  std::string first_line, numbers;
+  const std::string what = "is no solution; `dssbench experiment` makes them for studies of precision";
+  const StateFile file = read_state_file(path, format, what);
   Solution solution;
+  solution.key = file.key;
+  std::istringstream figures(file.figures);
   std::size_t width = 0;
-  std::getline(head, first_line);
-  std::getline(head, solution.key);
-  std::getline(head, numbers);
-  std::istringstream values(numbers);
-  values >> solution.times.end >> solution.times.count >> solution.error >> solution.dt >> width;
-  if (first_line != magic || !values || !head || solution.times.count < 1 || !(solution.times.end > 0))
-    throw InputError(
-        fmt::format("{}: is no solution; `dssbench experiment` makes them for studies of precision", path));
-  const std::size_t begin = first_line.size() + solution.key.size() + numbers.size() + 3;
+  figures >> solution.times.end >> solution.times.count >> solution.error >> solution.dt >> width;
+  if (!figures || solution.times.count < 1 || !(solution.times.end > 0))
+    throw InputError(fmt::format("{}: {}", path, what));
   const auto count = std::size_t(solution.times.count);
-  if ((text.size() - begin) / sizeof(double) / count != width || text.size() != begin + count * width * sizeof(double))
-    throw InputError(fmt::format("{}: is cut off; delete it, and `dssbench experiment` makes it anew", path));
-  solution.states.assign(count, std::vector<double>(width));
-  for (std::size_t k = 0; k < count && width > 0; ++k)
-    std::memcpy(solution.states[k].data(), text.data() + begin + k * width * sizeof(double), width * sizeof(double));
+  if (file.values.size() / count != width || file.values.size() % count != 0) fail_cut_off(path);
+  for (auto state = file.values.begin(); state != file.values.end() && width > 0; state += std::ptrdiff_t(width))
+    solution.states.emplace_back(state, state + std::ptrdiff_t(width));
+  solution.states.resize(count);
   return solution;
 }
 
