@@ -96,14 +96,21 @@ if(DSS_SANITIZE MATCHES "thread")
   set(dss_test_environment "OMP_TOOL_LIBRARIES=${DSS_ARCHER}")
 endif()
 
-# dss_test(name source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself, labelled with its folder.
+# dss_test(name [TEAMS filter] source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself, labelled with
+# its folder. Tests that TEAMS names, as --gtest_filter does, have threads that wait for each other: beside other tests they would take ten times as long.
 function(dss_test name)
-  add_executable(${name} ${ARGN})
+  cmake_parse_arguments(arg "" "TEAMS" "" ${ARGN})
+  add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>) # what is tested has its own
   target_link_libraries(${name} PRIVATE dss_options dss_solver dss_variants GTest::gtest_main)
   add_dependencies(${name} dss_all_variants)
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
-  gtest_discover_tests(${name} PROPERTIES LABELS ${kind} ENVIRONMENT "${dss_test_environment}" DISCOVERY_MODE PRE_TEST)
+  set(properties LABELS ${kind} ENVIRONMENT "${dss_test_environment}")
+  if(arg_TEAMS)
+    gtest_discover_tests(${name} TEST_FILTER "${arg_TEAMS}" TEST_LIST ${name}_teams PROPERTIES ${properties} PROCESSORS 2 DISCOVERY_MODE PRE_TEST)
+    set(others TEST_FILTER "-${arg_TEAMS}")
+  endif()
+  gtest_discover_tests(${name} ${others} PROPERTIES ${properties} DISCOVERY_MODE PRE_TEST)
 endfunction()
 
 # dss_embed(TARGET FILES path...): puts files of the source tree, by their paths from its root, into a target, where dss::embedded(path) gives their text

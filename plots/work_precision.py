@@ -89,6 +89,8 @@ def draw(path, output):
     table = pandas.read_csv(path)
     if "error_max" not in table.columns or "pareto" not in table.columns:
         return f"{path}: has no errors against work; measure it with `dssbench experiment work_precision`"
+    if "rtol" not in table.columns:
+        return f"{path}: is of an earlier version, without tolerances; measure it with `dssbench experiment work_precision`"
     table.loc[table["rtol"].notna(), "integrator"] += " adaptive"
     if not (table["status"] == "ok").any():
         return f"{path}: no point was measured"

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double least_share = 1e-12; ///< of the run's time: shorter steps do not move the clock as they should
 
-double shortest_edge(const Problem& problem) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const Body& body : problem.bodies) shortest = std::min(shortest, *std::ranges::min_element(body.edge));
-  return shortest;
-}
-
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 } // namespace
@@ -60,13 +54,16 @@ bool AdaptiveSteps::step(double dt) {
   return true;
 }
 
-std::string AdaptiveSteps::why_no_step(double dt) const {
-  const std::string what =
-      std::isfinite(control_.error())
-          ? fmt::format("leaves {:.3g} times the error that --rtol {:g} allows; take a larger --rtol, --atol above "
-                        "rounding, or a more precise --precision",
-                        control_.error(), tolerance_.rtol)
-          : "leads to a state that is not finite; look at the scene's numbers";
+std::string AdaptiveSteps::why_no_step(double dt) {
+  std::string what = fmt::format("leaves {:.3g} times the error that --rtol {:g} allows; take a larger --rtol, --atol "
+                                 "above rounding, or a more precise --precision",
+                                 control_.error(), tolerance_.rtol);
+  if (!std::isfinite(control_.error())) {
+    executor_.accept_step(); // to look at what the step leads to
+    const auto element = first_not_finite(executor_, problem_.lattice.element_count);
+    what = fmt::format("leads to a state that is not finite{}; look at the scene's numbers",
+                       element ? fmt::format(", element {}", *element) : " in its error");
+  }
   return fmt::format("{}: after {} steps, at t = {:.6g} s, even a step of {:.3g} s {}", problem_.name, counts_.accepted,
                      time_, dt, what);
 }

@@ -28,7 +28,7 @@ public:
 
 private:
   bool step(double dt);
-  std::string why_no_step(double dt) const;
+  std::string why_no_step(double dt);
 
   Executor& executor_;
   const Problem& problem_;

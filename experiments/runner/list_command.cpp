@@ -6,6 +6,7 @@
 #include "experiments/runner/text_table.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
+#include "solver/numerics/method.hpp"
 #include "variants/loader.hpp"
 
 #include <fmt/format.h>
@@ -53,6 +54,21 @@ Listing study_listing() {
   return list;
 }
 
+Listing method_listing() {
+  Listing list = Listing::array();
+  for (const Method* method : all_methods())
+    list.push_back({{"method", std::string(method->name)},
+                    {"order", fmt::format("{}", method->order)},
+                    {"stages", fmt::format("{}", method->stages)},
+                    {"imaginary limit", fmt::format("{:.4g}", method->imaginary_limit)},
+                    {"real limit", fmt::format("{:.4g}", method->real_limit)},
+                    {"symplectic", method->is_symplectic ? "yes" : "no"},
+                    {"energy", method->keeps_energy_bounded ? "bounded" : "drifts"},
+                    {"variants", method->is_implicit() ? "reference" : "all"},
+                    {"note", std::string(method->note)}});
+  return list;
+}
+
 /// Kernel cases of the fastest variant that has some, with their declared flops (kernels/cases.hpp).
 Listing kernel_listing() {
   Listing list = Listing::array();
@@ -80,10 +96,12 @@ Listing listing(const ListArguments& arguments) {
   if (what == "variants") return variant_listing();
   if (what == "scenes") return scene_listing();
   if (what == "experiments") return study_listing();
+  if (what == "methods") return method_listing();
   if (what == "kernels") return kernel_listing();
   if (what == "devices") return device_listing(arguments.is_measured);
-  throw InputError(fmt::format("list {}: unknown; {}", what,
-                               nearest_name(what, {"variants", "scenes", "experiments", "kernels", "devices"})));
+  throw InputError(
+      fmt::format("list {}: unknown; {}", what,
+                  nearest_name(what, {"variants", "scenes", "experiments", "methods", "kernels", "devices"})));
 }
 
 int list(const ListArguments& arguments) {

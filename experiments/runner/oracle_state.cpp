@@ -1,4 +1,5 @@
 #include "experiments/runner/oracle_state.hpp"
+#include "experiments/runner/breakdown.hpp"
 #include "experiments/runner/state_file.hpp"
 #include "solver/error.hpp"
 #include "solver/numerics/signal_rows.hpp"
@@ -20,9 +21,8 @@ OracleState compute_oracle_state(const Problem& problem, const Method& method, d
   Oracle<long double> oracle(problem, method, dt);
   oracle.write(result.state);
   if (const auto breakdown = oracle.advance(steps))
-    throw UnstableError(
-        fmt::format("{}: the oracle is not finite at step {} (t = {:g} s), element {}; take a smaller dt", problem.name,
-                    breakdown->step, double(breakdown->step) * dt, breakdown->element));
+    throw UnstableError(fmt::format("{}: by the oracle {}; take a smaller dt", problem.name,
+                                    breakdown_text(breakdown->what, breakdown->step, dt, breakdown->element)));
   oracle.read(result.state);
   return result;
 }

@@ -1,5 +1,6 @@
 #include "experiments/runner/run.hpp"
 #include "experiments/runner/adaptive_steps.hpp"
+#include "experiments/runner/breakdown.hpp"
 #include "experiments/runner/output.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/state_access.hpp"
@@ -226,8 +227,8 @@ private:
   void report_breakdown(long step, const Outcome& outcome, RunResult& result) const {
     result.status = "unstable";
     result.steps = step + 1;
-    result.reason = fmt::format("{}: {} after step {} (t = {:.6g} s), element {}; take --dt below {:.6g} s",
-                                problem_.name, outcome.what, step + 1, double(step + 1) * plan_.dt, outcome.element,
+    result.reason = fmt::format("{}: {}; take --dt below {:.6g} s", problem_.name,
+                                breakdown_text(outcome.what, step, plan_.dt, outcome.element),
                                 plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
   }
 

@@ -112,7 +112,8 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (request.check_tail < 0) refuse(fmt::format("--check-tail {}: give 0 or more", request.check_tail));
   if (request.stability_limit && !(*request.stability_limit > 0))
     refuse(fmt::format("--stability-limit {:g}: the step must be positive [s]", *request.stability_limit));
-  if (!(request.repeat_for >= 0)) refuse(fmt::format("--repeat-for {:g}: give 0 s or more", request.repeat_for));
+  if (!(request.repeat_for >= 0) || !std::isfinite(request.repeat_for))
+    refuse(fmt::format("--repeat-for {:g}: give 0 s or more", request.repeat_for));
   if (request.repeat_for > 0 && request.ranks > 1) refuse("--repeat-for: only a run on 1 rank starts again");
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
   if (request.frames > 0 && request.output.empty()) refuse("--frames: needs --output F.vtu, which names the series");

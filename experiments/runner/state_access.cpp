@@ -111,8 +111,7 @@ KindValues largest_differences(std::span<const double> expected, std::span<const
 }
 
 KindValues error_scales(const Problem& problem, const KindValues& largest_expected) {
-  double edge = std::numeric_limits<double>::infinity();
-  for (const Body& body : problem.bodies) edge = std::min({edge, body.edge[0], body.edge[1], body.edge[2]});
+  const double edge = shortest_edge(problem);
   const auto [u, q, v, w] = largest_expected;
   return {std::max(u, negligible * q * edge), std::max(q, negligible * u / edge), std::max(v, negligible * w * edge),
           std::max(w, negligible * v / edge)};

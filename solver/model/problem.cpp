@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dss {
 namespace {
@@ -78,6 +79,12 @@ void apply(const InitialMotion& motion, const Problem& problem, std::size_t elem
 }
 
 } // namespace
+
+double shortest_edge(const Problem& problem) {
+  double edge = std::numeric_limits<double>::infinity();
+  for (const Body& body : problem.bodies) edge = std::min(edge, *std::ranges::min_element(body.edge));
+  return edge;
+}
 
 Vec3 rest_position(const Problem& problem, const Row& row, int x) {
   const Body& body = problem.bodies[std::size_t(row.body)];

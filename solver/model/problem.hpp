@@ -106,6 +106,9 @@ struct Problem {
 /// Fields of the elements [first, first + count) at t = 0; `fields` has count * field_count entries.
 void initial_state(const Problem& problem, std::size_t first, std::size_t count, double* fields);
 
+/// Of all bodies [m].
+double shortest_edge(const Problem& problem);
+
 /// Rest position of the centre of cell (x, row.y, row.z) [m].
 Vec3 rest_position(const Problem& problem, const Row& row, int x);
 

@@ -16,16 +16,18 @@ namespace {
 /// eigenvalue of the problem, whatever its damping, lies outside the modes of that region (its eigenvector's omega^2 =
 /// x* K x and rate = x* C x are in it). A limit scales as 1 / omega along a ray of constant damping ratio, so the worst
 /// mode lies on the region's outer edges: the curve of least damping, omega = omega_max, or rate = damping.
-ExactLimit worst_pairing(const Method& method, const Spectrum& spectrum) {
+/// @param enough  a limit above this [s] may be given as infinite
+ExactLimit worst_pairing(const Method& method, const Spectrum& spectrum, double enough) {
   constexpr int points = 64;
   ExactLimit worst;
   const auto consider = [&](double omega, double rate) {
-    if (const double dt = mode_step_limit(method, omega, rate); dt < worst.dt) worst = {dt, {omega, rate}};
+    if (const double dt = mode_step_limit(method, omega, rate, std::min(worst.dt, enough)); dt < worst.dt)
+      worst = {dt, {omega, rate}};
   };
   // The bounds are not of one mode: the least damping of the largest frequency may exceed the largest damping.
   const double omega_max = spectrum.omega_max, most = spectrum.damping;
   const auto least = [&](double omega) { return std::min(most, spectrum.least_damping * omega * omega); };
-  for (int n = 0; n <= points; ++n) {
+  for (int n = points; n >= 0; --n) { // the fastest and most damped first: what the others bear is soon enough
     const double part = double(n) / points;
     consider(part * omega_max, least(part * omega_max));
     consider(omega_max, least(omega_max) + part * (most - least(omega_max)));
@@ -34,8 +36,9 @@ ExactLimit worst_pairing(const Method& method, const Spectrum& spectrum) {
   return worst;
 }
 
-StabilityLimit limit_within(const Method& method, const Spectrum& spectrum, std::string how) {
-  const ExactLimit worst = worst_pairing(method, spectrum);
+StabilityLimit limit_within(const Method& method, const Spectrum& spectrum, std::string how,
+                            double enough = std::numeric_limits<double>::infinity()) {
+  const ExactLimit worst = worst_pairing(method, spectrum, enough);
   return {worst.dt, spectrum.omega_max, spectrum.damping, std::move(how), false, worst.mode};
 }
 
@@ -89,6 +92,7 @@ Method fitted(const Problem& problem, const Method& method, double dt) {
   if (method.name != "rkc2") return method;
   constexpr int most_stages = 200, tried = 12;
   const Spectrum bound = finite_bound(problem);
+  if (const Method longest = rkc2(most_stages); longest.real_limit < dt * bound.damping) return longest;
   int least = 2;
   while (least < most_stages && rkc2(least).real_limit < dt * bound.damping) ++least;
   std::vector<Method> candidates;
@@ -96,7 +100,7 @@ Method fitted(const Problem& problem, const Method& method, double dt) {
   for (int stages = least; stages < least + tried && stages <= most_stages; ++stages)
     candidates.push_back(rkc2(stages));
   for (const Method& candidate : candidates) {
-    if (limit_within(candidate, bound, "").dt >= dt) return candidate;
+    if (limit_within(candidate, bound, "", dt).dt >= dt) return candidate;
     pointers.push_back(&candidate);
   }
   const std::vector<StabilityLimit> limits = stable_steps(problem, pointers);

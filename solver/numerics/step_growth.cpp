@@ -15,14 +15,15 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// their degree stays below 1 for longer than 2 stages^2 on the negative real axis.
 template <class Radius>
 double first_exit(const Radius& radius, int stages, double enough) {
-  constexpr double increment = 0.02;
+  constexpr double increment = 0.02,
+                   share = 1e-3; // of many stages the region's edge has no detail finer than its share
   const double end = std::min(enough, 4.0 * stages * stages + 4);
   const auto is_stable = [&](double h) { return radius(h) <= 1 + unseen_growth; };
   double stable = 0, unstable = increment;
   while (is_stable(unstable)) {
     if (unstable > end) return infinite;
     stable = unstable;
-    unstable += increment;
+    unstable += std::max(increment, share * unstable);
   }
   while (unstable - stable > 1e-12 * unstable) {
     const double middle = (stable + unstable) / 2;
@@ -34,17 +35,49 @@ double first_exit(const Radius& radius, int stages, double enough) {
   return always_grows ? 0 : stable;
 }
 
+/// A Runge-Kutta method's table without its zeros, run from y = 1 for y' = lambda y.
+class StabilityFunction {
+public:
+  explicit StabilityFunction(const Method& method) : beta_(method.beta), y_(method.beta.size() + 1, 1.0) {
+    for (std::size_t s = 0; s < beta_.size(); ++s) {
+      for (std::size_t m = 1; m <= s; ++m)
+        if (method.alpha[s][m] != 0) terms_.push_back({m, method.alpha[s][m]});
+      ends_.push_back(terms_.size());
+    }
+  }
+  /// |R(z)|, z = h lambda.
+  double operator()(std::complex<double> z) const {
+    std::size_t term = 0;
+    for (std::size_t s = 0; s < beta_.size(); ++s) {
+      y_[s + 1] = 1.0 + z * beta_[s] * y_[s];
+      for (; term < ends_[s]; ++term) y_[s + 1] += terms_[term].weight * (y_[terms_[term].stage] - 1.0);
+    }
+    return std::abs(y_.back());
+  }
+
+private:
+  struct Term {
+    std::size_t stage;
+    double weight;
+  };
+  std::vector<double> beta_;
+  std::vector<Term> terms_;
+  std::vector<std::size_t> ends_; ///< of each stage's terms
+  mutable std::vector<std::complex<double>> y_;
+};
+
+/// As spectral_radius, of a Runge-Kutta method.
+double radius_of(const StabilityFunction& amplification, double stiffness, double damping) {
+  const double discriminant = damping * damping / 4 - stiffness;
+  const std::complex<double> root = std::sqrt(std::complex<double>(discriminant));
+  const double one = amplification(-damping / 2 + root);
+  return discriminant < 0 ? one
+                          : std::max(one, amplification(-damping / 2 - root)); // of a conjugate pair one is enough
+}
+
 } // namespace
 
-double amplification(const Method& method, std::complex<double> z) {
-  std::vector<std::complex<double>> y(std::size_t(method.stages) + 1);
-  y[0] = 1;
-  for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
-    y[s + 1] = 1.0 + z * method.beta[s] * y[s];
-    for (std::size_t m = 1; m <= s; ++m) y[s + 1] += method.alpha[s][m] * (y[m] - 1.0);
-  }
-  return std::abs(y[std::size_t(method.stages)]);
-}
+double amplification(const Method& method, std::complex<double> z) { return StabilityFunction(method)(z); }
 
 double spectral_radius(const Method& method, double h, double omega, double rate) {
   const double stiffness = h * h * omega * omega, damping = h * rate; // a mode in steps: h = 1
@@ -65,23 +98,25 @@ double spectral_radius(const Method& method, double h, double omega, double rate
   case Method::Family::runge_kutta:
     break;
   }
-  const std::complex<double> root = std::sqrt(std::complex<double>(damping * damping / 4 - stiffness));
-  return std::max(amplification(method, -damping / 2 + root), amplification(method, -damping / 2 - root));
+  return radius_of(StabilityFunction(method), stiffness, damping);
 }
 
 double mode_step_limit(const Method& method, double omega, double rate, double enough) {
   const double scale = std::max(omega, rate);
   if (scale == 0 || method.is_implicit()) return infinite;
-  return first_exit([&](double h) { return spectral_radius(method, h, omega / scale, rate / scale); }, method.stages,
-                    enough * scale) /
-         scale;
+  const double w = omega / scale, c = rate / scale;
+  const auto exit_of = [&](const auto& radius) { return first_exit(radius, method.stages, enough * scale) / scale; };
+  if (method.family != Method::Family::runge_kutta)
+    return exit_of([&](double h) { return spectral_radius(method, h, w, c); });
+  const StabilityFunction function(method);
+  return exit_of([&](double h) { return radius_of(function, h * h * w * w, h * c); });
 }
 
 double root_step_limit(const Method& method, std::complex<double> root, double enough) {
   const double scale = std::abs(root);
   if (scale == 0) return infinite;
-  return first_exit([&](double h) { return amplification(method, h * root / scale); }, method.stages, enough * scale) /
-         scale;
+  const StabilityFunction function(method);
+  return first_exit([&](double h) { return function(h * root / scale); }, method.stages, enough * scale) / scale;
 }
 
 } // namespace dss

@@ -134,13 +134,19 @@ T Oracle<T>::moved(std::size_t row, std::size_t n, T h) const {
 }
 
 template <class T>
-void Oracle<T>::runge_kutta_step(long step, const SignalSource& signals) {
-  const T h = T(dt_);
-  dynamics_.rates(state_, signals(step, 0), slopes_[0]);
+template <class Signals>
+void Oracle<T>::find_slopes(T h, const Signals& signals_of) {
+  dynamics_.rates(state_, signals_of(0), slopes_[0]);
   for (std::size_t s = 1; s < slopes_.size(); ++s) {
     for (std::size_t n = 0; n < state_.size(); ++n) trial_[n] = moved(s, n, h);
-    dynamics_.rates(trial_, signals(step, int(s)), slopes_[s]);
+    dynamics_.rates(trial_, signals_of(s), slopes_[s]);
   }
+}
+
+template <class T>
+void Oracle<T>::runge_kutta_step(long step, const SignalSource& signals) {
+  const T h = T(dt_);
+  find_slopes(h, [&](std::size_t stage) { return signals(step, int(stage)); });
   for (std::size_t n = 0; n < state_.size(); ++n) state_[n] = moved(slopes_.size(), n, h);
 }
 
@@ -148,11 +154,7 @@ template <class T>
 StepMaxima Oracle<T>::try_step(double dt, std::span<const double> signals) {
   const std::size_t stages = slopes_.size(), width = signals.size() / stages;
   const T h = T(dt);
-  dynamics_.rates(state_, signals.first(width), slopes_[0]);
-  for (std::size_t s = 1; s < stages; ++s) {
-    for (std::size_t n = 0; n < state_.size(); ++n) trial_[n] = moved(s, n, h);
-    dynamics_.rates(trial_, signals.subspan(s * width, width), slopes_[s]);
-  }
+  find_slopes(h, [&](std::size_t stage) { return signals.subspan(stage * width, width); });
   StepMaxima maxima;
   for (std::size_t n = 0; n < state_.size(); ++n) {
     T error = 0;

@@ -72,6 +72,9 @@ private:
   std::optional<Breakdown> step_once(long step, const SignalSource& signals);
   /// y + h sum_j weights[row][j] k_j of field n.
   T moved(std::size_t row, std::size_t n, T h) const;
+  /// Slopes of all stages of a step of h; of stage s with the signals `signals_of(s)`.
+  template <class Signals>
+  void find_slopes(T h, const Signals& signals_of);
   void runge_kutta_step(long step, const SignalSource& signals);
   void start_leapfrog(std::span<const double> signals);
   void leapfrog_step(long step, const SignalSource& signals);

@@ -57,7 +57,7 @@ class Atlas(ProgramTest):
 
     def test_a_run_that_stops_being_finite_is_named_with_step_time_and_element(self):
         self.run_study(case(dt="=1.1*mode_limit", steps=100000))
-        self.assertRegex(self.rows()[0]["reason"], r"not finite at step \d+ \(t = [0-9.e+-]+ s\), element 1")
+        self.assertRegex(self.rows()[0]["reason"], r"not finite after step \d+ \(t = [0-9.e+-]+ s\), element 1")
 
     def test_a_figure_far_from_its_prediction_is_a_failed_check(self):
         expect = [{"verdict": "ok", "why": "x", "predicted": 0.5, "within": 0.1}]

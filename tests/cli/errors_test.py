@@ -52,6 +52,10 @@ class Errors(ProgramTest):
         self.assertEqual(dssbench(*implicit, "1e-2").returncode, 0)
         self.assert_refused(3, ["finds no state", "step 1 ", "t = 0.5 s", "element", "--dt below 0.25 s"], *implicit, "0.5")
 
+    def test_a_step_that_no_number_of_stages_makes_stable_is_refused_at_once(self):
+        for dt in ("1e-3", "1"): # each mode is looked at up to such a step
+            self.assert_refused(3, ["rkc2", "stability limit"], "run", "plate_paper", "--set", "n=10", "--integrator", "rkc2", "--dt", dt)
+
     def test_adaptive_steps_are_refused_of_other_integrators_and_where_no_step_is_short_enough(self):
         self.assert_refused(2, ["--rtol", "rk4", "--integrator dopri5"], *SMALL, "--rtol", "1e-6")
         adaptive = (*SMALL, "--integrator", "dopri5")

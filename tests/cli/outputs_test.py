@@ -124,7 +124,7 @@ class Outputs(ProgramTest):
         self.assertGreater(sum(row["error"] is not None for row in rows), 10)
 
     def test_lists_are_tables_or_json(self):
-        for what in ("variants", "scenes", "experiments", "kernels", "devices"):
+        for what in ("variants", "scenes", "experiments", "methods", "kernels", "devices"):
             self.assertEqual(dssbench("list", what).returncode, 0)
             self.assertGreater(len(json.loads(dssbench("list", what, "--json").stdout)), 0)
 

@@ -103,6 +103,24 @@ TEST_P(EveryFreeBody, loses_angular_momentum_and_energy_at_the_order_of_the_meth
   }
 }
 
+/// (v / omega)^2 + (1 - (h omega / 2)^2) x^2 is what velocity Verlet keeps of an oscillator, to the last bit but for rounding.
+TEST(MillionSteps, of_velocity_verlet_leave_the_energy_of_an_undamped_pair_without_a_trend) {
+  const Problem pair = fixture::make_pair(LinkLaw::paper, 0);
+  const double omega = std::sqrt(2 * pair.bodies[0].axis[0].k_normal / pair.bodies[0].mass), h_omega = 0.1;
+  State start(2 * field_count, 0);
+  start[ux] = -1e-6, start[field_count + ux] = 1e-6;
+  const auto kept = [&](const State& state) {
+    const double x = state[field_count + ux], v = state[field_count + vx] / omega;
+    return v * v + (1 - h_omega * h_omega / 4) * x * x;
+  };
+  for (const char* variant : {"scalar", "auto"}) {
+    const VariantRun run{load_variant(variant), pair,           *find_method("velocity_verlet"),
+                         Model::spatial,        Precision::f64, 1,
+                         h_omega / omega};
+    EXPECT_NEAR(kept(run.after(start, 1'000'000)) / kept(start), 1, 1e-9) << variant;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Registry, EveryFreeBody, testing::ValuesIn(usable_variants()), [](const auto& registered) {
   std::string name = registered.param;
   std::replace(name.begin(), name.end(), '-', '_');

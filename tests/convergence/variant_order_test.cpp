@@ -2,6 +2,7 @@
 #include "solver/scene/scene.hpp"
 #include "tests/equivalence/comparison.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace dss::test {
@@ -62,6 +63,21 @@ TEST_F(PlateAfterTwoMilliseconds, float32_keeps_a_relative_error_below_1e_4_at_t
     RecordProperty(variant, std::to_string(e));
     EXPECT_LE(e, 1e-4) << variant;
     EXPECT_GT(e, 1e-8) << "this is not float32";
+  }
+}
+
+/// Kept increments leave the rounding of forces in single precision alone, which is the same at every step; float32's grows as steps shrink.
+TEST_F(PlateAfterTwoMilliseconds, kept_low_parts_stop_the_error_that_float32_gains_as_steps_shrink) {
+  for (const char* variant : {"scalar", "auto"}) {
+    const auto error_of = [&](double dt, Precision precision) {
+      const double e = error(run(load_variant(variant), "rk4", dt, precision));
+      RecordProperty(fmt::format("{}_{}_{}", variant, name(precision), dt), fmt::format("{}", e));
+      return e;
+    };
+    EXPECT_LT(error_of(1e-6, Precision::f32c), 2e-7) << variant;
+    EXPECT_GT(error_of(1e-6, Precision::f32), 4 * error_of(1e-6, Precision::f32c)) << variant;
+    EXPECT_LT(error_of(1.25e-7, Precision::f32c), 2e-7) << variant;
+    EXPECT_GT(error_of(1.25e-7, Precision::f32), 10 * error_of(1.25e-7, Precision::f32c)) << variant;
   }
 }
 

@@ -205,9 +205,11 @@ protected:
       records.push_back(record);
     }
   }
-  void add_refused(long steps) {
+  void add_refused(long steps, double step_limit) {
     Cell point = cell("fast", 1, steps);
     point.times = {1e-3, 5};
+    point.dt = 1e-3 / double(steps);
+    point.step_limit = step_limit;
     study.cells.push_back(point);
     Record record = row(point, 0, 1);
     record.erase("wall_s");
@@ -225,7 +227,8 @@ TEST_F(Points, TheFrontHasWhatNothingBeatsInBothAndFailedPointsStay) {
   add("slow", "f64", 100, 1e-3, 3);
   add("fast", "f64", 400, 3e-9, 4);
   add("fast", "f64", 50, 2, 0.5);
-  add_refused(10);
+  add_refused(10, 1e-6);
+  add_refused(20, 1);
   const Table table = precision_table(study, records);
   std::vector<std::string> front, status, below;
   for (const Record& point : table.rows) {
@@ -233,10 +236,11 @@ TEST_F(Points, TheFrontHasWhatNothingBeatsInBothAndFailedPointsStay) {
     status.push_back(text_in(point, "status"));
     below.push_back(text_in(point, "below_reference"));
   }
-  EXPECT_EQ(front, (std::vector<std::string>{"yes", "yes", "no", "yes", "", ""}));
-  EXPECT_EQ(status, (std::vector<std::string>{"ok", "ok", "ok", "ok", "inaccurate", "refused"}));
-  EXPECT_EQ(below, (std::vector<std::string>{"no", "no", "no", "yes", "no", ""}));
+  EXPECT_EQ(front, (std::vector<std::string>{"yes", "yes", "no", "yes", "", "", ""}));
+  EXPECT_EQ(status, (std::vector<std::string>{"ok", "ok", "ok", "ok", "inaccurate", "refused", "failed"}));
+  EXPECT_EQ(below, (std::vector<std::string>{"no", "no", "no", "yes", "no", "", ""}));
   EXPECT_EQ(text_in(table.rows[5], "reason"), "above the limit");
+  EXPECT_EQ(text_in(table.rows[6], "reason"), "refused below its stability limit 1 s: above the limit");
   EXPECT_EQ(number_in(table.rows[0], "evaluations"), 4.0 * 100 * 100);
 }
 

@@ -1,8 +1,11 @@
 #include "solver/numerics/method.hpp"
 #include "solver/numerics/stability.hpp"
+#include "solver/reference/oracle.hpp"
+#include "tests/fixtures/problems.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -138,6 +141,38 @@ TEST(Rkc2, has_a_limit_that_grows_with_the_square_of_its_stages) {
     EXPECT_NEAR(mode_step_limit(method, 0, 1), method.real_limit, 1e-6 * method.real_limit) << stages;
     EXPECT_GE(method.real_limit, 0.65 * (stages * stages - 1)) << stages;
     EXPECT_EQ(method.stages, stages);
+  }
+}
+
+/// One step on an undamped mode with h omega = 0.5 as a matrix of (x, v / omega), by the oracle.
+std::array<std::array<double, 2>, 2> step_on_a_mode(const Method& method) {
+  const Problem pair = fixture::make_pair(LinkLaw::paper, 0);
+  const double omega = std::sqrt(2 * pair.bodies[0].axis[0].k_normal / pair.bodies[0].mass), size = 1e-6;
+  std::array<std::array<double, 2>, 2> matrix{};
+  for (const std::size_t column : {0u, 1u}) {
+    std::vector<double> state(2 * field_count, 0);
+    const std::size_t field = column == 0 ? ux : vx;
+    state[field_count + field] = column == 0 ? size : size * omega;
+    state[field] = -state[field_count + field];
+    Oracle<long double> oracle(pair, method, 0.5 / omega);
+    oracle.write(state);
+    EXPECT_FALSE(oracle.advance(1));
+    oracle.read(state);
+    matrix[0][column] = state[field_count + ux] / size;
+    matrix[1][column] = state[field_count + vx] / (size * omega);
+  }
+  return matrix;
+}
+
+TEST(Methods, are_symplectic_and_keep_an_energy_bounded_where_they_say_so_and_nowhere_else) {
+  constexpr double rounding = 1e-12;
+  for (const Method* method : all_methods()) {
+    const auto [position, velocity] = step_on_a_mode(*method);
+    const double determinant = position[0] * velocity[1] - position[1] * velocity[0];
+    const double half_trace = (position[0] + velocity[1]) / 2, rest = half_trace * half_trace - determinant;
+    const double radius = rest < 0 ? std::sqrt(determinant) : std::abs(half_trace) + std::sqrt(rest);
+    EXPECT_EQ(std::abs(determinant - 1) < rounding, method->is_symplectic) << method->name << " " << determinant;
+    EXPECT_EQ(std::abs(radius - 1) < rounding, method->keeps_energy_bounded) << method->name << " " << radius;
   }
 }
 

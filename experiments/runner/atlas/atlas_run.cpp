@@ -1,4 +1,5 @@
 #include "experiments/runner/atlas/atlas_run.hpp"
+#include "experiments/runner/breakdown.hpp"
 #include "experiments/runner/state_access.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/dynamics.hpp"
@@ -33,9 +34,7 @@ public:
       const long now = std::min(piece, end - step_);
       const Outcome outcome = executor_->advance(now, signal_rows(problem_, method_, dt_, step_, now));
       if (!outcome.is_finite) {
-        const long step = step_ + outcome.step;
-        breakdown_ = fmt::format("not finite at step {} (t = {:.6g} s), element {}", step, double(step + 1) * dt_,
-                                 outcome.element);
+        breakdown_ = breakdown_text(outcome.what, step_ + outcome.step, dt_, outcome.element);
         return false;
       }
       step_ += now;

@@ -73,8 +73,10 @@ private:
     return parameters;
   }
 
-  /// Why the program would not run the cell, or empty. The same rules as plan_run's.
-  std::string refusal(const Method& method, Rotation rotation, Model model, double dt) {
+  /// Why the program would not run the cell, or empty. The same rules as plan_run's, except that stages are not fitted to the step.
+  std::string refusal(const Method& method, Precision precision, Rotation rotation, Model model, double dt) {
+    if (precision == Precision::f32c && !plugin_.is_compensated)
+      return fmt::format("variant {} has f64 and f32 alone", plugin_.name);
     if (!plugin_.has_all && method.is_implicit())
       return fmt::format("variant {} has the explicit methods alone", plugin_.name);
     if (!plugin_.has_all && rotation != Rotation::quaternion)
@@ -157,7 +159,7 @@ private:
                   {"steps", fmt::format("{}", steps)},
                   {"metric", atlas_.metric}};
     AtlasFigure figure{std::numeric_limits<double>::quiet_NaN()};
-    row["reason"] = refusal(method, rotation, model, dt);
+    row["reason"] = refusal(method, precision, rotation, model, dt);
     try {
       if (row["reason"].empty()) {
         figure = measured_figure({atlas_, scene_, plugin_, method, precision, rotation, model, dt, steps}, parameters,

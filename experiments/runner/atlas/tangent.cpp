@@ -65,12 +65,6 @@ void move(T* fields, int dof, T by) {
   fields[qx + c] = z + less * z + half * y;
 }
 
-double shortest_edge(const Problem& problem) {
-  double edge = problem.bodies.front().edge[0];
-  for (const Body& body : problem.bodies) edge = std::min(edge, *std::ranges::min_element(body.edge));
-  return edge;
-}
-
 } // namespace
 
 FreeDofs free_dofs(const Problem& problem) {

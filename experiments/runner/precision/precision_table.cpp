@@ -91,12 +91,22 @@ void put_errors(const CellSample& sample, Record& row) {
   }
 }
 
+/// Only a step above the limit may be refused or unstable: below it that is a failure of the program.
+void judge_stability(const Cell& cell, Record& row) {
+  const std::string status = row["status"];
+  if ((status != "refused" && status != "unstable") || cell.rtol > 0 || cell.dt == 0 || cell.dt > cell.step_limit)
+    return;
+  row["status"] = "failed";
+  row["reason"] = fmt::format("{} below its stability limit {:.6g} s: {}", status, cell.step_limit, row["reason"]);
+}
+
 Record point_row(const Study& study, const StudySamples& samples, const Cell& cell) {
   const CellSample* sample = samples.of(cell);
   Record row;
   put_identity(study, cell, sample == nullptr ? CellSample{} : *sample, row);
   put_point(cell, sample, row);
   if (sample == nullptr) row["status"] = "not measured";
+  judge_stability(cell, row);
   if (sample == nullptr || sample->is_empty()) return row;
   put_times(study, cell, *sample, row);
   put_errors(*sample, row);

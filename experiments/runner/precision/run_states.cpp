@@ -1,4 +1,5 @@
 #include "experiments/runner/precision/run_states.hpp"
+#include "experiments/runner/breakdown.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/state_access.hpp"
 #include "solver/numerics/denormals.hpp"
@@ -21,9 +22,8 @@ std::vector<std::vector<double>> run_states(RunRequest request, const SavedTimes
   for (long step = 0; step < plan.steps; step += between) {
     const Outcome outcome = executor->advance(between, signal_rows(problem, *plan.method, plan.dt, step, between));
     if (!outcome.is_finite)
-      throw UnstableError(fmt::format("{}: the state is not finite after step {} (t = {:.6g} s), element {}",
-                                      problem.name, step + outcome.step + 1, double(step + outcome.step + 1) * plan.dt,
-                                      outcome.element));
+      throw UnstableError(fmt::format("{}: {}", problem.name,
+                                      breakdown_text(outcome.what, step + outcome.step, plan.dt, outcome.element)));
     states.push_back(whole_state(*executor, problem.lattice.element_count));
   }
   return states;

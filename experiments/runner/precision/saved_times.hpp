@@ -2,6 +2,7 @@
 /// Equally spaced times at which a run and the solution that it is measured against are compared.
 #include "solver/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -14,7 +15,11 @@ struct SavedTimes {
 
   double interval() const { return end / double(count); }
   /// Steps from one saved time to the next, none longer than dt [s]. What exceeds a whole number by rounding alone counts as whole.
-  long steps_between(double dt) const { return std::max(1L, long(std::ceil(interval() / dt * (1 - 1e-9)))); }
+  /// One for dt = 0, the limit of a method of which no step is stable.
+  long steps_between(double dt) const {
+    constexpr double most = 1e15;
+    return dt > 0 ? long(std::clamp(std::ceil(interval() / dt * (1 - 1e-9)), 1.0, most)) : 1;
+  }
   /// The same for a step that must fit. @throws InputError if it does not divide the interval
   long whole_steps_between(double dt) const {
     const long steps = std::lround(interval() / dt);
