@@ -96,7 +96,7 @@ def draw(path, output):
         return f"{path}: no point was measured"
     markers = {variant: MARKERS[place % len(MARKERS)] for place, variant in enumerate(table.loc[table["status"] == "ok", "variant"].unique())}
     problems = list(table.groupby(PROBLEM, sort=False, dropna=False))
-    figure, panels = plt.subplots(len(problems), 2, figsize=(10, 0.8 + 2.75 * len(problems)), squeeze=False, sharey="row", layout="constrained")
+    figure, panels = plt.subplots(len(problems), 2, figsize=(11, 0.8 + 2.75 * len(problems)), squeeze=False, sharey="row", layout="constrained")
     for (name, rows), (left, right) in zip(problems, panels):
         for axes, (work, label) in zip((left, right), WORKS):
             draw_panel(axes, rows, work, markers)
@@ -104,7 +104,9 @@ def draw(path, output):
         set_text = "" if pandas.isna(name[1]) else name[1].replace("bodies/0/constants/", "") + ", "
         left.set_title(f"{name[0]}, {set_text}to {name[2]:g} s", fontsize=9.5, loc="left", pad=14)
         left.set_ylabel("largest error of displacements,\nrelative", fontsize=8.5)
-    panels[0, 1].legend(handles=legend_of(table, markers), loc="upper left", bbox_to_anchor=(1.02, 1), frameon=False, fontsize=8.5)
+    # Beside the panels and higher than one of them: the layout must not make room for it in a row.
+    figure.get_layout_engine().set(rect=(0, 0, 0.83, 1))
+    figure.legend(handles=legend_of(table, markers), loc="upper right", frameon=False, fontsize=8.5).set_in_layout(False)
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, dpi=110)
     plt.close(figure)
