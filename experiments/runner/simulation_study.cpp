@@ -3,6 +3,7 @@
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/simulation.hpp"
+#include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "variants/loader.hpp"
 
@@ -47,12 +48,6 @@ const std::vector<std::string>& columns() {
                                                  "status",
                                                  "reason"};
   return names;
-}
-
-std::string set_text(const std::vector<Override>& set) {
-  std::string text;
-  for (const Override& item : set) text += fmt::format("{}{}={}", text.empty() ? "" : " ", item.key, item.value);
-  return text;
 }
 
 /// One problem on one number of ranks and one decomposition: what all networks and strategies share.

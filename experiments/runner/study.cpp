@@ -98,11 +98,13 @@ fs::path study_directory() {
 
 } // namespace
 
-std::string Cell::set_text() const {
+std::string set_text(const std::vector<Override>& set) {
   std::string text;
   for (const Override& item : set) text += fmt::format("{}{}={}", text.empty() ? "" : " ", item.key, item.value);
   return text;
 }
+
+std::string Cell::set_text() const { return dss::set_text(set); }
 
 std::string Cell::step_text() const {
   return (dt > 0 ? fmt::format(" dt {:.6g} s", dt) : "") + (rtol > 0 ? fmt::format(" rtol {:g}", rtol) : "");

@@ -80,6 +80,9 @@ struct PaperRow {
   std::string set{};              ///< overrides of the problem as a cell's text, "n=50"; may be empty
 };
 
+/// "n=100 run.dt=1e-06"
+std::string set_text(const std::vector<Override>& set);
+
 struct Study {
   std::string name, title, path;
   std::vector<std::string> bases; ///< variants that speed-ups refer to, on one rank and thread

@@ -2,6 +2,7 @@
 #include "experiments/runner/atlas/beam_theory.hpp"
 #include "experiments/runner/atlas/failure_case.hpp"
 #include "experiments/runner/atlas/tangent.hpp"
+#include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "solver/scene/scene.hpp"
 

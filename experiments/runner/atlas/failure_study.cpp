@@ -1,5 +1,6 @@
 #include "experiments/runner/atlas/failure_study.hpp"
 #include "experiments/runner/atlas/atlas_run.hpp"
+#include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "solver/numerics/stability.hpp"
 #include "variants/loader.hpp"

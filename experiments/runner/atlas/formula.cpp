@@ -56,12 +56,6 @@ std::vector<std::vector<Override>> combinations(const JsonPlace& object, const s
   return sets;
 }
 
-std::string set_text(const std::vector<Override>& set) {
-  std::string text;
-  for (const Override& change : set) text += fmt::format("{}{}={}", text.empty() ? "" : " ", change.key, change.value);
-  return text;
-}
-
 std::string scene_beside(const std::string& study_path, const std::string& scene) {
   if (!scene.ends_with(".json")) return scene;
   return (std::filesystem::path(study_path).parent_path() / scene).string();

@@ -28,9 +28,6 @@ std::vector<Formula> formulas(const JsonPlace& place);
 /// "set": {"n": [4, 8], "E": 1e7} -> {n=4, E=1e7}, {n=8, E=1e7}; {} without the key
 std::vector<std::vector<Override>> combinations(const JsonPlace& object, const std::string& key);
 
-/// "n=4 E=1e+07"
-std::string set_text(const std::vector<Override>& set);
-
 /// File of a scene that a study names: beside the study if it ends in .json, else a shipped one's name.
 std::string scene_beside(const std::string& study_path, const std::string& scene);
 

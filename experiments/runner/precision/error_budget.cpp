@@ -3,6 +3,7 @@
 #include "experiments/runner/precision/refinement.hpp"
 #include "experiments/runner/precision/run_states.hpp"
 #include "experiments/runner/run_plan.hpp"
+#include "experiments/runner/study.hpp"
 #include "solver/numerics/stability.hpp"
 
 #include <cmath>
@@ -12,12 +13,6 @@ namespace dss {
 namespace {
 
 using States = std::vector<std::vector<double>>;
-
-std::string set_text(const std::vector<Override>& set) {
-  std::string text;
-  for (const Override& item : set) text += fmt::format("{}{}={}", text.empty() ? "" : " ", item.key, item.value);
-  return text;
-}
 
 /// Solutions by scene, overrides and times: two budgets of one scene share theirs.
 using Solutions = std::map<std::string, Solution>;
