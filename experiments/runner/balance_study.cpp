@@ -69,9 +69,6 @@ Table balance_table(const BalanceStudy& study) {
 }
 
 std::string balance_text(const BalanceStudy& study, const Table& table) {
-  const auto shown = [](const Record& row, const char* column, const char* form) {
-    return fmt::format(fmt::runtime(form), number_in(row, column));
-  };
   std::vector<std::vector<std::string>> rows;
   for (const Record& row : table.rows)
     rows.push_back({text_in(row, "link"), text_in(row, "overlapped"), text_in(row, "n"),

@@ -16,8 +16,7 @@ constexpr const char* format = "dssbench-oracle-1";
 } // namespace
 
 OracleState compute_oracle_state(const Problem& problem, const Method& method, double dt, long steps, std::string key) {
-  OracleState result{std::move(key), steps, std::vector<double>(problem.lattice.element_count * field_count)};
-  initial_state(problem, 0, problem.lattice.element_count, result.state.data());
+  OracleState result{std::move(key), steps, initial_state(problem)};
   Oracle<long double> oracle(problem, method, dt);
   oracle.write(result.state);
   if (const auto breakdown = oracle.advance(steps))

@@ -44,6 +44,11 @@ double number_in(const Record& record, const std::string& column) {
   return value;
 }
 
+std::string shown(const Record& record, const std::string& column, const char* form, double scale) {
+  const double value = number_in(record, column);
+  return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), scale * value);
+}
+
 std::string text_in(const Record& record, const std::string& column) {
   const auto found = record.find(column);
   return found == record.end() ? std::string() : found->second;

@@ -19,6 +19,8 @@ struct Table {
 std::string number_text(double value);
 /// Number in a column, NaN where it is missing or empty. @throws InputError if there is something else
 double number_in(const Record& record, const std::string& column);
+/// The same for people, times `scale`, in fmt's form; an empty text for what is missing.
+std::string shown(const Record& record, const std::string& column, const char* form, double scale = 1);
 /// Text in a column, empty where it is missing.
 std::string text_in(const Record& record, const std::string& column);
 

@@ -304,9 +304,7 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
 /// Of the final energy against that of the start; nothing where it need not be the same, or is zero.
 std::optional<double> energy_drift(const Problem& problem, Rotation rotation, std::optional<double> final_j) {
   if (!final_j || !conserves_energy(problem)) return {};
-  std::vector<double> start(problem.lattice.element_count * field_count);
-  initial_state(problem, 0, problem.lattice.element_count, start.data());
-  const double start_j = total_energy(problem, start, rotation);
+  const double start_j = total_energy(problem, initial_state(problem), rotation);
   if (start_j == 0) return {};
   return *final_j / start_j - 1;
 }

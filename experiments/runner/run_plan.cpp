@@ -32,20 +32,6 @@ Rotation chosen_rotation(const std::string& text) {
   throw InputError(fmt::format("--rotation {}: unknown rotation; {}", text, nearest_name(text, known)));
 }
 
-/// What not every variant has.
-void require_variant_has(const RunPlan& plan) {
-  if (plan.precision == Precision::f32c && !plan.plugin->is_compensated)
-    throw InputError(
-        fmt::format("--precision f32c: variant {} has f64 and f32 alone; give another --variant", plan.plugin->name));
-  if (plan.plugin->has_all) return;
-  if (plan.method->is_implicit())
-    throw InputError(fmt::format("--integrator {}: variant {} has the explicit methods alone; give --variant reference",
-                                 plan.method->name, plan.plugin->name));
-  if (plan.rotation != Rotation::quaternion)
-    throw InputError(fmt::format("--rotation {}: variant {} has quaternions alone; give --variant reference",
-                                 name(plan.rotation), plan.plugin->name));
-}
-
 /// The variant of the process, and that of parts on ranks.
 VariantName asked_variant(const RunRequest& request) {
   if (request.hybrid.empty()) return parse_variant(request.variant, request.ranks);
@@ -184,6 +170,14 @@ void read_reference(const RunRequest& request, RunPlan& plan) {
 
 } // namespace
 
+std::string what_lacks(const Plugin& plugin, Precision precision, const Method& method, Rotation rotation) {
+  if (precision == Precision::f32c && !plugin.is_compensated) return "has f64 and f32 alone, not --precision f32c";
+  if (plugin.has_all) return {};
+  if (method.is_implicit()) return fmt::format("has the explicit methods alone, not --integrator {}", method.name);
+  if (rotation != Rotation::quaternion) return fmt::format("has quaternions alone, not --rotation {}", name(rotation));
+  return {};
+}
+
 const Method& require_method(const std::string& name) {
   if (const Method* method = find_method(name)) return *method;
   throw InputError(fmt::format("--integrator {}: unknown integrator; {}", name, nearest_name(name, method_names())));
@@ -228,7 +222,9 @@ RunPlan plan_run(const RunRequest& request) {
   plan.tail_steps = request.check_tail;
   if (!request.reference.empty() && plan.dt > 0) read_reference(request, plan);
   require_devices(request, plan);
-  require_variant_has(plan);
+  if (const std::string what = what_lacks(*plan.plugin, plan.precision, *plan.method, plan.rotation); !what.empty())
+    throw InputError(fmt::format("variant {} {}; give {}", plan.plugin->name, what,
+                                 plan.plugin->has_all ? "another --variant" : "--variant reference"));
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
     throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <utility>
 
 namespace dss {
 namespace {
@@ -57,16 +58,11 @@ Decomposition trial_decomposition(const Problem& problem, const Decomposition& d
   return decompose(problem, "strips", int(parts));
 }
 
-std::size_t largest_part(const Problem& problem, const Decomposition& decomposition, int& index) {
-  std::vector<std::size_t> elements(std::size_t(decomposition.parts), 0);
-  for (const Share& share : decomposition.shares) {
-    const Row& row = problem.lattice.rows[std::size_t(share.segment.row)];
-    for (int x = share.segment.x_begin; x < share.segment.x_end; ++x)
-      elements[std::size_t(share.part)] += problem.lattice.is_present(row, x);
-  }
+/// Its index; how many elements it has.
+std::pair<int, std::size_t> largest_part(const Problem& problem, const Decomposition& decomposition) {
+  const std::vector<std::size_t> elements = part_elements(decomposition, problem.lattice);
   const auto most = std::ranges::max_element(elements);
-  index = int(most - elements.begin());
-  return *most;
+  return {int(most - elements.begin()), *most};
 }
 
 } // namespace
@@ -81,10 +77,9 @@ NodeSpeed given_speed(const std::string& name, double element_steps_per_s, const
 }
 
 NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposition) {
-  int index = 0;
-  const std::size_t largest = largest_part(what.problem, decomposition, index);
-  const Decomposition tried = trial_decomposition(what.problem, decomposition, largest);
-  largest_part(what.problem, tried, index);
+  const Decomposition tried =
+      trial_decomposition(what.problem, decomposition, largest_part(what.problem, decomposition).second);
+  const int index = largest_part(what.problem, tried).first;
   const Setup setup{what.problem, what.method, what.model, what.precision, what.problem.dt};
   NodeSpeed speed = measure_speed(setup, load_variant("auto"), tried, index, calibrations);
   speed.name = "ours";

@@ -2,6 +2,7 @@
 #include "experiments/runner/simulation.hpp"
 #include "experiments/runner/simulation_study.hpp"
 #include "experiments/runner/study.hpp"
+#include "experiments/runner/study_sets.hpp"
 #include "solver/nearest_name.hpp"
 #include "variants/distribution.hpp"
 
@@ -12,18 +13,6 @@ namespace dss {
 namespace {
 
 constexpr int most_ranks = 1024; // of the platform files
-
-std::string value_text(const JsonPlace& place) {
-  if (place.value().is_string()) return place.text();
-  if (!place.value().is_number()) place.fail(fmt::format("{} is neither a number nor a text", place.value().dump()));
-  return place.value().dump();
-}
-
-std::vector<Override> overrides(const JsonPlace& place) {
-  std::vector<Override> set;
-  for (const auto& [key, value] : place.value().items()) set.push_back({key, value_text(place[key])});
-  return set;
-}
 
 int rank_count(const std::string& text, const JsonPlace& place) {
   const int ranks = std::atoi(text.c_str());
@@ -36,24 +25,14 @@ void read_problems(const JsonPlace& place, SimulationBlock& block) {
   if (place.has("weak")) {
     for (const auto& [ranks, set] : place["weak"].value().items()) {
       const int count = rank_count(ranks, place["weak"]);
-      block.set_of_ranks[count] = overrides(place["weak"][ranks]);
+      block.set_of_ranks[count] = one_set(place["weak"][ranks]);
       block.ranks.push_back(count);
     }
     std::ranges::sort(block.ranks);
     if (block.ranks.empty()) place["weak"].fail("is empty; give overrides for each number of ranks");
     return;
   }
-  block.sets.resize(1);
-  if (place.has("set"))
-    for (const auto& [key, value] : place["set"].value().items()) {
-      std::vector<std::vector<Override>> longer;
-      for (const auto& set : block.sets)
-        for (const JsonPlace& item : place["set"][key].items()) {
-          longer.push_back(set);
-          longer.back().push_back({key, value_text(item)});
-        }
-      block.sets = std::move(longer);
-    }
+  block.sets = combinations(place, "set");
   for (const JsonPlace& item : place["ranks"].items())
     block.ranks.push_back(rank_count(fmt::format("{}", item.count(1)), item));
 }

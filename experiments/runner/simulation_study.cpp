@@ -1,5 +1,6 @@
 #include "experiments/runner/simulation_study.hpp"
 
+#include "experiments/runner/parallel.hpp"
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/simulation.hpp"
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
+#include <span>
 
 namespace dss {
 namespace {
@@ -50,25 +53,47 @@ const std::vector<std::string>& columns() {
   return names;
 }
 
+/// A scene with overrides; the last one is kept, since reading 400 million elements takes seconds.
+class LastScene {
+public:
+  explicit LastScene(std::string name) : name_(std::move(name)) {}
+  const Scene& with(const std::vector<Override>& set) {
+    if (!scene_ || set_text(set) != set_) {
+      scene_.reset();
+      scene_ = load_scene(name_, set);
+      set_ = set_text(set);
+    }
+    return *scene_;
+  }
+
+private:
+  std::string name_, set_;
+  std::optional<Scene> scene_;
+};
+
 /// One problem on one number of ranks and one decomposition: what all networks and strategies share.
 class SimulatedCase {
 public:
-  SimulatedCase(const SimulationBlock& block, const std::vector<Override>& set, int ranks,
+  SimulatedCase(const SimulationBlock& block, const std::vector<Override>& set, const Scene& scene, int ranks,
                 const std::string& decomposition, NodeSpeed base)
-      : block_(block), set_(set), scene_(load_scene(block.scene, set)), ranks_(ranks),
+      : block_(block), set_(set), scene_(scene), ranks_(ranks),
         decomposition_(decompose(scene_.problem, decomposition, ranks)), base_(std::move(base)),
         own_(ranks == 1 ? base_ : own_speed(what(), decomposition_)) {}
 
-  static NodeSpeed speed_of_one(const SimulationBlock& block, const std::vector<Override>& set) {
-    const Scene scene = load_scene(block.scene, set);
+  static NodeSpeed speed_of_one(const Scene& scene) {
     return own_speed(what(scene), decompose(scene.problem, "strips", 1));
   }
 
-  /// Rows of all strategies on a network.
-  std::vector<Record> rows(const std::string& study, const std::string& network, const std::string& platform) const {
-    std::vector<Record> rows;
-    for (const std::string& halo : block_.halos) rows.push_back(row(study, network, platform, halo));
-    for (const char* node : {"paper", "own"}) put_over_best(rows, fmt::format("simulated_{}_node_", node));
+  /// Rows of all strategies, network by network. Speeds of this machine are known by now: nothing here is timed.
+  std::vector<Record> rows(const std::string& study, const std::vector<Platform>& platforms) const {
+    const std::size_t halos = block_.halos.size();
+    std::vector<Record> rows(platforms.size() * halos);
+    for_each_on_all_cores(rows.size(), [&](std::size_t n) {
+      rows[n] = row(study, block_.platforms[n / halos], platforms[n / halos].path(), block_.halos[n % halos]);
+    });
+    for (std::size_t first = 0; first < rows.size(); first += halos)
+      for (const char* node : {"paper", "own"})
+        put_over_best(std::span(rows).subspan(first, halos), fmt::format("simulated_{}_node_", node));
     return rows;
   }
 
@@ -127,7 +152,7 @@ private:
   }
 
   /// How much slower each strategy is than the best of the rows: what the model's choice is judged by.
-  static void put_over_best(std::vector<Record>& rows, const std::string& column) {
+  static void put_over_best(std::span<Record> rows, const std::string& column) {
     double best = INFINITY;
     for (const Record& row : rows)
       if (const double wall_s = number_in(row, column + "wall_s"); wall_s < best) best = wall_s;
@@ -138,7 +163,7 @@ private:
 
   const SimulationBlock& block_;
   const std::vector<Override>& set_;
-  Scene scene_;
+  const Scene& scene_;
   int ranks_;
   Decomposition decomposition_;
   NodeSpeed base_, own_;
@@ -169,25 +194,24 @@ Table simulate_study(const std::string& study, const std::vector<SimulationBlock
   }
   Progress progress;
   for (const SimulationBlock& block : blocks) {
-    std::map<std::string, Platform> platforms;
-    for (const std::string& name : block.platforms) platforms.emplace(name, Platform(name));
+    const std::vector<Platform> platforms(block.platforms.begin(), block.platforms.end());
+    LastScene scenes(block.scene);
     const bool is_weak = !block.set_of_ranks.empty();
     const std::vector<std::vector<Override>> no_sets(1);
     for (const auto& own_set : is_weak ? no_sets : block.sets) {
       const NodeSpeed base =
-          SimulatedCase::speed_of_one(block, is_weak ? block.set_of_ranks.at(block.ranks.front()) : own_set);
+          SimulatedCase::speed_of_one(scenes.with(is_weak ? block.set_of_ranks.at(block.ranks.front()) : own_set));
       for (const int ranks : block.ranks) {
         const auto& set = is_weak ? block.set_of_ranks.at(ranks) : own_set;
         for (const std::string& decomposition :
              ranks == 1 ? std::vector<std::string>{"strips"} : block.decompositions) {
           progress.note(
               fmt::format("simulation: {} {}, {} ranks, {}", block.scene, set_text(set), ranks, decomposition));
-          const SimulatedCase one(block, set, ranks, decomposition, base);
-          for (const std::string& network : block.platforms)
-            for (Record& row : one.rows(study, network, platforms.at(network).path())) {
-              put_measured(measured, row);
-              table.rows.push_back(std::move(row));
-            }
+          for (Record& row :
+               SimulatedCase(block, set, scenes.with(set), ranks, decomposition, base).rows(study, platforms)) {
+            put_measured(measured, row);
+            table.rows.push_back(std::move(row));
+          }
         }
       }
     }
@@ -196,10 +220,6 @@ Table simulate_study(const std::string& study, const std::vector<SimulationBlock
 }
 
 std::string simulation_text(const Table& table) {
-  const auto shown = [](const Record& row, const std::string& column, const char* form) {
-    const double value = number_in(row, column);
-    return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), value);
-  };
   std::vector<std::vector<std::string>> rows;
   for (const Record& row : table.rows) {
     const auto node = [&](const std::string& name) {

@@ -1,5 +1,6 @@
 #include "experiments/runner/stability_study.hpp"
 #include "experiments/runner/keyed_study.hpp"
+#include "experiments/runner/parallel.hpp"
 #include "experiments/runner/stability_energy.hpp"
 #include "experiments/runner/stability_limit.hpp"
 #include "experiments/runner/study_block.hpp"
@@ -21,12 +22,6 @@ double not_negative(const JsonPlace& place) {
   return place.value().get<double>();
 }
 
-/// A scene's file beside the study, or its name.
-std::string scene_of(const JsonPlace& place, const std::string& study_file) {
-  const auto beside = std::filesystem::path(study_file).parent_path() / place.text();
-  return std::filesystem::exists(beside) ? beside.string() : place.text();
-}
-
 StabilityStudy::Case mode_case(const std::string& scene, double zeta) {
   const std::string text = fmt::format("{:g}", zeta);
   return {std::filesystem::path(scene).stem().string(), "zeta=" + text, load_scene(scene, {{"zeta", text}}), zeta};
@@ -34,7 +29,7 @@ StabilityStudy::Case mode_case(const std::string& scene, double zeta) {
 
 void read_mode(const JsonPlace& place, const JsonPlace& scale, const std::string& file, StabilityStudy& study) {
   place.require_keys({"scene", "zeta"});
-  const std::string scene = scene_of(place["scene"], file);
+  const std::string scene = scene_beside(file, place["scene"].text());
   const Scene as_it_is = load_scene(scene, {});
   for (const char* parameter : {"omega", "zeta"})
     if (!as_it_is.parameters.contains(parameter))
@@ -47,8 +42,8 @@ void read_mode(const JsonPlace& place, const JsonPlace& scale, const std::string
 void read_scene_cases(const JsonPlace& place, std::size_t most_elements, const std::string& file,
                       StabilityStudy& study) {
   place.require_keys({"scene", "set"});
-  const std::string scene = scene_of(place["scene"], file);
-  for (const std::vector<Override>& set : place.has("set") ? combinations(place["set"]) : Sets(1)) {
+  const std::string scene = scene_beside(file, place["scene"].text());
+  for (const std::vector<Override>& set : combinations(place, "set")) {
     std::string text;
     for (const Override& item : set) text += fmt::format("{}{}={}", text.empty() ? "" : " ", item.key, item.value);
     StabilityStudy::Case own{place["scene"].text(), text, load_scene(scene, set), {}};
@@ -125,12 +120,17 @@ Table stability_table(const StabilityStudy& study) {
                "mode", "steps", "runs", "status", "reason"},
               {}};
   const std::vector<const Method*> all = explicit_methods();
-  for (const StabilityStudy::Case& of : study.cases) {
-    const std::vector<StabilityLimit> predicted = stable_steps(of.scene.problem, all);
-    for (std::size_t m = 0; m < all.size(); ++m)
-      table.rows.push_back(limit_row(
-          study, of, compare_limit(*study.plugin, of.scene.problem, *all[m], predicted[m], study.element_steps)));
-  }
+  table.rows.resize(study.cases.size() * all.size());
+  std::vector<std::vector<StabilityLimit>> predicted(study.cases.size());
+  for_each_on_all_cores(study.cases.size(),
+                        [&](std::size_t c) { predicted[c] = stable_steps(study.cases[c].scene.problem, all); });
+  for_each_on_all_cores(table.rows.size(), [&](std::size_t n) {
+    const std::size_t m = n % all.size();
+    const StabilityStudy::Case& of = study.cases[n / all.size()];
+    table.rows[n] = limit_row(
+        study, of,
+        compare_limit(*study.plugin, of.scene.problem, *all[m], predicted[n / all.size()][m], study.element_steps));
+  });
   return table;
 }
 
@@ -182,13 +182,10 @@ Table stability_map_table(const StabilityStudy& study) {
 std::string stability_text(const StabilityStudy& study, const Table& limits, const Table& energy) {
   std::vector<std::vector<std::string>> rows;
   for (const Record& row : limits.rows) {
-    const auto shown = [&](const char* column, const char* form) {
-      const double value = number_in(row, column);
-      return std::isnan(value) ? "" : fmt::format(fmt::runtime(form), value);
-    };
-    rows.push_back({text_in(row, "scene"), text_in(row, "set"), text_in(row, "integrator"), shown("zeta", "{:.4g}"),
-                    shown("predicted_dt_s", "{:.5g}"), shown("measured_dt_s", "{:.5g}"), shown("ratio", "{:.4f}"),
-                    shown("predicted_h_omega", "{:.4f}"), text_in(row, "status"), text_in(row, "reason")});
+    const auto own = [&](const char* column, const char* form) { return shown(row, column, form); };
+    rows.push_back({text_in(row, "scene"), text_in(row, "set"), text_in(row, "integrator"), own("zeta", "{:.4g}"),
+                    own("predicted_dt_s", "{:.5g}"), own("measured_dt_s", "{:.5g}"), own("ratio", "{:.4f}"),
+                    own("predicted_h_omega", "{:.4f}"), text_in(row, "status"), text_in(row, "reason")});
   }
   const auto wrong =
       std::ranges::count_if(energy.rows, [](const Record& row) { return text_in(row, "status") != "ok"; });

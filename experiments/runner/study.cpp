@@ -170,7 +170,7 @@ Study load_study(const std::string& name_or_path, const std::string& scale, int 
   const JsonPlace scale_place = scale_of(root, scale);
   study.scale = read_scale(scale_place, scale, root.has("work_precision"));
   if (root.has("work_precision")) study.precision = read_precision_rules(root["work_precision"]);
-  const Sets scale_sets = scale_place.has("set") ? combinations(scale_place["set"]) : Sets(1);
+  const Sets scale_sets = combinations(scale_place, "set");
   for (const JsonPlace& block : root["cells"].items()) add_block(block, scale_sets, cores, study);
   if (study.cells.empty()) root["cells"].fail("no cell; give at least one scene with a variant");
   if (scale_place.has("steps_by_set")) require_sets(scale_place["steps_by_set"], study);

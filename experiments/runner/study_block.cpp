@@ -122,7 +122,7 @@ Block read_block(const JsonPlace& place, const Sets& scale_sets, int cores) {
   place.require_keys({"scene", "set", "variants", "device", "hybrid", "threads", "ranks", "decompositions", "halos",
                       "weak", "models", "precisions", "integrators", "accuracy"});
   Block block;
-  for (const auto& own : place.has("set") ? combinations(place["set"]) : Sets(1))
+  for (const auto& own : combinations(place, "set"))
     for (const auto& of_scale : scale_sets) {
       block.sets.push_back(own);
       block.sets.back().insert(block.sets.back().end(), of_scale.begin(), of_scale.end());

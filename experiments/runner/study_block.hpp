@@ -1,19 +1,13 @@
 #pragma once
 /// Cells of a study: every combination of what a block of its JSON names.
 #include "experiments/runner/study.hpp"
-#include "experiments/runner/study_reader.hpp"
+#include "experiments/runner/study_sets.hpp"
 #include "variants/loader.hpp"
 
 #include <string>
 #include <vector>
 
 namespace dss {
-
-/// Alternative overrides of a scene.
-using Sets = std::vector<std::vector<Override>>;
-
-/// Every combination of the values of an object like {"n": [50, 100], "run.dt": 1e-6}. @throws InputError
-Sets combinations(const JsonPlace& place);
 
 /// A variant by name. @throws InputError with the place, naming the nearest
 const VariantStatus& known_variant(const std::string& name, const JsonPlace& place);

@@ -7,11 +7,6 @@
 namespace dss {
 namespace {
 
-std::string shown(const Record& row, const std::string& column, const char* form, double scale = 1) {
-  const double value = number_in(row, column);
-  return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), scale * value);
-}
-
 /// Overrides, and the precision where it is not the usual one.
 std::string shown_set(const Record& row) {
   const std::string precision = text_in(row, "precision");

@@ -1,5 +1,6 @@
 #pragma once
 /// Files for programs that this one starts.
+#include <atomic>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -25,7 +26,7 @@ public:
   const std::string& path() const { return path_; }
 
 private:
-  static inline int count_ = 0;
+  static inline std::atomic<int> count_ = 0;
   std::string path_;
 };
 

@@ -81,8 +81,7 @@ private:
   ExpectedRun expected_run(const Method& method) const {
     ExpectedRun run;
     run.dt = verified_step(problem_, method);
-    run.state.resize(problem_.lattice.element_count * field_count);
-    initial_state(problem_, 0, problem_.lattice.element_count, run.state.data());
+    run.state = initial_state(problem_);
     Oracle<long double> oracle(problem_, method, run.dt);
     oracle.write(run.state);
     oracle.advance(steps_);
@@ -90,11 +89,17 @@ private:
     return run;
   }
 
-  std::string device_of(const Plugin& plugin) const { return plugin.devices == nullptr ? "" : device_; }
+  Setup setup_of(const Plugin& plugin, const Method& method, double dt, int threads) const {
+    Setup setup{problem_, method, model_, precision_, dt, threads};
+    if (plugin.devices != nullptr) setup.device = device_;
+    if (device_ == no_device && std::string_view(plugin.name) == "hybrid") // whose second member would be one
+      setup.members = fmt::format("auto:{},auto:{}", std::max(1, threads - threads / 2), std::max(1, threads / 2));
+    return setup;
+  }
 
   std::string why_skipped(const Plugin& plugin) const {
     try {
-      if (precision_ == Precision::f32c && !plugin.is_compensated) return "has f64 and f32 alone";
+      if (precision_ == Precision::f32c && !plugin.is_compensated) return "has f64 and f32 alone, not f32c";
       if (precision_ == Precision::f32c && plugin.devices != nullptr)
         return "left to tests/equivalence: programs of their own for every scene take minutes to compile";
       if (plugin.devices != nullptr) require_precision(choose_device(plugin.devices(), device_), precision_);
@@ -140,8 +145,7 @@ private:
   }
 
   void evaluation(const Plugin& plugin) {
-    const auto executor = plugin.create(
-        {problem_, methods().front(), model_, precision_, problem_.dt, 1, nullptr, nullptr, device_of(plugin)});
+    const auto executor = plugin.create(setup_of(plugin, methods().front(), problem_.dt, 1));
     executor->write(0, random_);
     std::vector<double> rates(random_.size(), std::numeric_limits<double>::quiet_NaN());
     executor->derivative(first_signals(), rates);
@@ -161,8 +165,7 @@ private:
       if (threads > 1 && !plugin.is_threaded) continue;
       if (threads > 1 && !is_of_the_tables(method)) continue;
       if (threads > 3 && plugin.devices != nullptr) continue; // more bands of the same kind
-      const auto executor = plugin.create(
-          {problem_, method, model_, precision_, expected.dt, threads, nullptr, nullptr, device_of(plugin)});
+      const auto executor = plugin.create(setup_of(plugin, method, expected.dt, threads));
       write_initial_state(*executor, problem_);
       const Outcome outcome = executor->advance(steps_, signals);
       if (threads == 1)

@@ -172,7 +172,7 @@ std::vector<VerifyRow> rows_of_jobs(const VerifyArguments& arguments, const std:
 std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments, const std::vector<std::string>& names) {
   std::vector<VerifyRow> rows;
   std::vector<const Plugin*> plugins = chosen_plugins(arguments.variants, rows);
-  if (arguments.device == "none")
+  if (arguments.device == no_device)
     std::erase_if(plugins, [](const Plugin* plugin) { return plugin->devices != nullptr; });
   else
     require_device(arguments.device, plugins);

@@ -113,9 +113,16 @@ Decomposition decompose(const Problem& problem, std::string_view method, int par
   return decomposition;
 }
 
-void require_fit(const Decomposition& decomposition, const Lattice& lattice) {
+std::vector<std::size_t> part_elements(const Decomposition& decomposition, const Lattice& lattice) {
   const CellGrid grid(lattice);
   std::vector<std::size_t> elements(std::size_t(std::max(decomposition.parts, 0)), 0);
+  for (const Share& share : decomposition.shares)
+    elements[std::size_t(share.part)] += grid.element_count(share.segment);
+  return elements;
+}
+
+void require_fit(const Decomposition& decomposition, const Lattice& lattice) {
+  const CellGrid grid(lattice);
   int row = 0, x = lattice.rows.at(0).x_begin; // elements before here are covered
   const auto skip_to = [&](int next_row) {
     while (row < next_row) {
@@ -131,9 +138,9 @@ void require_fit(const Decomposition& decomposition, const Lattice& lattice) {
     skip_to(s.row);
     require_holes(lattice, grid, row, x, s.x_begin);
     x = s.x_end;
-    elements[std::size_t(share.part)] += grid.element_count(s);
   }
   skip_to(int(lattice.rows.size()));
+  const std::vector<std::size_t> elements = part_elements(decomposition, lattice);
   for (std::size_t part = 0; part < elements.size(); ++part)
     if (elements[part] == 0)
       throw InputError(

@@ -46,6 +46,9 @@ std::string why_no_decomposition(std::string_view method);
 /// weights that are not positive or not as many as parts or bodies, or a part that would be left without elements
 Decomposition decompose(const Problem& problem, std::string_view method, int parts, const Weights& weights = {});
 
+/// Own elements of each part.
+std::vector<std::size_t> part_elements(const Decomposition& decomposition, const Lattice& lattice);
+
 /// Checks that a decomposition (from a file, say) covers every element of the problem exactly once and leaves no part empty.
 /// @throws InputError: what is wrong, where
 void require_fit(const Decomposition& decomposition, const Lattice& lattice);

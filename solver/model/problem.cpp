@@ -100,4 +100,10 @@ void initial_state(const Problem& problem, std::size_t first, std::size_t count,
         apply(motion, problem, element, fields + (element - first) * field_count);
 }
 
+std::vector<double> initial_state(const Problem& problem) {
+  std::vector<double> state(problem.lattice.element_count * field_count);
+  initial_state(problem, 0, problem.lattice.element_count, state.data());
+  return state;
+}
+
 } // namespace dss

@@ -105,6 +105,8 @@ struct Problem {
 
 /// Fields of the elements [first, first + count) at t = 0; `fields` has count * field_count entries.
 void initial_state(const Problem& problem, std::size_t first, std::size_t count, double* fields);
+/// Of all elements.
+std::vector<double> initial_state(const Problem& problem);
 
 /// Of all bodies [m].
 double shortest_edge(const Problem& problem);

@@ -11,6 +11,14 @@
 #include <vector>
 
 namespace dss {
+
+/// Degrees of freedom that depend on one another, their inertia scaled to 1: x'' + C x' + K x = 0. Time is in units in
+/// which no number of K or C exceeds 1.
+struct Coupled {
+  std::vector<Eigen::Index> dof; ///< 6 element + 0 .. 5
+  Eigen::MatrixXd k, c;
+};
+
 namespace {
 
 using Eigen::Index;
@@ -18,14 +26,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-constexpr double rounding = 1e-12; ///< share of a norm that stands for zero
-
-/// Degrees of freedom that depend on one another, their inertia scaled to 1: x'' + C x' + K x = 0. Time is in units in
-/// which no number of K or C exceeds 1.
-struct Coupled {
-  std::vector<Index> dof; ///< 6 element + 0 .. 5
-  MatrixXd k, c;
-};
+constexpr double negligible = 1e-12; ///< share of a norm that stands for zero
 
 /// Of all elements; `rate` is one over the unit of time [1/s]. Clamped degrees of freedom have rows and columns of zeros.
 Coupled assembled(const Problem& problem, double& rate) {
@@ -102,7 +103,7 @@ std::vector<Mode> single_modes(const Coupled& piece) {
   std::vector<Mode> modes;
   for (Index n = piece.k.rows() - 1; n >= 0; --n)
     if (const Mode mode = mode_of(piece, both.eigenvectors().col(n));
-        mode.omega * mode.omega > rounding * k || mode.rate > rounding * c)
+        mode.omega * mode.omega > negligible * k || mode.rate > negligible * c)
       modes.push_back(mode);
   return modes;
 }
@@ -143,7 +144,7 @@ ExactLimit limit_of_roots(const Coupled& piece, const Eigen::VectorXcd& roots, c
   for (Complex root : roots) {
     // Rigid motions have a double root of zero, which comes out as about the root of rounding.
     if (std::abs(root) <= 1e-6 * largest || root.imag() < 0) continue;
-    if (std::abs(root.real()) <= rounding * largest) root.real(0); // undamped
+    if (std::abs(root.real()) <= negligible * largest) root.real(0); // undamped
     if (const double own = root_step_limit(method, root, dt); own < dt) dt = own, worst = root;
   }
   return std::isfinite(dt) ? ExactLimit{dt, mode_of(piece, eigenvector(piece, worst))} : ExactLimit{};

@@ -84,12 +84,12 @@ double spectral_radius(const Method& method, double h, double omega, double rate
   switch (method.family) {
   case Method::Family::leapfrog: {
     // One step of (x, h v_half, h p): h^2 a = -stiffness x - damping h p.
-    Eigen::Matrix3d step;
+    Eigen::MatrixXd step(3, 3);
     step << 1 - stiffness, 1, -damping, -stiffness, 1, -damping, -1.5 * stiffness, 1, -1.5 * damping;
     return step.eigenvalues().cwiseAbs().maxCoeff();
   }
   case Method::Family::symplectic_euler: {
-    Eigen::Matrix2d step; // of (x, h v)
+    Eigen::MatrixXd step(2, 2); // of (x, h v)
     step << 1 - stiffness, 1 - damping, -stiffness, 1 - damping;
     return step.eigenvalues().cwiseAbs().maxCoeff();
   }

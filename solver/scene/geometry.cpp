@@ -12,17 +12,17 @@
 namespace dss {
 namespace {
 
-using Cell = std::array<long, 3>;
+using GridPoint = std::array<long, 3>;
 using Layers = std::vector<std::vector<std::string>>; ///< layers by z, lines by y, characters by x
 
-Cell read_cell(const Node& node, long least) {
+GridPoint read_point(const Node& node, long least) {
   node.vector(); // for its errors about the shape
   const std::vector<Node> parts = node.items();
   return {parts[0].whole(least, max_elements), parts[1].whole(least, max_elements),
           parts[2].whole(least, max_elements)};
 }
 
-VoxelGrid empty_grid(const Node& node, const Cell& size) {
+VoxelGrid empty_grid(const Node& node, const GridPoint& size) {
   // In double: the product of three such sizes overflows 64 bits.
   if (double(size[0]) * double(size[1]) * double(size[2]) > double(max_elements))
     node.fail(fmt::format("{} x {} x {} cells are too many; at most {} are allowed", size[0], size[1], size[2],
@@ -32,7 +32,7 @@ VoxelGrid empty_grid(const Node& node, const Cell& size) {
   return grid;
 }
 
-void fill(VoxelGrid& grid, const Cell& from, const Cell& size) {
+void fill(VoxelGrid& grid, const GridPoint& from, const GridPoint& size) {
   for (long z = from[2]; z < from[2] + size[2]; ++z)
     for (long y = from[1]; y < from[1] + size[1]; ++y) {
       const auto row = grid.occupied.begin() + ((z * grid.ny + y) * grid.nx + from[0]);
@@ -41,11 +41,11 @@ void fill(VoxelGrid& grid, const Cell& from, const Cell& size) {
 }
 
 VoxelGrid read_boxes(const Node& node) {
-  std::vector<std::pair<Cell, Cell>> boxes;
-  Cell extent{};
+  std::vector<std::pair<GridPoint, GridPoint>> boxes;
+  GridPoint extent{};
   for (const Node& item : node.items()) {
     ObjectNode box(item);
-    const Cell from = read_cell(box.require("from"), 0), size = read_cell(box.require("size"), 1);
+    const GridPoint from = read_point(box.require("from"), 0), size = read_point(box.require("size"), 1);
     box.finish();
     for (std::size_t a = 0; a < 3; ++a) extent[a] = std::max(extent[a], from[a] + size[a]);
     boxes.emplace_back(from, size);
@@ -124,7 +124,7 @@ VoxelGrid read_geometry(const Node& node) {
   shape.finish();
   if (key == "boxes") return read_boxes(what);
   if (key == "box") {
-    const Cell size = read_cell(what, 1);
+    const GridPoint size = read_point(what, 1);
     VoxelGrid grid = empty_grid(what, size);
     fill(grid, {0, 0, 0}, size);
     return grid;

@@ -15,9 +15,7 @@ namespace {
 /// First and last index along each axis, both included.
 struct Range {
   std::array<int, 3> first, last;
-  bool holds(int x, int y, int z) const {
-    return first[0] <= x && x <= last[0] && first[1] <= y && y <= last[1] && first[2] <= z && z <= last[2];
-  }
+  bool holds_row(int y, int z) const { return first[1] <= y && y <= last[1] && first[2] <= z && z <= last[2]; }
 };
 
 Range extent_of(const Lattice& lattice, int body) {
@@ -36,9 +34,15 @@ Range extent_of(const Lattice& lattice, int body) {
 
 std::vector<std::size_t> elements_in(const Lattice& lattice, int body, const Range& range) {
   std::vector<std::size_t> elements;
-  lattice.for_each_element([&](std::size_t element, const Row& row, int x) {
-    if (row.body == body && range.holds(x, row.y, row.z)) elements.push_back(element);
-  });
+  for (const Row& row : lattice.rows) {
+    if (row.body != body || !range.holds_row(row.y, row.z)) continue;
+    std::size_t element = row.first_element;
+    for (int x = row.x_begin; x < std::min(row.x_end, range.last[0] + 1); ++x) {
+      if (!lattice.is_present(row, x)) continue;
+      if (x >= range.first[0]) elements.push_back(element);
+      ++element;
+    }
+  }
   return elements;
 }
 

@@ -74,8 +74,7 @@ TEST_P(EveryFreeBody, feels_no_net_force_and_no_net_moment_from_its_own_links_da
 
 TEST_P(EveryFreeBody, keeps_its_linear_momentum_over_10000_steps) {
   const Problem box = fixture::make_tumbling_box(1);
-  State start(box.lattice.element_count * field_count);
-  initial_state(box, 0, box.lattice.element_count, start.data());
+  State start = initial_state(box);
   for (const Method& method : distinct_methods(plugin)) {
     const Momenta before = momenta(box, start),
                   after = momenta(box, VariantRun{plugin, box, method}.after(start, 10000));
@@ -85,8 +84,7 @@ TEST_P(EveryFreeBody, keeps_its_linear_momentum_over_10000_steps) {
 
 TEST_P(EveryFreeBody, loses_angular_momentum_and_energy_at_the_order_of_the_method) {
   const Problem box = fixture::make_tumbling_box(0);
-  State start(box.lattice.element_count * field_count);
-  initial_state(box, 0, box.lattice.element_count, start.data());
+  State start = initial_state(box);
   const Momenta before = momenta(box, start);
   const double energy = total_energy(box, start);
   for (const Method& method : distinct_methods(plugin)) {
@@ -130,8 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryFreeBody, testing::ValuesIn(usable_varia
 TEST(VelocityVerlet, shows_no_energy_trend_over_100000_steps_of_the_fastest_variant) {
   const Problem box = fixture::make_tumbling_box(0);
   const Method& method = *find_method("velocity_verlet");
-  State state(box.lattice.element_count * field_count);
-  initial_state(box, 0, box.lattice.element_count, state.data());
+  State state = initial_state(box);
   const double start = total_energy(box, state);
   const auto run = load_variant("auto").create({box, method, Model::spatial, Precision::f64, box.dt, 1});
   run->write(0, state);

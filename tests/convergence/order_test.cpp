@@ -117,8 +117,7 @@ std::vector<double> relative_energies(const Method& method, double dt, long step
   const Problem box = fixture::make_tumbling_box(damping);
   Oracle<double> oracle(box, method, dt);
   std::vector<double> state = fixture::random_state(box, 8, 1e-3, 0, 0.1);
-  std::vector<double> spin(state.size());
-  initial_state(box, 0, box.lattice.element_count, spin.data());
+  const std::vector<double> spin = initial_state(box);
   for (std::size_t n = 0; n < state.size(); ++n) state[n] += spin[n];
   oracle.write(state);
   const double begin = oracle.energy();

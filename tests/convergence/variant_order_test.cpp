@@ -97,8 +97,7 @@ TEST(TwoElements, approach_their_closed_form_at_the_order_of_each_method) {
   const double g = scene.parameters.at("d") / (2 * scene.parameters.at("mass")), u0 = scene.parameters.at("stretch");
   const double w = std::sqrt(scene.parameters.at("k") / scene.parameters.at("mass") - g * g), t = 0.1;
   const double exact = u0 * std::exp(-g * t) * (std::cos(w * t) + g / w * std::sin(w * t));
-  State start(2 * field_count);
-  initial_state(scene.problem, 0, 2, start.data());
+  const State start = initial_state(scene.problem);
   for (const char* variant : {"scalar", "auto"})
     for (const Method& method : methods()) {
       const auto error = [&](double dt) {

@@ -211,8 +211,7 @@ TEST(TaitBryan, taken_anew_goes_exactly_through_90_degrees_and_raw_goes_astray) 
 
 TEST(TaitBryan, taken_anew_equals_quaternions_on_links_between_turning_elements) {
   const Problem box = fixture::make_tumbling_box();
-  State start = at_rest(box);
-  initial_state(box, 0, box.lattice.element_count, start.data());
+  const State start = initial_state(box);
   const auto end = after(box, rk4, Rotation::quaternion, start, 1e-4, 5000);
   const auto angles = after(box, rk4, Rotation::tait_bryan, start, 1e-4, 5000);
   ASSERT_TRUE(end && angles);

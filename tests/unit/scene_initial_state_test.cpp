@@ -27,22 +27,16 @@ Problem block_with_a_hole() {
   return problem;
 }
 
-std::vector<double> state_of(const Problem& problem) {
-  std::vector<double> state(problem.lattice.element_count * field_count, NAN);
-  initial_state(problem, 0, problem.lattice.element_count, state.data());
-  return state;
-}
-
 TEST(initial_state, is_all_zeros_without_a_motion) {
   const Problem problem = fixture::make_pair(LinkLaw::paper);
-  for (const double field : state_of(problem)) EXPECT_EQ(field, 0);
+  for (const double field : initial_state(problem)) EXPECT_EQ(field, 0);
 }
 
 TEST(initial_state, of_a_rigid_motion_is_the_rotation_about_its_centre) {
   Problem problem = fixture::make_block(3, 2, 2, LinkLaw::material);
   const InitialMotion motion = rigid_motion(problem);
   problem.initial_motions = {motion};
-  const std::vector<double> state = state_of(problem);
+  const std::vector<double> state = initial_state(problem);
   const Eigen::Vector3d axis(motion.rotation.data()), centre(motion.centre.data()), w(motion.angular_velocity.data());
   const Eigen::AngleAxisd turn(axis.norm(), axis.normalized());
   const Eigen::Quaterniond q(turn);
@@ -68,7 +62,7 @@ TEST(initial_state, keeps_all_digits_of_a_tiny_rotation) {
   motion.elements = {1};
   motion.rotation = {0, 0, 2e-6};
   problem.initial_motions = {motion};
-  const std::vector<double> state = state_of(problem);
+  const std::vector<double> state = initial_state(problem);
   EXPECT_NEAR(state[field_count + qs] / -5e-13, 1, 1e-12); // cos(1e-6) - 1 in doubles has four digits
   EXPECT_NEAR(state[field_count + qz] / 1e-6, 1, 1e-12);
 }
@@ -76,7 +70,7 @@ TEST(initial_state, keeps_all_digits_of_a_tiny_rotation) {
 TEST(initial_state, of_a_part_equals_that_part_of_the_whole) {
   Problem problem = block_with_a_hole();
   problem.initial_motions = {rigid_motion(problem)};
-  const std::vector<double> whole = state_of(problem);
+  const std::vector<double> whole = initial_state(problem);
   std::vector<double> part(4 * field_count, NAN);
   initial_state(problem, 3, 4, part.data());
   for (std::size_t k = 0; k < part.size(); ++k) EXPECT_EQ(part[k], whole[3 * field_count + k]);
@@ -91,7 +85,7 @@ TEST(initial_state, of_two_motions_in_turn_composes_them) {
   first.velocity = {1, 0, 0};
   second.velocity = {0, 2, 0};
   problem.initial_motions = {first, second};
-  const std::vector<double> state = state_of(problem);
+  const std::vector<double> state = initial_state(problem);
   const Eigen::Quaterniond q = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()) * //
                                Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()));
   EXPECT_NEAR(state[qs], q.w() - 1, 1e-15);

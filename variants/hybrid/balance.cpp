@@ -12,16 +12,6 @@ double median(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
-std::vector<std::size_t> part_elements(const Decomposition& decomposition, const Lattice& lattice) {
-  std::vector<std::size_t> elements(std::size_t(decomposition.parts), 0);
-  for (const Share& share : decomposition.shares) {
-    const Row& row = lattice.rows[std::size_t(share.segment.row)];
-    for (int x = share.segment.x_begin; x < share.segment.x_end; ++x)
-      elements[std::size_t(share.part)] += lattice.is_present(row, x);
-  }
-  return elements;
-}
-
 std::vector<double> speeds(std::span<const std::size_t> elements, std::span<const double> step_s) {
   std::vector<double> speed;
   for (std::size_t m = 0; m < elements.size(); ++m) speed.push_back(double(elements[m]) / step_s[m]);

@@ -1,7 +1,5 @@
 #pragma once
 /// Whether members of a hybrid have the right shares, from their own times of steps. Knows no clock.
-#include "solver/decomposition/decomposition.hpp"
-
 #include <cstddef>
 #include <deque>
 #include <span>
@@ -11,9 +9,6 @@ namespace dss {
 
 /// The middle one, or the mean of the two in the middle; 0 of none.
 double median(std::vector<double> values);
-
-/// Own elements of each part.
-std::vector<std::size_t> part_elements(const Decomposition& decomposition, const Lattice& lattice);
 
 /// Elements a second.
 std::vector<double> speeds(std::span<const std::size_t> elements, std::span<const double> step_s);

@@ -16,8 +16,8 @@ struct alignas(64) Slot {
   std::atomic<std::uint64_t> filled; ///< number of the message that is here, counted from 1
 };
 
-constexpr std::size_t line = 64;
-std::size_t slot_size(std::size_t bytes) { return sizeof(Slot) + (bytes + line - 1) / line * line; }
+constexpr std::size_t cache_line = 64;
+std::size_t slot_size(std::size_t bytes) { return sizeof(Slot) + (bytes + cache_line - 1) / cache_line * cache_line; }
 
 class SharedExchange final : public HaloExchange {
 public:
@@ -42,7 +42,7 @@ public:
 
   void attach(int copies, const LayoutOf& layout_of) override {
     std::vector<std::size_t> starts; // of each face's slots in the window
-    std::size_t bytes = line;
+    std::size_t bytes = cache_line;
     for (const Face& face : faces_) {
       channels_.emplace_back();
       for (int copy = 0; copy < copies; ++copy) {

@@ -56,12 +56,6 @@ private:
 
 AtlasFigure broken(const AtlasRun& run) { return {std::numeric_limits<double>::infinity(), run.breakdown()}; }
 
-std::vector<double> start_of(const Problem& problem) {
-  std::vector<double> state(problem.lattice.element_count * field_count);
-  initial_state(problem, 0, problem.lattice.element_count, state.data());
-  return state;
-}
-
 double largest_displacement(const std::vector<double>& state) {
   double most = 0;
   for (std::size_t e = 0; e < state.size(); e += field_count)
@@ -138,9 +132,9 @@ double end_figure(const AtlasCell& cell, const Parameters& parameters, AtlasRefe
   const std::string& metric = cell.atlas.metric;
   if (metric == "energy_change") {
     reference::Dynamics<double> dynamics(problem);
-    return dynamics.energy(state) / dynamics.energy(start_of(problem)) - 1;
+    return dynamics.energy(state) / dynamics.energy(initial_state(problem)) - 1;
   }
-  if (metric == "amplitude") return largest_displacement(state) / largest_displacement(start_of(problem));
+  if (metric == "amplitude") return largest_displacement(state) / largest_displacement(initial_state(problem));
   if (metric == "tip_gap") return tip_gap(problem, state);
   if (metric == "value") {
     const double element = cell.atlas.element(parameters);
@@ -150,7 +144,7 @@ double end_figure(const AtlasCell& cell, const Parameters& parameters, AtlasRefe
     const auto field = std::ranges::find(field_names(), cell.atlas.field) - field_names().begin();
     return state[std::size_t(element) * field_count + std::size_t(field)] / cell.atlas.scale(parameters);
   }
-  return travel_error(start_of(problem), references.at(cell.dt * double(cell.steps)), state);
+  return travel_error(initial_state(problem), references.at(cell.dt * double(cell.steps)), state);
 }
 
 } // namespace

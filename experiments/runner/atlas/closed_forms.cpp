@@ -11,12 +11,6 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-std::vector<double> start_of(const Problem& problem) {
-  std::vector<double> state(problem.lattice.element_count * field_count);
-  initial_state(problem, 0, problem.lattice.element_count, state.data());
-  return state;
-}
-
 Vector3d vector_of(const double* fields, Field first) { return {fields[first], fields[first + 1], fields[first + 2]}; }
 Quaterniond turn_of(const double* fields) { return {1 + fields[qs], fields[qx], fields[qy], fields[qz]}; }
 
@@ -30,7 +24,7 @@ void place(double* fields, const Quaterniond& q) {
 }
 
 std::vector<double> flight(const Problem& problem, const Parameters& arguments, double t) {
-  std::vector<double> state = start_of(problem);
+  std::vector<double> state = initial_state(problem);
   const Vector3d a(arguments.at("ax"), arguments.at("ay"), arguments.at("az"));
   for (std::size_t e = 0; e < problem.lattice.element_count; ++e) {
     double* f = &state[e * field_count];
@@ -43,7 +37,7 @@ std::vector<double> flight(const Problem& problem, const Parameters& arguments, 
 }
 
 std::vector<double> tops(const Problem& problem, const Parameters&, double t) {
-  std::vector<double> state = start_of(problem);
+  std::vector<double> state = initial_state(problem);
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
     double* f = &state[e * field_count];
     const Vec3& inertia = problem.bodies[std::size_t(row.body)].inertia;
@@ -56,7 +50,7 @@ std::vector<double> tops(const Problem& problem, const Parameters&, double t) {
 }
 
 std::vector<double> steady_precession(const Problem& problem, const Parameters& arguments, double t) {
-  std::vector<double> state = start_of(problem);
+  std::vector<double> state = initial_state(problem);
   const auto top = std::size_t(arguments.at("element"));
   const Vector3d pivot(arguments.at("pivot_x"), arguments.at("pivot_y"), arguments.at("pivot_z")),
       z = Vector3d::UnitZ();
@@ -91,7 +85,7 @@ std::vector<double> mode(const Problem& problem, const Parameters& arguments, do
     place_now = ((slow * of_fast - fast * of_slow) / gap).real();
     slope = (omega * omega * (of_fast - of_slow) / gap).real();
   }
-  std::vector<double> state = start_of(problem);
+  std::vector<double> state = initial_state(problem);
   for (std::size_t e = 0; e < problem.lattice.element_count; ++e)
     for (int axis = 0; axis < 3; ++axis) {
       state[e * field_count + vx + std::size_t(axis)] = slope * state[e * field_count + ux + std::size_t(axis)];
@@ -101,7 +95,7 @@ std::vector<double> mode(const Problem& problem, const Parameters& arguments, do
 }
 
 std::vector<double> step_load(const Problem& problem, const Parameters& arguments, double t) {
-  std::vector<double> state = start_of(problem);
+  std::vector<double> state = initial_state(problem);
   const double omega = arguments.at("omega"), hold = arguments.at("static"), since = t - arguments.at("onset");
   double* f = &state.at(std::size_t(arguments.at("element")) * field_count);
   if (since <= 0) return state;

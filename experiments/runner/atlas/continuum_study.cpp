@@ -190,14 +190,11 @@ Table continuum_table(const ContinuumStudy& study) {
 std::string continuum_text(const ContinuumStudy& study, const Table& table) {
   std::vector<std::vector<std::string>> rows;
   for (const Record& row : table.rows) {
-    const auto shown = [&](const char* column, const char* form) {
-      const double number = number_in(row, column);
-      return std::isnan(number) ? std::string() : fmt::format(fmt::runtime(form), number);
-    };
-    rows.push_back({text_in(row, "check"), text_in(row, "mode"), text_in(row, "refined") + "=" + shown("value", "{:g}"),
-                    shown("figure", "{:.6g}"), shown("theory", "{:.6g}"), shown("error", "{:+.2e}"),
-                    shown("order", "{:.2f}"), shown("richardson_order", "{:.2f}"), shown("limit_error", "{:+.2e}"),
-                    text_in(row, "status"), text_in(row, "reason")});
+    const auto own = [&](const char* column, const char* form) { return shown(row, column, form); };
+    rows.push_back({text_in(row, "check"), text_in(row, "mode"), text_in(row, "refined") + "=" + own("value", "{:g}"),
+                    own("figure", "{:.6g}"), own("theory", "{:.6g}"), own("error", "{:+.2e}"), own("order", "{:.2f}"),
+                    own("richardson_order", "{:.2f}"), own("limit_error", "{:+.2e}"), text_in(row, "status"),
+                    text_in(row, "reason")});
   }
   return fmt::format("{} ({})\n{}", study.title, study.name,
                      text_table({"check", "mode", "refined", "figure", "theory", "error", "order", "Richardson's",

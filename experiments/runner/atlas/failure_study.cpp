@@ -1,5 +1,6 @@
 #include "experiments/runner/atlas/failure_study.hpp"
 #include "experiments/runner/atlas/atlas_run.hpp"
+#include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "solver/numerics/stability.hpp"
@@ -76,12 +77,8 @@ private:
 
   /// Why the program would not run the cell, or empty. The same rules as plan_run's, except that stages are not fitted to the step.
   std::string refusal(const Method& method, Precision precision, Rotation rotation, Model model, double dt) {
-    if (precision == Precision::f32c && !plugin_.is_compensated)
-      return fmt::format("variant {} has f64 and f32 alone", plugin_.name);
-    if (!plugin_.has_all && method.is_implicit())
-      return fmt::format("variant {} has the explicit methods alone", plugin_.name);
-    if (!plugin_.has_all && rotation != Rotation::quaternion)
-      return fmt::format("variant {} has quaternions alone", plugin_.name);
+    if (const std::string what = what_lacks(plugin_, precision, method, rotation); !what.empty())
+      return fmt::format("variant {} {}", plugin_.name, what);
     if (const std::string why = why_not_planar(scene_.problem); model == Model::planar && !why.empty())
       return fmt::format("model planar: {}", why);
     if (dt == 0) return fmt::format("no step of {} is stable here", method.name);

@@ -1,6 +1,6 @@
 #pragma once
 /// Numbers of a study that may be expressions over a scene's parameters, as in scenes: 0.01 or "=sqrt(k/m)".
-#include "experiments/runner/study_reader.hpp"
+#include "experiments/runner/study_sets.hpp"
 #include "solver/scene/json/document.hpp"
 
 #include <string>
@@ -23,12 +23,5 @@ private:
 
 /// One value or several.
 std::vector<Formula> formulas(const JsonPlace& place);
-
-/// Overrides of a scene, key by key one value or several: every combination of them.
-/// "set": {"n": [4, 8], "E": 1e7} -> {n=4, E=1e7}, {n=8, E=1e7}; {} without the key
-std::vector<std::vector<Override>> combinations(const JsonPlace& object, const std::string& key);
-
-/// File of a scene that a study names: beside the study if it ends in .json, else a shipped one's name.
-std::string scene_beside(const std::string& study_path, const std::string& scene);
 
 } // namespace dss

@@ -10,13 +10,6 @@
 namespace dss {
 namespace {
 
-/// One set of overrides: an object whose values are no lists.
-std::vector<Override> one_set(const JsonPlace& place) {
-  const Sets sets = combinations(place);
-  if (sets.size() != 1) place.fail("has several values for a key; give one each");
-  return sets[0];
-}
-
 std::vector<std::string> texts_if(const JsonPlace& place, const char* key) {
   return place.has(key) ? place[key].texts() : std::vector<std::string>{};
 }

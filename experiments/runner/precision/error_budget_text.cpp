@@ -7,11 +7,6 @@
 namespace dss {
 namespace {
 
-std::string shown(const Record& row, const std::string& column, const char* form) {
-  const double value = number_in(row, column);
-  return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), value);
-}
-
 const Record* row_of(const Table& table, const std::string& label, const std::string& source) {
   for (const Record& row : table.rows)
     if (text_in(row, "label") == label && text_in(row, "source") == source && !text_in(row, "error").empty())

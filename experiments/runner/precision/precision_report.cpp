@@ -11,11 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string shown(const Record& row, const std::string& column, const char* form) {
-  const double value = number_in(row, column);
-  return std::isnan(value) ? std::string() : fmt::format(fmt::runtime(form), value);
-}
-
 std::string shown_time(const Record& row) {
   const double half = number_in(row, "half_width");
   const std::string time = shown(row, "measured_wall_s", "{:.3g}");

@@ -41,10 +41,9 @@ Solution solution_of_three(const Problem& problem, const Method& method, const S
 
 std::vector<std::vector<double>> oracle_states(const Problem& problem, const Method& method, const SavedTimes& times,
                                                long steps_between) {
-  std::vector<double> state(problem.lattice.element_count * field_count);
-  initial_state(problem, 0, problem.lattice.element_count, state.data());
   const double dt = times.interval() / double(steps_between);
   Oracle<long double> oracle(problem, method, dt);
+  std::vector<double> state = initial_state(problem);
   oracle.write(state);
   std::vector<std::vector<double>> states;
   for (long k = 0; k < times.count; ++k) {
