@@ -28,7 +28,7 @@ test: build
 reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(BUILD)/dssbench verify --quiet --device none
-	@$(BUILD)/dssbench verify --quiet plate_paper two_bodies --variant scalar,opencl,opencl-rhs
+	@$(BUILD)/dssbench verify --quiet plate_paper --variant scalar,opencl,opencl-rhs
 	@for study in table1_host table1 table2 table3 error_budget work_precision stability failures continuum balance cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 --output $(OUT)/fields/plate_paper.vtu >/dev/null

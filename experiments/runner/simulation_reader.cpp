@@ -88,6 +88,10 @@ SimulationBlock read_block(const JsonPlace& place) {
 
 /// Leaves what a scale has no time for.
 void limit(const JsonPlace& scale, std::vector<SimulationBlock>& blocks) {
+  if (scale.has("leave_out"))
+    for (const JsonPlace& label : scale["leave_out"].items())
+      if (std::erase_if(blocks, [&](const SimulationBlock& block) { return block.label == label.text(); }) == 0)
+        label.fail(fmt::format("no block of \"simulation\" has the label \"{}\"", label.text()));
   const long most_ranks_here = scale.has("most_ranks") ? scale["most_ranks"].count(1) : most_ranks;
   for (SimulationBlock& block : blocks) {
     std::erase_if(block.ranks, [&](int ranks) { return ranks > most_ranks_here; });
@@ -113,7 +117,7 @@ std::vector<SimulationBlock> load_simulation(const std::string& study, const std
   if (!root.has("simulation")) return {};
   std::vector<SimulationBlock> blocks = read_simulation(root["simulation"]);
   const JsonPlace chosen_scale = scale_of(root, scale);
-  if (!root.has("cells")) chosen_scale.require_keys({"most_ranks", "most_elements"});
+  if (!root.has("cells")) chosen_scale.require_keys({"most_ranks", "most_elements", "leave_out"});
   limit(chosen_scale, blocks);
   return blocks;
 }
