@@ -23,6 +23,9 @@
 namespace dss {
 
 /// What to compute and how. `problem` and `method` outlive the executor.
+/// In place of a device: none is to be used.
+inline constexpr const char* no_device = "none";
+
 struct Setup {
   const Problem& problem;
   const Method& method;
@@ -32,7 +35,8 @@ struct Setup {
   int threads = 1;
   const PartSetup* part = nullptr;            ///< `problem` is a part of a larger one; outlives the executor
   const Distribution* distribution = nullptr; ///< for distributed variants, which take the default without
-  std::string device{};                       ///< of a variant on devices: see DeviceEntry; empty: its first
+  std::string device{};                       ///< of a variant on devices: see DeviceEntry; empty: its first; of a
+                                              ///< hybrid without `members`: no_device, or empty
   std::string members{};                      ///< of a hybrid: see parse_members; empty: its own choice, not questioned
   Rotation rotation = Rotation::quaternion;   ///< others than quaternions: of plug-ins that say has_all
 };

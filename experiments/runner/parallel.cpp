@@ -1,4 +1,5 @@
 #include "experiments/runner/parallel.hpp"
+#include "experiments/runner/context.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -26,7 +27,7 @@ void for_each_on_all_cores(std::size_t count, const std::function<void(std::size
   };
   {
     std::vector<std::jthread> team; // joined at the end of the block
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+    const auto cores = std::size_t(usable_cores());
     for (std::size_t t = 1; t < std::min(cores, count); ++t) team.emplace_back(take_turns);
     take_turns();
   }

@@ -170,11 +170,12 @@ void read_reference(const RunRequest& request, RunPlan& plan) {
 
 } // namespace
 
-std::string what_lacks(const Plugin& plugin, Precision precision, const Method& method, Rotation rotation) {
-  if (precision == Precision::f32c && !plugin.is_compensated) return "has f64 and f32 alone, not --precision f32c";
+std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const Method& method, Rotation rotation) {
+  if (precision == Precision::f32c && !plugin.is_compensated) return Lack{"--precision f32c", "has f64 and f32 alone"};
   if (plugin.has_all) return {};
-  if (method.is_implicit()) return fmt::format("has the explicit methods alone, not --integrator {}", method.name);
-  if (rotation != Rotation::quaternion) return fmt::format("has quaternions alone, not --rotation {}", name(rotation));
+  if (method.is_implicit()) return Lack{fmt::format("--integrator {}", method.name), "has the explicit methods alone"};
+  if (rotation != Rotation::quaternion)
+    return Lack{fmt::format("--rotation {}", name(rotation)), "has quaternions alone"};
   return {};
 }
 
@@ -222,8 +223,8 @@ RunPlan plan_run(const RunRequest& request) {
   plan.tail_steps = request.check_tail;
   if (!request.reference.empty() && plan.dt > 0) read_reference(request, plan);
   require_devices(request, plan);
-  if (const std::string what = what_lacks(*plan.plugin, plan.precision, *plan.method, plan.rotation); !what.empty())
-    throw InputError(fmt::format("variant {} {}; give {}", plan.plugin->name, what,
+  if (const auto lack = what_lacks(*plan.plugin, plan.precision, *plan.method, plan.rotation))
+    throw InputError(fmt::format("{}: variant {} {}; give {}", lack->option, plan.plugin->name, lack->what,
                                  plan.plugin->has_all ? "another --variant" : "--variant reference"));
   require_sensible(request, plan);
   if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())

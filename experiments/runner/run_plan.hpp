@@ -37,8 +37,12 @@ struct RunPlan {
 /// @throws InputError, UnstableError as run_scene
 RunPlan plan_run(const RunRequest& request);
 
-/// What a variant lacks for such a run: "has quaternions alone, not --rotation tait_bryan"; empty if nothing.
-std::string what_lacks(const Plugin& plugin, Precision precision, const Method& method, Rotation rotation);
+/// What a variant lacks for a run.
+struct Lack {
+  std::string option; ///< that asks for it: "--rotation tait_bryan"
+  std::string what;   ///< "has quaternions alone"
+};
+std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const Method& method, Rotation rotation);
 
 /// Method by its name. @throws InputError for an unknown one, naming the nearest
 const Method& require_method(const std::string& name);

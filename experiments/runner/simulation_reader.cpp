@@ -86,12 +86,23 @@ SimulationBlock read_block(const JsonPlace& place) {
   return block;
 }
 
+/// Blocks that a scale leaves out are not even read: loading a large scene takes seconds.
+std::vector<JsonPlace> kept_blocks(const JsonPlace& simulation, const JsonPlace& scale) {
+  std::vector<JsonPlace> kept = simulation.items();
+  if (!scale.has("leave_out")) return kept;
+  for (const JsonPlace& label : scale["leave_out"].items()) {
+    std::vector<JsonPlace> rest;
+    for (const JsonPlace& block : kept)
+      if (block["label"].text() != label.text()) rest.push_back(block);
+    if (rest.size() == kept.size())
+      label.fail(fmt::format("no block of \"simulation\" has the label \"{}\"", label.text()));
+    kept = std::move(rest);
+  }
+  return kept;
+}
+
 /// Leaves what a scale has no time for.
 void limit(const JsonPlace& scale, std::vector<SimulationBlock>& blocks) {
-  if (scale.has("leave_out"))
-    for (const JsonPlace& label : scale["leave_out"].items())
-      if (std::erase_if(blocks, [&](const SimulationBlock& block) { return block.label == label.text(); }) == 0)
-        label.fail(fmt::format("no block of \"simulation\" has the label \"{}\"", label.text()));
   const long most_ranks_here = scale.has("most_ranks") ? scale["most_ranks"].count(1) : most_ranks;
   for (SimulationBlock& block : blocks) {
     std::erase_if(block.ranks, [&](int ranks) { return ranks > most_ranks_here; });
@@ -105,7 +116,9 @@ void limit(const JsonPlace& scale, std::vector<SimulationBlock>& blocks) {
       return block.set_of_ranks.contains(ranks) && is_large(block.set_of_ranks.at(ranks));
     });
   }
-  std::erase_if(blocks, [](const SimulationBlock& block) { return block.ranks.empty(); });
+  std::erase_if(blocks, [](const SimulationBlock& block) {
+    return block.ranks.empty() || (block.set_of_ranks.empty() && block.sets.empty());
+  });
 }
 
 } // namespace
@@ -115,10 +128,12 @@ std::vector<SimulationBlock> load_simulation(const std::string& study, const std
   const nlohmann::json json = parse_json_file(path);
   const JsonPlace root(json, path);
   if (!root.has("simulation")) return {};
-  std::vector<SimulationBlock> blocks = read_simulation(root["simulation"]);
   const JsonPlace chosen_scale = scale_of(root, scale);
+  std::vector<SimulationBlock> blocks;
+  for (const JsonPlace& block : kept_blocks(root["simulation"], chosen_scale)) blocks.push_back(read_block(block));
   if (!root.has("cells")) chosen_scale.require_keys({"most_ranks", "most_elements", "leave_out"});
   limit(chosen_scale, blocks);
+  if (blocks.empty() && !root.has("cells")) chosen_scale.fail("leaves nothing to simulate");
   return blocks;
 }
 
@@ -129,12 +144,6 @@ std::string name_if_simulated_only(const std::string& study) {
   if (root.has("cells") || !root.has("simulation")) return {};
   root.require_keys({"experiment", "title", "simulation", "scales"});
   return root["experiment"].text();
-}
-
-std::vector<SimulationBlock> read_simulation(const JsonPlace& place) {
-  std::vector<SimulationBlock> blocks;
-  for (const JsonPlace& item : place.items()) blocks.push_back(read_block(item));
-  return blocks;
 }
 
 } // namespace dss

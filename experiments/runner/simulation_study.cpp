@@ -87,9 +87,10 @@ public:
   /// Rows of all strategies, network by network. Speeds of this machine are known by now: nothing here is timed.
   std::vector<Record> rows(const std::string& study, const std::vector<Platform>& platforms) const {
     const std::size_t halos = block_.halos.size();
+    const Plans plans = make_plans();
     std::vector<Record> rows(platforms.size() * halos);
     for_each_on_all_cores(rows.size(), [&](std::size_t n) {
-      rows[n] = row(study, block_.platforms[n / halos], platforms[n / halos].path(), block_.halos[n % halos]);
+      rows[n] = row(study, plans, block_.platforms[n / halos], platforms[n / halos].path(), block_.halos[n % halos]);
     });
     for (std::size_t first = 0; first < rows.size(); first += halos)
       for (const char* node : {"paper", "own"})
@@ -98,13 +99,35 @@ public:
   }
 
 private:
+  /// What is computed and exchanged, on a published node and on one of this machine.
+  struct Plans {
+    std::optional<SimulationPlan> paper;
+    SimulationPlan own;
+  };
+
   static SimulatedProblem what(const Scene& scene) {
     return {scene.problem, require_method(scene.problem.integrator), find_model(scene.model).value(), Precision::f64};
   }
   SimulatedProblem what() const { return what(scene_); }
   double elements() const { return double(scene_.problem.lattice.element_count); }
 
-  Record row(const std::string& study, const std::string& network, const std::string& platform,
+  /// Of networks and strategies alone the name of the strategy differs.
+  Plans make_plans() const {
+    const auto plan = [&](const NodeSpeed& speed) {
+      return make_plan(what(), decomposition_, speed, "auto", simulated_steps);
+    };
+    Plans plans{{}, plan(own_)};
+    if (block_.published) plans.paper = plan(*published_speed());
+    return plans;
+  }
+
+  std::optional<NodeSpeed> published_speed() const {
+    if (!block_.published) return {};
+    const PublishedNode& node = *block_.published;
+    return given_speed("paper", node.elements * node.steps / node.wall_s, what().method);
+  }
+
+  Record row(const std::string& study, const Plans& plans, const std::string& network, const std::string& platform,
              const std::string& halo) const {
     Record row = {{"experiment", study},
                   {"label", block_.label},
@@ -122,21 +145,18 @@ private:
       row["paper_wall_s"] = number_text(paper->second);
       row["paper_efficiency"] = number_text(block_.paper_wall_s.at(1) / paper->second / ranks_);
     }
-    if (block_.published) {
-      const PublishedNode& node = *block_.published;
-      const NodeSpeed speed = given_speed("paper", node.elements * node.steps / node.wall_s, what().method);
-      put_run(speed, speed, platform, halo, "simulated_paper_node_", row);
-    }
-    put_run(own_, base_, platform, halo, "simulated_own_node_", row);
+    if (plans.paper) put_run(*plans.paper, *published_speed(), platform, halo, "simulated_paper_node_", row);
+    put_run(plans.own, base_, platform, halo, "simulated_own_node_", row);
     return row;
   }
 
   /// @param base  speed of one rank with the whole problem (weak scaling: with one rank's share)
-  void put_run(const NodeSpeed& speed, const NodeSpeed& base, const std::string& platform, const std::string& halo,
+  void put_run(SimulationPlan plan, const NodeSpeed& base, const std::string& platform, const std::string& halo,
                const std::string& column, Record& row) const {
+    plan.halo = halo;
     const double alone_s = elements() * what().method.stages / base.at_once;
     try {
-      const SimulatedRun run = simulate(make_plan(what(), decomposition_, speed, halo, simulated_steps), platform);
+      const SimulatedRun run = simulate(plan, platform);
       row[column + "halo_used"] = run.halo;
       row[column + "wall_s"] = number_text(run.step_s * double(block_.steps));
       row[column + "communication_s"] = number_text(run.communication_s_per_step * double(block_.steps));

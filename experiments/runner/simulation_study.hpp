@@ -29,11 +29,9 @@ struct SimulationBlock {
   std::map<int, double> paper_wall_s;     ///< published, by ranks
 };
 
-/// Reads the study's key "simulation": one block or a list. Everything is checked before anything is simulated.
+/// Key "simulation" of a study file or name, one block or a list; empty if it simulates nothing. A scale may limit
+/// `most_ranks` and `most_elements`, and leave out blocks by their labels. Everything is checked before anything is simulated.
 /// @throws InputError: file, JSON pointer, what is wrong
-std::vector<SimulationBlock> read_simulation(const JsonPlace& place);
-
-/// Of a study file or name; empty if it simulates nothing. A scale may limit `most_ranks` and `most_elements`.
 std::vector<SimulationBlock> load_simulation(const std::string& study, const std::string& scale);
 /// Name of a study that has nothing to measure; else empty.
 std::string name_if_simulated_only(const std::string& study);

@@ -124,13 +124,18 @@ Table stability_table(const StabilityStudy& study) {
   std::vector<std::vector<StabilityLimit>> predicted(study.cases.size());
   for_each_on_all_cores(study.cases.size(),
                         [&](std::size_t c) { predicted[c] = stable_steps(study.cases[c].scene.problem, all); });
-  for_each_on_all_cores(table.rows.size(), [&](std::size_t n) {
+  const auto measure = [&](std::size_t n) {
     const std::size_t m = n % all.size();
     const StabilityStudy::Case& of = study.cases[n / all.size()];
     table.rows[n] = limit_row(
         study, of,
         compare_limit(*study.plugin, of.scene.problem, *all[m], predicted[n / all.size()][m], study.element_steps));
-  });
+  };
+  // Variants that compute by others, on ranks or on devices have threads of their own, or must stay on the main one.
+  if (const Plugin& plugin = *study.plugin; plugin.kernels != nullptr || plugin.has_all)
+    for_each_on_all_cores(table.rows.size(), measure);
+  else
+    for (std::size_t n = 0; n < table.rows.size(); ++n) measure(n);
   return table;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What every kind of study says of scenes: overrides, and files beside the study.
+/// What studies say of scenes: overrides, and files beside the study.
 #include "experiments/runner/study_reader.hpp"
 #include "solver/scene/scene.hpp"
 

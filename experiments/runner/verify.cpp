@@ -1,4 +1,5 @@
 #include "experiments/runner/verify.hpp"
+#include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/state_access.hpp"
 #include "solver/decomposition/decomposition.hpp"
 #include "solver/error.hpp"
@@ -91,15 +92,13 @@ private:
 
   Setup setup_of(const Plugin& plugin, const Method& method, double dt, int threads) const {
     Setup setup{problem_, method, model_, precision_, dt, threads};
-    if (plugin.devices != nullptr) setup.device = device_;
-    if (device_ == no_device && std::string_view(plugin.name) == "hybrid") // whose second member would be one
-      setup.members = fmt::format("auto:{},auto:{}", std::max(1, threads - threads / 2), std::max(1, threads / 2));
+    if (plugin.devices != nullptr || device_ == no_device) setup.device = device_;
     return setup;
   }
 
   std::string why_skipped(const Plugin& plugin) const {
     try {
-      if (precision_ == Precision::f32c && !plugin.is_compensated) return "has f64 and f32 alone, not f32c";
+      if (const auto lack = what_lacks(plugin, precision_, methods().front(), Rotation::quaternion)) return lack->what;
       if (precision_ == Precision::f32c && plugin.devices != nullptr)
         return "left to tests/equivalence: programs of their own for every scene take minutes to compile";
       if (plugin.devices != nullptr) require_precision(choose_device(plugin.devices(), device_), precision_);
@@ -249,6 +248,8 @@ std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin
 
 std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::vector<const Plugin*>& plugins,
                                     const std::string& device) {
+  std::vector<const Plugin*> verified = plugins;
+  if (device == no_device) std::erase_if(verified, [](const Plugin* plugin) { return plugin->devices != nullptr; });
   SceneVerification verification(scene, steps, device);
   const std::string why = why_not_planar(scene.problem);
   for (const Model model : {Model::spatial, Model::planar}) {
@@ -256,7 +257,7 @@ std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::v
       verification.rows.push_back({scene.name, "planar", "", "", "all", {}, {}, Verdict::skipped, why});
       continue;
     }
-    for (const Precision precision : precisions) verification.verify(model, precision, plugins);
+    for (const Precision precision : precisions) verification.verify(model, precision, verified);
   }
   return std::move(verification.rows);
 }

@@ -28,15 +28,13 @@ constexpr int verified_threads[] = {1, 2, 3, 4, 7};
 std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin& distributed, const Plugin& part,
                                     int ranks, const std::string& device = "");
 
-inline constexpr const char* no_device = "none";
-
 /// Verifies variants on a scene, `steps` steps long:
 /// (1) one evaluation of all derivatives at a random state with large rotations against the oracle in long double;
 /// (2) the state after the run, for every integrator, against the oracle in long double;
 /// (3) equal bits for each thread count, and over all variants that have FMA.
 /// Both precisions, and each model that is exact for the scene. A variant's exception is a failure with its message.
-/// @param device  of variants on devices, see choose_device; one without double precision skips f64; no_device: hybrids
-/// compute without
+/// @param device  of variants on devices, see choose_device; one without double precision skips f64; no_device: variants
+/// on devices are left out, hybrids compute without
 std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::vector<const Plugin*>& plugins,
                                     const std::string& device = "");
 

@@ -171,11 +171,8 @@ std::vector<VerifyRow> rows_of_jobs(const VerifyArguments& arguments, const std:
 
 std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments, const std::vector<std::string>& names) {
   std::vector<VerifyRow> rows;
-  std::vector<const Plugin*> plugins = chosen_plugins(arguments.variants, rows);
-  if (arguments.device == no_device)
-    std::erase_if(plugins, [](const Plugin* plugin) { return plugin->devices != nullptr; });
-  else
-    require_device(arguments.device, plugins);
+  const std::vector<const Plugin*> plugins = chosen_plugins(arguments.variants, rows);
+  if (arguments.device != no_device) require_device(arguments.device, plugins);
   each_case(names, [&](const std::string& set, const Scene& scene, long steps) {
     add_rows(verify_scene(scene, steps, plugins, arguments.device), set, rows);
   });

@@ -13,7 +13,7 @@
 namespace dss {
 
 /// Degrees of freedom that depend on one another, their inertia scaled to 1: x'' + C x' + K x = 0. Time is in units in
-/// which no number of K or C exceeds 1.
+/// which no number of K or C exceeds 1. Part of Modes::Piece, therefore not local to this file.
 struct Coupled {
   std::vector<Eigen::Index> dof; ///< 6 element + 0 .. 5
   Eigen::MatrixXd k, c;

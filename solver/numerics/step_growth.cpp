@@ -84,7 +84,7 @@ double spectral_radius(const Method& method, double h, double omega, double rate
   switch (method.family) {
   case Method::Family::leapfrog: {
     // One step of (x, h v_half, h p): h^2 a = -stiffness x - damping h p.
-    Eigen::MatrixXd step(3, 3);
+    Eigen::MatrixXd step(3, 3); // as in modes.cpp: solvers of other sizes take seconds to compile
     step << 1 - stiffness, 1, -damping, -stiffness, 1, -damping, -1.5 * stiffness, 1, -1.5 * damping;
     return step.eigenvalues().cwiseAbs().maxCoeff();
   }

@@ -57,11 +57,11 @@ class Simulation(ProgramTest):
         broken = self.write("broken.xml", "<platform")
         self.assert_refused(2, ["broken.xml"], *line, "--ranks", 2, "--platform", broken)
 
-    def study(self, **changes):
+    def study(self, scale=None, **changes):
         block = {"label": "x", "scene": "plate_paper", "set": {"n": 24}, "ranks": [1, 2], "platforms": ["fdr"], "halos": ["deep", "auto"],
                  "steps": 100, "paper_node": {"wall_s": 743.14, "elements": 90000, "steps": 10000}, "paper_wall_s": {"1": 743.14, "2": 370.71}}
         block.update(changes)
-        study = {"experiment": "tiny", "title": "t", "simulation": [block], "scales": {"host": {}}}
+        study = {"experiment": "tiny", "title": "t", "simulation": [block], "scales": {"host": scale or {}}}
         return self.write("tiny.json", json.dumps(study))
 
     def test_a_study_keeps_published_and_simulated_times_apart(self):
@@ -82,6 +82,9 @@ class Simulation(ProgramTest):
                               ({"ranks": [0]}, ["/simulation/0/ranks"]), ({"steps": 0}, ["steps"]), ({"set": {"m": 3}}, ["m"]),
                               ({"decompositions": ["stripes"]}, ["stripes"]), ({"paper_wall_s": {"2": 1}}, ["1 rank"])]:
             self.assert_refused(2, words, "experiment", self.study(**change), "--out", self.path("out"))
+        for scale, words in [({"leave_out": ["y"]}, ["/scales/host/leave_out", '"y"']), ({"leave_out": ["x"]}, ["/scales/host", "nothing"]),
+                             ({"most_elements": 5}, ["/scales/host", "nothing"])]:
+            self.assert_refused(2, words, "experiment", self.study(scale), "--out", self.path("out"))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 #include "experiments/runner/state_access.hpp"
 #include "experiments/runner/verify.hpp"
+#include "solver/error.hpp"
 #include "tests/fixtures/problems.hpp"
+#include "variants/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +47,26 @@ TEST(StateError, IsInfiniteWhereANumberIsMissing) {
   EXPECT_EQ(state_error(problem, expected, actual), 0);
   actual[3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(state_error(problem, expected, actual), std::numeric_limits<double>::infinity());
+}
+
+TEST(VerifyScene, WithoutDevicesLeavesOutVariantsOnThemAndGivesHybridsNone) {
+  std::vector<const Plugin*> plugins = {&load_variant("scalar")};
+  for (const char* name : {"opencl", "hybrid"}) try {
+      plugins.push_back(&load_variant(name));
+    } catch (const InputError&) { // not in this build
+    }
+  const Scene scene = load_scene("two_bodies", {});
+  for (const VerifyRow& row : verify_scene(scene, 2, plugins, no_device)) {
+    EXPECT_NE(row.verdict, VerifyRow::Verdict::failed) << row.variant << " " << row.check << ": " << row.reason;
+    EXPECT_NE(row.variant, "opencl");
+  }
+  if (std::string_view(plugins.back()->name) != "hybrid") return;
+  const Problem& problem = scene.problem;
+  const Method& rk4 = *find_method("rk4");
+  dss::Setup setup{problem, rk4, Model::spatial, Precision::f64, problem.dt, 2};
+  setup.device = no_device;
+  for (const HybridInfo::Entry& member : plugins.back()->create(setup)->hybrid_info().members)
+    EXPECT_FALSE(member.member.starts_with("opencl")) << member.member;
 }
 
 } // namespace

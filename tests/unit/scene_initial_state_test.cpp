@@ -29,7 +29,10 @@ Problem block_with_a_hole() {
 
 TEST(initial_state, is_all_zeros_without_a_motion) {
   const Problem problem = fixture::make_pair(LinkLaw::paper);
-  for (const double field : initial_state(problem)) EXPECT_EQ(field, 0);
+  std::vector<double> state(problem.lattice.element_count * field_count, NAN);
+  initial_state(problem, 0, problem.lattice.element_count, state.data());
+  for (const double field : state) EXPECT_EQ(field, 0);
+  EXPECT_EQ(initial_state(problem), state);
 }
 
 TEST(initial_state, of_a_rigid_motion_is_the_rotation_about_its_centre) {

@@ -78,6 +78,25 @@ TEST_F(scene_file, may_name_a_voxel_file_beside_it) {
   EXPECT_EQ(scene.problem.link_count(), 2U + 2 + 2);
 }
 
+TEST_F(scene_file, selects_elements_of_rows_with_holes_by_their_cells) {
+  const std::string bodies =
+      R"({"scene": "holes", "title": "t", "run": {"dt": 1e-6, "steps": 1}, "bodies": [{"name": "b",
+      "element": 1, "constants": {"law": "paper"}, "geometry": {"voxels": {"layers": [["#.##", "####"]]}}}], "clamps": )";
+  const auto clamped = [&](const std::string& select) {
+    std::vector<std::size_t> elements;
+    for (const Clamp& clamp :
+         load_scene(written("holes.json", bodies + "[{\"select\": " + select + "}]}")).problem.clamps)
+      elements.push_back(clamp.element);
+    return elements;
+  };
+  using Elements = std::vector<std::size_t>;
+  EXPECT_EQ(clamped(R"({"box": {"x": [1, 2]}})"), (Elements{1, 4, 5}));
+  EXPECT_EQ(clamped(R"({"box": {"x": 3, "y": 0}})"), Elements{2});
+  EXPECT_EQ(clamped(R"({"face": "+x"})"), (Elements{2, 6}));
+  EXPECT_EQ(clamped(R"({"elements": [[2, 0, 0], [0, 1, 0]]})"), (Elements{1, 3}));
+  EXPECT_EQ(clamped(R"({"all": true})"), (Elements{0, 1, 2, 3, 4, 5, 6}));
+}
+
 TEST_F(scene_file, with_a_bad_voxel_mask_is_refused) {
   expect_part(refusal(scene_with(R"({"voxels": {"file": "absent.txt"}})")), "absent.txt cannot be read");
   written("mask.txt", "##.\n#.\n");

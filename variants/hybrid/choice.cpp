@@ -24,11 +24,12 @@ Participant participant_of(const Member& member) {
   return participant;
 }
 
-/// Two members that really compute jointly, whether it pays or not.
-std::vector<Participant> default_participants(int threads) {
+/// Two members that really compute jointly, whether it pays or not; the second on a device where there is one.
+std::vector<Participant> default_participants(int threads, const std::string& device) {
   const int second = std::max(1, threads / 2), first = std::max(1, threads - second);
   std::vector<Participant> participants{participant_of({"auto", "", first})};
-  const std::vector<Participant> devices = device_participants(second);
+  const std::vector<Participant> devices =
+      device == no_device ? std::vector<Participant>{} : device_participants(second);
   participants.push_back(devices.empty() ? participant_of({"auto", "", second}) : devices.front());
   return participants;
 }
@@ -62,7 +63,7 @@ Choice choose(const Setup& setup) {
   if (setup.members == "auto") return choose_fastest(setup, device_participants(setup.threads));
   Choice choice;
   if (setup.members.empty())
-    choice.participants = default_participants(setup.threads);
+    choice.participants = default_participants(setup.threads, setup.device);
   else
     for (const Member& member : parse_members(setup.members)) choice.participants.push_back(participant_of(member));
   choice.participants.resize(std::min(choice.participants.size(), setup.problem.lattice.rows.size()));

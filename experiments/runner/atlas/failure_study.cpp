@@ -77,8 +77,8 @@ private:
 
   /// Why the program would not run the cell, or empty. The same rules as plan_run's, except that stages are not fitted to the step.
   std::string refusal(const Method& method, Precision precision, Rotation rotation, Model model, double dt) {
-    if (const std::string what = what_lacks(plugin_, precision, method, rotation); !what.empty())
-      return fmt::format("variant {} {}", plugin_.name, what);
+    if (const auto lack = what_lacks(plugin_, precision, method, rotation))
+      return fmt::format("variant {} {}", plugin_.name, lack->what);
     if (const std::string why = why_not_planar(scene_.problem); model == Model::planar && !why.empty())
       return fmt::format("model planar: {}", why);
     if (dt == 0) return fmt::format("no step of {} is stable here", method.name);
