@@ -99,7 +99,7 @@ def draw(path, base, output):
     if not resolution.empty:
         note += f"; resolution {100 * resolution.iloc[0]:.1f} %"
     if rows["is_scaled"].any():
-        note += "; hatched: scaled from fewer steps"
+        note += "\nhatched: scaled from fewer steps"
     all_axes[-1, 0].set_xlabel(note, fontsize=9)
     output.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(output, dpi=150)
