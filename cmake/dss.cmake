@@ -11,7 +11,7 @@ if(DSS_SANITIZE)
 endif()
 
 # dss_unity(TARGET n): compiles its sources n at a time, since headers take most of the time; DSS_UNITY=OFF compiles each by itself. Sources with options
-# of their own stay by themselves. Not for what is timed: as one file the engine was 2 % slower with AVX2.
+# of their own stay by themselves. Not for the engine: as one file it was 2 % slower with AVX2.
 function(dss_unity target size)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${DSS_UNITY} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE ${size})
 endfunction()

@@ -44,9 +44,7 @@ void read_scene_cases(const JsonPlace& place, std::size_t most_elements, const s
   place.require_keys({"scene", "set"});
   const std::string scene = scene_beside(file, place["scene"].text());
   for (const std::vector<Override>& set : combinations(place, "set")) {
-    std::string text;
-    for (const Override& item : set) text += fmt::format("{}{}={}", text.empty() ? "" : " ", item.key, item.value);
-    StabilityStudy::Case own{place["scene"].text(), text, load_scene(scene, set), {}};
+    StabilityStudy::Case own{place["scene"].text(), set_text(set), load_scene(scene, set), {}};
     if (own.scene.problem.lattice.element_count <= most_elements) study.cases.push_back(std::move(own));
   }
 }
