@@ -1,24 +1,42 @@
 #pragma once
 /// Which degrees of freedom are integrated, and in which precision.
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
 namespace dss {
 
-enum class Model { spatial, planar };
+/// spatial: six degrees of freedom, finite rotations. small: six, rotations as vectors, A = I + [theta]x. linear: small displacements too, so that
+/// links have constant matrices. bending: deflection uz and rotations about x and y, linear. planar: ux, uy and the rotation about z, finite.
+/// axial: ux alone.
+enum class Model { spatial, small, linear, bending, planar, axial };
+/// From the least work a step to the most.
+inline constexpr std::array models{Model::axial,  Model::bending, Model::planar,
+                                   Model::linear, Model::small,   Model::spatial};
 /// f32c: single precision whose state is summed with its low part kept, so that small steps do not lose what they add.
 enum class Precision { f64, f32, f32c };
 inline constexpr std::array precisions{Precision::f64, Precision::f32, Precision::f32c};
 /// Of the numbers that forces are computed in.
 constexpr bool is_single(Precision precision) { return precision != Precision::f64; }
 
-constexpr std::string_view name(Model model) { return model == Model::spatial ? "spatial" : "planar"; }
+constexpr std::string_view name(Model model) {
+  constexpr std::array<std::string_view, 6> names{"spatial", "small", "linear", "bending", "planar", "axial"};
+  return names[std::size_t(model)];
+}
+/// Rotations are vectors, and orientations outside a model's own state the quaternions of these.
+constexpr bool has_rotation_vectors(Model model) {
+  return model == Model::small || model == Model::linear || model == Model::bending;
+}
+/// Equations of motion are linear but for loads in time.
+constexpr bool is_linear(Model model) {
+  return model == Model::linear || model == Model::bending || model == Model::axial;
+}
 constexpr std::string_view name(Precision precision) {
   return precision == Precision::f64 ? "f64" : precision == Precision::f32 ? "f32" : "f32c";
 }
 constexpr std::optional<Model> find_model(std::string_view text) {
-  for (const Model model : {Model::spatial, Model::planar})
+  for (const Model model : models)
     if (name(model) == text) return model;
   return std::nullopt;
 }

@@ -23,6 +23,7 @@ Orientation<T> Coordinates<T>::write(std::size_t e, const Orientation<T>& q) {
   case Rotation::tait_bryan_raw:
     return {T(0), angles_of(q)};
   case Rotation::linearised:
+  case Rotation::small:
     return {T(0), vector_of_orientation(q)};
   }
   return q;
@@ -38,6 +39,7 @@ Orientation<T> Coordinates<T>::read(std::size_t e, const Orientation<T>& c) cons
   case Rotation::tait_bryan_raw:
     return orientation_of_angles(c.v);
   case Rotation::linearised:
+  case Rotation::small:
     return orientation_of_vector(c.v);
   }
   return c;
@@ -45,28 +47,28 @@ Orientation<T> Coordinates<T>::read(std::size_t e, const Orientation<T>& c) cons
 
 template <class T>
 Orientation<T> Coordinates<T>::read_rate(std::size_t e, const Orientation<T>& c, const Vector<T>& w) const {
-  if (rotation_ == Rotation::linearised) return rate_along_vector(c.v, w);
+  if (has_vectors()) return rate_along_vector(c.v, w);
   return reference::rate(read(e, c), w);
 }
 
 template <class T>
 Orientation<T> Coordinates<T>::rate(const Orientation<T>& c, const Vector<T>& w) const {
   if (rotation_ == Rotation::quaternion) return reference::rate(c, w);
-  if (rotation_ == Rotation::linearised) return {T(0), w};
+  if (has_vectors()) return {T(0), w};
   return {T(0), angle_rates(c.v, w)};
 }
 
 template <class T>
 Orientation<T> Coordinates<T>::moved(const Orientation<T>& c, const Vector<T>& w, T h) const {
   if (rotation_ == Rotation::quaternion) return cayley_turned<T>(c, h * w);
-  if (rotation_ == Rotation::linearised) return {T(0), c.v + h * w};
+  if (has_vectors()) return {T(0), c.v + h * w};
   const Vector<T> middle = c.v + h / T(2) * angle_rates(c.v, w);
   return {T(0), c.v + h * angle_rates(middle, w)};
 }
 
 template <class T>
 Orientation<T> Coordinates<T>::midpoint(const Orientation<T>& c, const Vector<T>& w, T h) const {
-  if (rotation_ == Rotation::linearised) return {T(0), c.v + h / T(2) * w};
+  if (has_vectors()) return {T(0), c.v + h / T(2) * w};
   if (rotation_ == Rotation::quaternion) {
     const Orientation<T> end = cayley_turned<T>(c, h * w);
     return {(c.s + end.s) / T(2), (c.v + end.v) / T(2)};

@@ -17,13 +17,14 @@ inline constexpr double largest_middle_angle = 0.78539816339744831;
 /// qs .. qz as they are: the quaternion itself, or in v the three angles or the rotation vector, with s = 0.
 ///   tait_bryan      A = X(phi) Y(theta) Z(psi) A_base; write sets the base to the orientation given and the angles to 0
 ///   tait_bryan_raw  the same with A_base = I for ever
-///   linearised      rotation vector from the rest orientation, theta' = w
+///   linearised, small  rotation vector from the rest orientation, theta' = w
 template <class T>
 class Coordinates {
 public:
   Coordinates(Rotation rotation, std::size_t elements);
 
   Rotation rotation() const { return rotation_; }
+  bool has_vectors() const { return rotation_ == Rotation::linearised || rotation_ == Rotation::small; }
 
   /// Coordinates of element e at the orientation q.
   Orientation<T> write(std::size_t e, const Orientation<T>& q);

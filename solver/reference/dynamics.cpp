@@ -1,6 +1,7 @@
 #include "solver/reference/dynamics.hpp"
 
 #include "solver/reference/linearised_law.hpp"
+#include "solver/reference/small_law.hpp"
 
 #include <algorithm>
 
@@ -76,7 +77,7 @@ void Dynamics<T>::place(std::span<const T> state) {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     Motion<T>& motion = motions_[e] = motion_of(state.data() + e * field_count);
     if (coordinates_.rotation() == Rotation::quaternion) continue;
-    if (is_linearised()) {
+    if (has_vectors()) {
       motion.turned = cross_matrix<T>(motion.q.v);
       motion.q.v /= T(2);
     } else {
@@ -87,11 +88,17 @@ void Dynamics<T>::place(std::span<const T> state) {
 }
 
 template <class T>
+Reaction<T> Dynamics<T>::link_reaction(const Motion<T>& i, const Motion<T>& j,
+                                       const LinkProperties<T>& properties) const {
+  if (is_linearised()) return linearised_reaction(i, j, properties);
+  return has_vectors() ? small_reaction(i, j, properties) : reaction(i, j, properties);
+}
+
+template <class T>
 void Dynamics<T>::add_link_reactions() {
   for (const Link& link : links_) {
     const Motion<T>&i = motions_[link.i], &j = motions_[link.j];
-    const LinkProperties<T>& properties = properties_[link.properties];
-    const Reaction<T> r = is_linearised() ? linearised_reaction(i, j, properties) : reaction(i, j, properties);
+    const Reaction<T> r = link_reaction(i, j, properties_[link.properties]);
     wrenches_[link.i].force += r.force;
     wrenches_[link.j].force -= r.force;
     wrenches_[link.i].moment += r.moment_i;
@@ -127,14 +134,15 @@ void Dynamics<T>::add_stabilization() {
 /// Columns: the axes of an element's inertia in the global frame.
 template <class T>
 Matrix<T> Dynamics<T>::body_axes(const Motion<T>& motion) const {
-  return is_linearised() ? Matrix<T>::Identity() : motion.rotation();
+  return has_vectors() ? Matrix<T>::Identity() : motion.rotation();
 }
 
-/// J^-1 (moment - w x J w) with J = A diag(inertia) A^T; a scalar inertia has no gyroscopic term.
+/// J^-1 (moment - w x J w) with J = A diag(inertia) A^T; a scalar inertia has no gyroscopic term, nor have linear equations.
 template <class T>
 Vector<T> Dynamics<T>::angular_acceleration(const BodyMass& body, const Motion<T>& motion,
                                             const Vector<T>& moment) const {
   if (!body.has_tensor_inertia) return moment / body.inertia.x();
+  if (is_linearised()) return moment.cwiseQuotient(body.inertia);
   const Matrix<T> a = body_axes(motion);
   const Vector<T> spin = a * body.inertia.cwiseProduct(a.transpose() * motion.w);
   const Vector<T> net = moment - motion.w.cross(spin);

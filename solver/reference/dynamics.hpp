@@ -74,6 +74,8 @@ private:
   void add_loads(std::span<const double> signals);
   void add_stabilization();
   bool is_linearised() const { return coordinates_.rotation() == Rotation::linearised; }
+  bool has_vectors() const { return coordinates_.has_vectors(); }
+  Reaction<T> link_reaction(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& properties) const;
   Matrix<T> body_axes(const Motion<T>& motion) const;
   Vector<T> angular_acceleration(const BodyMass& body, const Motion<T>& motion, const Vector<T>& moment) const;
 

@@ -59,13 +59,24 @@ Reaction<T> paper_reaction(const Motion<T>& i, const Motion<T>& j, const LinkPro
   return reaction;
 }
 
+/// The rotation from i to j: (p0, r) = q_j conj(q_i).
+template <class T>
+struct RelativeRotation {
+  Vector<T> r;
+  T p0;
+};
+template <class T>
+RelativeRotation<T> relative_rotation(const Motion<T>& i, const Motion<T>& j) {
+  return {relative_vector(i.q, j.q), relative_scalar(i.q, j.q)};
+}
+
 /// Moment on i of the rotational springs of the material law; minus the derivative of their energy (see elastic_energy)
 /// by a turn of i.
 template <class T>
 Vector<T> material_spring_torque(const Motion<T>& i, const Motion<T>& j, const Matrix<T>& mean,
-                                 const LinkProperties<T>& link) {
-  const Vector<T> r = relative_vector(i.q, j.q);
-  const T p0 = relative_scalar(i.q, j.q);
+                                 const LinkProperties<T>& link, const RelativeRotation<T>& relative) {
+  const Vector<T>& r = relative.r;
+  const T p0 = relative.p0;
   Vector<T> torque = T(2) * link.k_rot.z() * r;
   for (const int m : {0, 1}) {
     const Vector<T> n = mean.col(m);
@@ -78,7 +89,8 @@ Vector<T> material_spring_torque(const Motion<T>& i, const Motion<T>& j, const M
 /// The material law: orthotropic about the columns of the mean rotation, acting at the common point half-way across the
 /// gap.
 template <class T>
-Reaction<T> material_reaction(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link) {
+Reaction<T> material_reaction(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link,
+                              const RelativeRotation<T>& relative) {
   const Matrix<T> mean = Matrix<T>::Identity() + (i.turned + j.turned) / T(2);
   const Vector<T> d = gap(i, j, link);
   const Vector<T> b_i = i.rotation() * link.arm_i + d / T(2);
@@ -94,7 +106,7 @@ Reaction<T> material_reaction(const Motion<T>& i, const Motion<T>& j, const Link
   const Vector<T> spread = i.turned.col(link.axis) - j.turned.col(link.axis);
   const Vector<T> normal_couple = stretch / T(4) * d.cross(spread);
 
-  Vector<T> torque = material_spring_torque(i, j, mean, link) + link.d_rot.z() * spin;
+  Vector<T> torque = material_spring_torque(i, j, mean, link, relative) + link.d_rot.z() * spin;
   for (const int m : {0, 1}) {
     const Vector<T> n_m = mean.col(m);
     torque += (link.d_rot[m] - link.d_rot.z()) * n_m.dot(spin) * n_m;
@@ -104,7 +116,8 @@ Reaction<T> material_reaction(const Motion<T>& i, const Motion<T>& j, const Link
 
 template <class T>
 Reaction<T> reaction(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link) {
-  return link.law == LinkLaw::paper ? paper_reaction(i, j, link) : material_reaction(i, j, link);
+  return link.law == LinkLaw::paper ? paper_reaction(i, j, link)
+                                    : material_reaction(i, j, link, relative_rotation(i, j));
 }
 
 /// Potential energy of a link's elastic part [J]:

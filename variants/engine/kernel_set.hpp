@@ -6,6 +6,7 @@
 #include "solver/model/model.hpp"
 
 #include <array>
+#include <stdexcept>
 
 namespace dss {
 
@@ -67,6 +68,11 @@ const KernelSet<T>& find_kernels(Model model, const Terms& terms) {
       return planar_f32_kernels(terms);
   case Model::spatial:
     break;
+  case Model::small:
+  case Model::linear:
+  case Model::bending:
+  case Model::axial:
+    throw std::logic_error("kernel_set.hpp: this model is not compiled");
   }
   if constexpr (is_f64)
     return spatial_f64_kernels(terms);

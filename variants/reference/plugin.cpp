@@ -7,12 +7,16 @@
 namespace dss {
 namespace {
 
-/// The planar model runs the spatial physics: where planar is exact, the fields outside the plane stay zero.
+/// Models of fewer degrees of freedom run the equations of the larger one: where they suffice, the other fields stay zero.
+Rotation rotation_of(const Setup& setup) {
+  return setup.rotation != Rotation::quaternion ? setup.rotation : dss::rotation_of(setup.model);
+}
+
 template <class T>
 class ReferenceExecutor final : public Executor {
 public:
   explicit ReferenceExecutor(const Setup& setup)
-      : setup_(setup), oracle_(setup.problem, setup.method, setup.dt, setup.rotation),
+      : setup_(setup), oracle_(setup.problem, setup.method, setup.dt, rotation_of(setup)),
         row_width_(signal_count(setup.problem)), stages_(setup.method.stages) {}
 
   void write(std::size_t first, std::span<const double> fields) override { oracle_.write(fields, first); }
