@@ -49,7 +49,7 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   if (above != 0) up = NAME(masked)(link_across(i.e, upper_side, element_at(upper), axis, law, FLAGS), above);
   carried low = nothing_carried();
   if (below != 0) low = NAME(carried_at)(from);
-  sum = wrench_across(sum, up, low, own.arm, law, FLAGS);
+  sum = wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
   if (above != 0) NAME(put_carried)(carried_by(up, FLAGS), carry); /* perhaps over what was read */
   return sum;
 }

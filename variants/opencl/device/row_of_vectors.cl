@@ -25,8 +25,11 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, cons
 static inline int NAME(run_row)(device d, global const row_stage* task, global const NUMBER* signals) {
   global const body_constants* body = d.bodies + task->body;
   global const pack_masks* masks = d.masks + task->masks;
-  const axis_law x = NAME(law_of)(body, 0), y = NAME(law_of)(body, 1);
-#ifndef PLANAR
+  const axis_law x = NAME(law_of)(body, 0);
+#if AXES > 1
+  const axis_law y = NAME(law_of)(body, 1);
+#endif
+#if AXES > 2
   const axis_law z = NAME(law_of)(body, 2);
 #endif
   const int stride = task->fields * W, carry_size = CARRY_SIZE(FLAGS) * W;
@@ -40,9 +43,11 @@ static inline int NAME(run_row)(device d, global const row_stage* task, global c
     i.e = element_at(in + place);
     next = prepare(element_at(in + place + stride), x.x, FLAGS);
     wrench sum = NAME(links_x)(i, next, x, masks[pack].link_x, &previous);
+#if AXES > 1
     sum = NAME(add_across)(sum, i, 1, y, masks[pack].link_y, masks[pack].below_y, d.arena + task->upper_y + place,
                            d.arena + task->carry_y + carry, d.arena + task->from_y + carry);
-#ifndef PLANAR
+#endif
+#if AXES > 2
     sum = NAME(add_across)(sum, i, 2, z, masks[pack].link_z, masks[pack].below_z, d.arena + task->upper_z + place,
                            d.arena + task->carry_z + carry, d.arena + task->from_z + carry);
 #endif

@@ -53,7 +53,7 @@ static inline REAL leapfrog_update(device d, global const row_stage* task, const
   put_rotor(next.q, p + 2 * VEC_SIZE * W);
   put_spin(is_predicted ? next.w_next : next.w_half, p + (FIELDS - SPIN_SIZE) * W);
   if (is_predicted) put_vec(next.v_half, p + FIELDS * W), put_spin(next.w_half, p + (FIELDS + VEC_SIZE) * W);
-  return finite_check(next.v_half, next.w_half, FMA(next.q.s, SPLAT(0), check));
+  return finite_check(next.v_half, next.w_half, FMA(rotor_sign_of_life(next.q), SPLAT(0), check));
 }
 
 /* y becomes y + (low + change); `low` moves to the next component. */
@@ -91,7 +91,7 @@ static inline REAL kept_leapfrog_update(device d, global const row_stage* task, 
   put_rotor(q, out + q_at);
   put_spin(is_predicted ? spin_axpy(half_h, alpha, w) : w, out + w_at);
   if (is_predicted) put_vec(v, out + FIELDS * W), put_spin(w, out + (FIELDS + VEC_SIZE) * W);
-  return finite_check(v, w, FMA(q.s, SPLAT(0), check));
+  return finite_check(v, w, FMA(rotor_sign_of_life(q), SPLAT(0), check));
 }
 
 static inline REAL row_update(device d, global const row_stage* task, const long place, element e, vec force,
