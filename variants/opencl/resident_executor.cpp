@@ -202,16 +202,17 @@ void ResidentExecutor<T, W>::to_host() {
 template <class T, int W>
 void ResidentExecutor<T, W>::to_device() {
   if (!is_on_host_) return;
+  publish_changed();
   problem_.queue.set_counting(false);
   problem_.to_device(is_changed_ ? state_ranges() : std::vector<Range>{});
   problem_.queue.set_counting(true);
   is_on_host_ = is_changed_ = false;
 }
 
+/// States are written in pieces, of thousands of elements each: what bands publish is copied once, behind the last.
 template <class T, int W>
-void ResidentExecutor<T, W>::publish_all() {
-  is_changed_ = true;
-  blocks_.publish_all(parity_);
+void ResidentExecutor<T, W>::publish_changed() {
+  if (is_changed_) blocks_.publish_all(parity_);
 }
 
 template <class T, int W>
@@ -220,7 +221,7 @@ void ResidentExecutor<T, W>::write(std::size_t first, std::span<const double> fi
   to_host();
   parity_ = 0;
   rows_.write(first, fields);
-  publish_all();
+  is_changed_ = true;
 }
 
 template <class T, int W>
@@ -241,7 +242,7 @@ void ResidentExecutor<T, W>::restore(std::size_t first, std::span<const double> 
   to_host();
   end_rates_.clear();
   is_started_ = rows_.restore(first, kept);
-  publish_all();
+  is_changed_ = true;
 }
 
 /// Rates of plain rows, at the present state, which is on the host.

@@ -16,8 +16,7 @@ Outcome ResidentExecutor<T, W>::advance(long steps, std::span<const double> sign
   if (rows_.is_staggered() && !is_started_) {
     to_host();
     rows_.start(evaluate(signals.first(width)).data());
-    publish_all();
-    is_started_ = true;
+    is_started_ = is_changed_ = true;
   }
   end_rates_.clear();
   rest_.clear(), edges_.clear();
