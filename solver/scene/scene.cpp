@@ -18,6 +18,7 @@ namespace dss {
 namespace {
 
 constexpr long max_steps = 1L << 53; // the largest counts that doubles hold exactly
+const std::vector<std::string> analyses = {"dynamic", "static", "modal"};
 
 Body read_body_properties(ObjectNode& object) {
   Body body;
@@ -71,6 +72,8 @@ void read_run(const Node& node, Scene& scene) {
   scene.model = model ? model_names[model->choice("model", model_names)] : model_names[0];
   if (const std::string reason = why_not_planar(scene.problem); scene.model == "planar" && !reason.empty())
     model->fail(fmt::format("\"planar\" does not hold: {}; use \"spatial\"", reason));
+  const auto analysis = run.find("analysis");
+  scene.analysis = analysis ? analyses[analysis->choice("analysis", analyses)] : analyses[0];
   run.finish();
 }
 
@@ -161,6 +164,13 @@ Scene load_scene(const std::string& name_or_path, const std::vector<Override>& o
     throw InputError(
         fmt::format("{}: the scene does not fit into this machine's memory; give it fewer elements", path));
   }
+}
+
+std::string scene_analysis(const std::string& name_or_path, const std::vector<Override>& overrides) {
+  const SceneText text = read_scene_text(scene_path(name_or_path), overrides);
+  const nlohmann::json run = text.root.is_object() ? text.root.value("run", nlohmann::json()) : nlohmann::json();
+  const bool is_given = run.is_object() && run.contains("analysis") && run["analysis"].is_string();
+  return is_given ? run["analysis"].get<std::string>() : analyses[0];
 }
 
 std::vector<SceneListing> list_scenes() {
