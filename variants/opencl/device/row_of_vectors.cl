@@ -48,7 +48,7 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   if (above != 0) up = NAME(masked)(link_across(i.e, upper_side, element_at(upper), axis, law, FLAGS), above);
   carried low = nothing_carried();
   if (below != 0) low = NAME(carried_at)(from);
-  sum = wrench_across(sum, up, low, own.arm, law, FLAGS);
+  sum = wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
   if (above != 0) NAME(put_carried)(carried_by(up, FLAGS), carry); /* perhaps over what was read */
   return sum;
 }
@@ -109,14 +109,14 @@ static int NAME(run)(device d, global const row_stage* task, global const NUMBER
   switch (task->action) {
   case prime_upper:
     if (task->upper_y >= 0) NAME(prime)(d, task, 1);
-#ifndef PLANAR
+#if AXES > 2
     if (task->upper_z >= 0) NAME(prime)(d, task, 2);
 #endif
     return 1;
   case prime_y:
     NAME(prime)(d, task, 1);
     return 1;
-#ifndef PLANAR
+#if AXES > 2
   case prime_z:
     NAME(prime)(d, task, 2);
     return 1;
