@@ -91,7 +91,7 @@ Model ModelMonitor::promoted() const {
     ModelErrorBound bound(problem_, model);
     bound.look(good_state_, double(good_step_) * dt_);
     if (!failed_state_.empty()) bound.look(failed_state_, double(failed_step_) * dt_);
-    if (estimate_of(bound, 0) <= limit_) return model;
+    if (estimate_of(bound, double(shortest_interval_) * dt_) <= limit_) return model;
   }
   return Model::spatial;
 }

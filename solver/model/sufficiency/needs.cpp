@@ -11,23 +11,6 @@ namespace {
 
 constexpr std::array<const char*, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
-/// Bits of the degrees of freedom that a model has.
-int dofs_of(Model model) {
-  switch (model) {
-  case Model::axial:
-    return dof_ux;
-  case Model::bending:
-    return dof_uz | dof_rx | dof_ry;
-  case Model::planar:
-    return dof_ux | dof_uy | dof_rz;
-  case Model::linear:
-  case Model::small:
-  case Model::spatial:
-    break;
-  }
-  return dof_all;
-}
-
 const char* why_a_dof_stays_zero(Model model) {
   if (model == Model::axial)
     return "nothing pushes or turns across x: links along x have forces along x and no moments";
@@ -117,12 +100,28 @@ Need frame(const Problem& problem) {
 
 } // namespace
 
+int degrees_of(Model model) {
+  switch (model) {
+  case Model::axial:
+    return dof_ux;
+  case Model::bending:
+    return dof_uz | dof_rx | dof_ry;
+  case Model::planar:
+    return dof_ux | dof_uy | dof_rz;
+  case Model::linear:
+  case Model::small:
+  case Model::spatial:
+    break;
+  }
+  return dof_all;
+}
+
 std::vector<Need> degrees_of_freedom(const Problem& problem, Model model) {
   int held = problem.clamps.size() == problem.lattice.element_count ? int(dof_all) : 0;
   for (const Clamp& clamp : problem.clamps) held &= clamp.dofs;
   std::vector<Need> needs;
   for (int dof = 0; dof < 6; ++dof) {
-    const bool is_rotation = dof >= 3, has = dofs_of(model) & (1 << dof), is_held = held & (1 << dof);
+    const bool is_rotation = dof >= 3, has = degrees_of(model) & (1 << dof), is_held = held & (1 << dof);
     const bool stays = is_rotation && !turns(problem, model);
     std::string why_none = has ? "all elements move alike: nothing turns" : why_a_dof_stays_zero(model);
     if (is_held) why_none = "clamped on every element";
