@@ -133,7 +133,7 @@ TEST_F(AutoRun, BeginsAnewIfTheEndIsSmallAgainstWhatWentBefore) {
       {"table", {{0, 0}, {0.02, 1}, {0.04, 0}}}}; // a pulse, after which everything dies away
   scene["stabilization"] = {{"d", 3}};
   std::ofstream(file("pulse.json")) << scene;
-  const std::vector<Override> set = {{"n", "4"}, {"width", "1"}, {"force", "3e-3"}};
+  const std::vector<Override> set = {{"n", "4"}, {"width", "1"}, {"force", "1e-3"}};
   request.model_tolerance = 1e-5;
   const RunResult result = run(file("pulse.json"), set, 1500);
   ASSERT_EQ(result.model_report.promotions.size(), 1u);

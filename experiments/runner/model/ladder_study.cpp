@@ -119,7 +119,8 @@ private:
     add_times(result, row);
     row["error"] = number_text(result.check.error);
     row["verdict"] = result.check.is_passed() ? "sufficient" : "insufficient";
-    row["provable"] = result.model_choice.is_bounded && result.model_report.promotions.empty() ? "bounded" : "proven";
+    row["provable"] =
+        result.model_choice.is_bounded && has_rotation_vectors(*find_model(result.model)) ? "bounded" : "proven";
     row["ends_with"] = result.model;
     row["promotions"] = std::to_string(result.model_report.promotions.size());
     if (result.model_choice.is_bounded) {
@@ -145,7 +146,9 @@ private:
       else if (promotion != result.model_report.promotions.end())
         words.push_back(fmt::format("{}: after step {} its error may be {:.3g}", name(model), promotion->step,
                                     promotion->estimate));
-      else if (!has_rotation_vectors(model) || result.model_report.promotions.empty())
+      else if (const std::string no_dofs = why_not(model, scene_.problem); !no_dofs.empty())
+        words.push_back(fmt::format("{}: {}", name(model), no_dofs));
+      else if (result.model_report.promotions.empty())
         fail(row, fmt::format("nothing says why {} would not do", name(model)));
       else
         words.push_back(fmt::format("{}: its bound fails where that of {} does", name(model),
