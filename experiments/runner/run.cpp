@@ -133,7 +133,7 @@ private:
       if (!has_arrived || !is_finite_after(stop)) return false;
       step = stop;
       if (step == plan_.steps && monitor_ && !monitor_->holds_at_end()) {
-        if (promote(step, 0, Model::spatial)) begin_anew();
+        if (promote(step, 0, Model::spatial)) begin_anew(); // nothing between is known to be good
         return false;
       }
       look(step);
@@ -422,6 +422,7 @@ RunResult run_scene(const RunRequest& request) {
     if (request.is_root) write_state(request.state_csv, problem, state);
     result.files.push_back(request.state_csv);
   }
+  result.wall_s += result.model_report.look_s;
   judge(result.check, result);
   if (result.status == "ok") timed.repeat(request.repeat_for);
   return result;

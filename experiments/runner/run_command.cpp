@@ -114,7 +114,7 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   const RunResult result = run_scene(request);
   if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));
   if (result.status == "unstable") throw UnstableError(result.reason);
-  if (request.json != "-") print_summary(result);
+  if (request.json != "-" && result.status != "bound") print_summary(result);
   if (result.status == "ok") return exit_success;
   fmt::print(stderr, "dssbench: {}: {}\n", result.scene, result.reason);
   return exit_check_failed;
