@@ -47,7 +47,7 @@ static inline material_law case_material(void) {
   }
 LINK_CASES(x, 0)
 LINK_CASES(y, 1)
-#ifndef PLANAR
+#if AXES > 2
 LINK_CASES(z, 2)
 #endif
 
@@ -79,8 +79,8 @@ static inline void case_stabilization(const REAL* in, REAL* out) {
   *(vec*)out = tie_force(e, tie, e.u);
   *(spin*)(out + (int)(sizeof(vec) / sizeof(REAL))) = tie_moment(e, tie, e.w);
 }
-#ifndef PLANAR
-/* arm and force of one axis; the element's box motion under its moment */
+#ifdef STRESS
+/* arm and force of one axis */
 static inline void case_stress(const REAL* in, REAL* out) {
   vec arm = {in[0], in[1], in[2]}, force = {in[3], in[4], in[5]};
   stress_tensor none = {in[6], in[7], in[8], in[9], in[10], in[11]};
@@ -88,6 +88,9 @@ static inline void case_stress(const REAL* in, REAL* out) {
   *(stress_tensor*)out = s;
   out[6] = von_mises_squared(s);
 }
+#endif
+#if AXES > 2
+/* an element's box motion under its moment */
 static inline void case_euler(const REAL* in, REAL* out) {
   element e = case_element(in);
   spin t = {in[0], in[1], in[2]}, inertia = {SPLAT(2), SPLAT(3), SPLAT(4)},

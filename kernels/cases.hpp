@@ -23,7 +23,11 @@ template <class Real>
 std::span<const KernelCase<Real>> kernel_cases() {
   using S = SpatialPhysics<Real>;
   using P = PlanarPhysics<Real>;
-  constexpr Model spatial = Model::spatial, planar = Model::planar;
+  using V = SmallPhysics<Real>;
+  using L = LinearPhysics<Real>;
+  using B = BendingPhysics<Real>;
+  constexpr Model spatial = Model::spatial, small = Model::small, linear = Model::linear, bending = Model::bending,
+                  planar = Model::planar;
   static constexpr KernelCase<Real> cases[] = {
       {"paper_link_x", spatial, 26, 9, 118, S::case_paper_link_x},
       {"paper_link_y", spatial, 26, 9, 118, S::case_paper_link_y},
@@ -61,6 +65,21 @@ std::span<const KernelCase<Real>> kernel_cases() {
       {"rotation_cayley", planar, 7, 2, 15, P::case_rotation_cayley},
       {"leapfrog", planar, 10, 10, 34, P::case_leapfrog},
       {"stabilization", planar, 7, 3, 12, P::case_stabilization},
+      {"paper_link_x", small, 24, 9, 78, V::case_paper_link_x},
+      {"material_link_y", small, 24, 9, 293, V::case_material_link_y},
+      {"euler", small, 12, 3, 15, V::case_euler},
+      {"leapfrog", small, 18, 18, 42, V::case_leapfrog},
+      {"paper_link_x", linear, 24, 9, 60, L::case_paper_link_x},
+      {"paper_link_z", linear, 24, 9, 60, L::case_paper_link_z},
+      {"material_link_x", linear, 24, 9, 65, L::case_material_link_x},
+      {"material_link_y", linear, 24, 9, 65, L::case_material_link_y},
+      {"material_link_z", linear, 24, 9, 65, L::case_material_link_z},
+      {"elastic_link_x", linear, 24, 9, 31, L::case_elastic_link_x},
+      {"euler", linear, 12, 3, 3, L::case_euler},
+      {"paper_link_x", bending, 12, 5, 31, B::case_paper_link_x},
+      {"material_link_x", bending, 12, 5, 35, B::case_material_link_x},
+      {"material_link_y", bending, 12, 5, 35, B::case_material_link_y},
+      {"rotation_cayley", bending, 6, 2, 6, B::case_rotation_cayley},
   };
   return cases;
 }

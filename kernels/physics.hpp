@@ -2,6 +2,7 @@
 /// The shared physics as C++: each model is the same headers over its own algebra, instantiated for a scalar or a pack
 /// of lanes.
 #include "kernels/simd/simd.hpp"
+#include "solver/model/model.hpp"
 
 DSS_INLINE_BEGIN
 namespace dss {
@@ -30,42 +31,125 @@ struct Terms {
 #define FMA(a, b, c) simd::fma(a, b, c)
 #define SPLAT(a) Real(a)
 
+// Of each: numbers of an element; axes along which elements are linked; is_common: many runs take it, so that it is worth the compiler's time.
+
 template <class Real>
 struct SpatialPhysics {
   using real = Real;
-  static constexpr int fields = 13;
-  // The order counts.
+  static constexpr int fields = 13, axes = 3;
+  static constexpr bool is_common = true;
+#define AXES 3
   // clang-format off
 #include "kernels/algebra/spatial.h"
-#include "kernels/link_force/link_force.h"
-#include "kernels/motion/motion.h"
-#include "kernels/wrench/wrench.h"
-#include "kernels/rk_update/rk_update.h"
+#include "kernels/laws.h"
+#define STRESS
 #include "kernels/stress/stress.h"
 #include "kernels/cases.h"
+#undef STRESS
   // clang-format on
+#undef AXES
+};
+
+template <class Real>
+struct SmallPhysics {
+  using real = Real;
+  static constexpr int fields = 12, axes = 3;
+  static constexpr bool is_common = false;
+#define AXES 3
+  // clang-format off
+#include "kernels/algebra/small.h"
+#include "kernels/laws.h"
+#include "kernels/cases.h"
+  // clang-format on
+#undef AXES
+};
+
+template <class Real>
+struct LinearPhysics {
+  using real = Real;
+  static constexpr int fields = 12, axes = 3;
+  static constexpr bool is_common = false;
+#define AXES 3
+#define LINEAR
+  // clang-format off
+#include "kernels/algebra/linear.h"
+#include "kernels/laws.h"
+#include "kernels/cases.h"
+  // clang-format on
+#undef LINEAR
+#undef AXES
+};
+
+template <class Real>
+struct BendingPhysics {
+  using real = Real;
+  static constexpr int fields = 6, axes = 2;
+  static constexpr bool is_common = false;
+#define AXES 2
+#define LINEAR
+  // clang-format off
+#include "kernels/algebra/bending.h"
+#include "kernels/laws.h"
+#include "kernels/cases.h"
+  // clang-format on
+#undef LINEAR
+#undef AXES
 };
 
 template <class Real>
 struct PlanarPhysics {
   using real = Real;
-  static constexpr int fields = 7;
+  static constexpr int fields = 7, axes = 2;
+  static constexpr bool is_common = true;
+#define AXES 2
 #define PLANAR
-  // The order counts.
   // clang-format off
 #include "kernels/algebra/planar.h"
-#include "kernels/link_force/link_force.h"
-#include "kernels/motion/motion.h"
-#include "kernels/wrench/wrench.h"
-#include "kernels/rk_update/rk_update.h"
+#include "kernels/laws.h"
 #include "kernels/cases.h"
   // clang-format on
 #undef PLANAR
+#undef AXES
+};
+
+template <class Real>
+struct AxialPhysics {
+  using real = Real;
+  static constexpr int fields = 2, axes = 1;
+  static constexpr bool is_common = false;
+#define AXES 1
+#define LINEAR
+  // clang-format off
+#include "kernels/algebra/axial.h"
+#include "kernels/laws.h"
+  // clang-format on
+#undef LINEAR
+#undef AXES
 };
 
 #undef REAL
 #undef FMA
 #undef SPLAT
+
+/// action.operator()<Physics>() with the physics of a model.
+template <class Real, class Action>
+auto with_physics(Model model, Action&& action) {
+  switch (model) {
+  case Model::small:
+    return action.template operator()<SmallPhysics<Real>>();
+  case Model::linear:
+    return action.template operator()<LinearPhysics<Real>>();
+  case Model::bending:
+    return action.template operator()<BendingPhysics<Real>>();
+  case Model::planar:
+    return action.template operator()<PlanarPhysics<Real>>();
+  case Model::axial:
+    return action.template operator()<AxialPhysics<Real>>();
+  case Model::spatial:
+    break;
+  }
+  return action.template operator()<SpatialPhysics<Real>>();
+}
 
 /// Calls visit(component) for each component of a vec, spin, rotor or element, in the order in which fields are stored.
 template <class Tuple, class Visit>
@@ -94,7 +178,7 @@ constexpr int component_count() {
 /// Component by component combine(a, b).
 template <class Tuple, class Combine>
 inline Tuple each_pair(const Tuple& a, const Tuple& b, Combine&& combine) {
-  Tuple r;
+  Tuple r{};
   if constexpr (requires { a.u; }) {
     r.u = each_pair(a.u, b.u, combine);
     r.v = each_pair(a.v, b.v, combine);

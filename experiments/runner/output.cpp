@@ -18,6 +18,12 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
   frames_.push_back({path.filename().string(), time});
 }
 
+void FrameSeries::discard() {
+  for (const Frame& frame : frames_)
+    std::filesystem::remove(std::filesystem::path(output_).replace_filename(frame.file));
+  frames_.clear();
+}
+
 std::string FrameSeries::finish() const {
   if (!is_series_ || output_.empty()) return output_;
   const std::string index = std::filesystem::path(output_).replace_extension(".pvd").string();

@@ -18,6 +18,8 @@ public:
   void add(const Problem& problem, const std::vector<double>& state, double time);
   /// Writes the index of a series. @return what was written, in words; empty without an output
   std::string finish() const;
+  /// Removes what was written.
+  void discard();
 
 private:
   std::string output_;

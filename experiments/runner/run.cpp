@@ -44,9 +44,11 @@ private:
 class TimedRun {
 public:
   TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result)
-      : plan_(plan), problem_(plan.scene.problem), result_(result), executor_(created(request)),
-        series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1), is_root_(request.is_root) {
+      : plan_(plan), request_(request), problem_(plan.scene.problem), result_(result), executor_(created(plan.model)),
+        series_(new_series()), is_root_(request.is_root) {
     if (plan.reference) meter_.emplace(problem_, plan.reference->states);
+    if (plan.model_choice.is_bounded)
+      monitor_.emplace(problem_, plan.model, plan.model_choice.tolerance, plan.steps, plan.dt);
   }
 
   void run(long warmup_steps) {
@@ -71,13 +73,8 @@ public:
     if (plan_.adaptive) adaptive_.emplace(adaptive_steps());
     const Traffic before = executor_->traffic();
     const DeviceUse used_before = executor_->device_use();
-    long step = 0;
-    look(step);
-    for (const long stop : stops()) {
-      if (!(adaptive_ ? adapt_to(stop) : advance_to(step, stop, result_)) || !is_finite_after(stop)) return;
-      step = stop;
-      look(step);
-    }
+    while (!pass_all_stops())
+      if (result_.status != "ok") return;
     if (meter_) result_.reference = {plan_.reference->times, plan_.reference->error, meter_->result()};
     sum_over_ranks(before);
     result_.hybrid = executor_->hybrid_info();
@@ -85,10 +82,13 @@ public:
     if (const std::string written = series_.finish(); !written.empty()) result_.files.push_back(written);
   }
 
+  /// Model that computed last.
+  Model model() const { return model_; }
+
   /// Times a short run anew: from the start, until the clock has run for `least_s`; one of equal steps straight through. The run
   /// that was looked at while it went warms up.
   void repeat(double least_s) {
-    if (result_.wall_s >= least_s) return;
+    if (result_.wall_s >= least_s || !result_.model_report.promotions.empty()) return;
     RunResult again;
     long runs = 0;
     for (; again.wall_s < least_s; ++runs) {
@@ -109,13 +109,87 @@ public:
   Executor& executor() { return *executor_; }
 
 private:
-  std::unique_ptr<Executor> created(const RunRequest& request) {
+  std::unique_ptr<Executor> created(Model model) {
     const auto start = Clock::now();
     auto executor =
-        plan_.plugin->create({problem_, *plan_.method, plan_.model, plan_.precision, plan_.dt, request.threads, nullptr,
-                              &plan_.distribution, request.device, request.hybrid, plan_.rotation});
-    result_.first_step_s = seconds_since(start);
+        plan_.plugin->create({problem_, *plan_.method, model, plan_.precision, plan_.dt, request_.threads, nullptr,
+                              &plan_.distribution, request_.device, request_.hybrid, plan_.rotation});
+    if (!has_begun_) result_.first_step_s = seconds_since(start);
+    model_ = model;
     return executor;
+  }
+
+  FrameSeries new_series() const { return {request_.is_root ? request_.output : "", plan_.frame_steps.size() > 1}; }
+
+  /// From the initial state to the end. @return false if the run ends before, or must begin anew with another model
+  bool pass_all_stops() {
+    long step = 0;
+    look(step);
+    for (const long stop : stops()) {
+      const bool has_arrived = adaptive_  ? adapt_to(stop)
+                               : monitor_ ? advance_watched(step, stop)
+                                          : advance_to(step, stop, result_);
+      if (!has_arrived || !is_finite_after(stop)) return false;
+      step = stop;
+      if (step == plan_.steps && monitor_ && !monitor_->holds_at_end()) {
+        if (promote(step, 0, Model::spatial)) begin_anew();
+        return false;
+      }
+      look(step);
+    }
+    return true;
+  }
+
+  /// To a stop, with looks at the error of the model on the way; a larger model goes on where it may exceed the tolerance.
+  bool advance_watched(long step, long stop) {
+    while (step < stop) {
+      if (!monitor_) return advance_to(step, stop, result_);
+      const long next = monitor_->next_look(step, stop);
+      RunResult tried = result_;
+      const bool is_finite = advance_to(step, next, tried);
+      result_.wall_s = tried.wall_s, result_.usage = tried.usage;
+      if (is_finite && monitor_->look(*executor_, next)) {
+        step = next;
+        result_.model_report = monitor_->report();
+        continue;
+      }
+      step = monitor_->good_step();
+      if (!promote(next, step, monitor_->promoted())) return false;
+    }
+    return true;
+  }
+
+  /// @param step  at which the bound was exceeded  @param resumed  from whose state the run goes on; the last good one, or 0 for the start
+  /// @return false if the run is to stop instead
+  bool promote(long step, long resumed, Model to) {
+    const Promotion promotion{step, resumed, model_, to, monitor_->estimate()};
+    if (request_.on_bound == "stop") {
+      result_.status = "bound";
+      result_.reason = fmt::format("after step {} (t = {:g} s) the error of model {} may be {:.3g}, above {:g} of the "
+                                   "tolerance {:g}; take --model {}, or --on-bound promote",
+                                   step, double(step) * plan_.dt, name(model_), promotion.estimate, bounded_share,
+                                   monitor_->tolerance(), name(to));
+      result_.steps = step;
+      series_.discard();
+      return false;
+    }
+    monitor_->add(promotion);
+    result_.model_report = monitor_->report();
+    executor_.reset(); // before the next takes its memory
+    executor_ = created(to);
+    executor_->write(0, monitor_->good_state());
+    if (to == Model::spatial)
+      monitor_.reset();
+    else
+      monitor_->go_on_with(to);
+    return true;
+  }
+
+  void begin_anew() {
+    write_initial_state(*executor_, problem_);
+    series_ = new_series();
+    if (meter_) meter_.emplace(problem_, plan_.reference->states);
+    result_.check = {};
   }
 
   static DeviceUse since(const DeviceUse& before, DeviceUse now) {
@@ -266,15 +340,18 @@ private:
   }
 
   const RunPlan& plan_;
+  const RunRequest& request_;
   const Problem& problem_;
   RunResult& result_;
+  bool has_begun_ = false;
+  Model model_ = Model::spatial;
   std::unique_ptr<Executor> executor_;
   FrameSeries series_;
   bool is_root_;
-  bool has_begun_ = false;
   std::optional<AdaptiveSteps> adaptive_;
   std::vector<double> tail_state_;
   std::optional<AccuracyMeter> meter_;
+  std::optional<ModelMonitor> monitor_; ///< while the model is one of small rotations that auto chose
 };
 
 RunResult described(const RunPlan& plan, const RunRequest& request) {
@@ -288,6 +365,7 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
   result.integrator = plan.method->name;
   result.stages = plan.method->stages;
   result.rotation = name(plan.rotation);
+  result.model_choice = plan.model_choice;
   result.threads = request.threads;
   result.elements = plan.scene.problem.lattice.element_count;
   result.links = plan.scene.problem.link_count();
@@ -329,12 +407,13 @@ RunResult run_scene(const RunRequest& request) {
   RunResult result = described(plan, request);
   TimedRun timed(plan, request, result);
   timed.run(request.warmup_steps);
+  result.model = name(timed.model());
   if (result.status != "ok") return result;
+  const Rotation rotation = plan.rotation == Rotation::quaternion ? rotation_of(timed.model()) : plan.rotation;
   result.max_displacement_m = max_displacement(timed.executor(), count);
   result.digest = state_digest(timed.executor(), count, plan.precision);
-  if (count <= energy_elements)
-    result.energy_j = total_energy(problem, whole_state(timed.executor(), count), plan.rotation);
-  result.energy_drift = energy_drift(problem, plan.rotation, result.energy_j);
+  if (count <= energy_elements) result.energy_j = total_energy(problem, whole_state(timed.executor(), count), rotation);
+  if (result.model_report.promotions.empty()) result.energy_drift = energy_drift(problem, rotation, result.energy_j);
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), count);
     const WorkAlone alone(timed.executor(), request.is_root);

@@ -1,5 +1,6 @@
 #pragma once
 /// One run of one scene on one variant: the body of `dssbench run`.
+#include "experiments/runner/model/model_monitor.hpp"
 #include "experiments/runner/precision/accuracy.hpp"
 #include "experiments/runner/precision/saved_times.hpp"
 #include "experiments/runner/usage.hpp"
@@ -28,7 +29,10 @@ struct RunRequest {
   std::string device; ///< of a variant on devices, see choose_device; empty: its first
   std::string hybrid; ///< members, see parse_members, or "auto"; empty: no hybrid
   std::optional<std::string> model, precision, integrator, rotation;
-  std::optional<double> dt; ///< [s]
+  bool is_model_auto = false;            ///< where neither `model` nor the scene names one; else it is spatial
+  std::optional<double> model_tolerance; ///< of the error of a model of auto; the scene's, without
+  std::string on_bound = "promote";      ///< or "stop": what a run does whose model's error may exceed the tolerance
+  std::optional<double> dt;              ///< [s]
   std::optional<long> steps;
   std::optional<double> rtol, atol;      ///< with rtol steps are adaptive
   bool is_root = true;                   ///< of several ranks all do the same, and one writes
@@ -89,16 +93,18 @@ struct RunResult {
   std::optional<double> energy_drift; ///< relative, of the whole run, where energy is conserved and some is there
   double max_displacement_m = 0;
   std::uint64_t digest = 0;
+  ModelChoice model_choice;
+  ModelReport model_report;
   CheckResult check;
   std::optional<ReferenceResult> reference;
   std::vector<std::string> files;                           ///< written, in words
-  std::string status = "ok", reason;                        ///< "unstable", "wrong": what, where
+  std::string status = "ok", reason;                        ///< "unstable", "wrong", "bound": what, where
   double sample_s() const { return wall_s * double(runs); } ///< under the clock [s]
   double element_steps_per_s() const { return wall_s > 0 ? double(elements) * double(steps) / wall_s : 0; }
 };
 
 /// Runs, and writes the output files asked for. A run that leaves the finite numbers has the status "unstable", one
-/// that fails its check "wrong".
+/// that fails its check "wrong", one that was to stop where its model's error may exceed the tolerance "bound".
 /// @throws InputError for anything wrong with the request, UnstableError for a step above the predicted limit that is
 /// not forced
 RunResult run_scene(const RunRequest& request);

@@ -39,10 +39,24 @@ void print_device(const RunResult& result) {
              result.hybrid.reason.empty() ? "" : "; ", result.hybrid.reason);
 }
 
+void print_model(const RunResult& result) {
+  const ModelChoice& choice = result.model_choice;
+  if (choice.asked != "auto") return;
+  fmt::print("model {}: {}\n", name(choice.chosen), choice.why);
+  const ModelReport& report = result.model_report;
+  if (choice.is_bounded)
+    fmt::print("largest rotation within the bound {:.3g} rad, error of the model at most {:.3g}, {} looks\n",
+               report.largest_rotation, report.estimate, report.looks);
+  for (const Promotion& promotion : report.promotions)
+    fmt::print("promoted from {} to {}: after step {} the error may be {:.3g}; on from step {}\n", name(promotion.from),
+               name(promotion.to), promotion.step, promotion.estimate, promotion.resumed_step);
+}
+
 void print_summary(const RunResult& result) {
   fmt::print("{}: {} elements, {} links, {} steps of {}{:g} s ({}, {}, {})\n", result.scene, result.elements,
              result.links, result.steps, result.adaptive ? "first " : "", result.dt_s, result.model, result.precision,
              result.integrator);
+  print_model(result);
   fmt::print("{} ({}), {} thread{}{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
              result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "", result.schedule);
   fmt::print("wall {:.6g} s{}, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
@@ -75,7 +89,8 @@ void print_summary(const RunResult& result) {
 }
 
 /// All that can be found wrong without any rank is refused before one is started.
-void require_startable(const RunRequest& request) {
+void require_startable(RunRequest request) {
+  request.is_model_auto = true;
   const RunPlan plan = plan_run(request);
   if (request.ranks > most_ranks_here())
     throw InputError(
@@ -95,6 +110,7 @@ int run(const CLI::App& command, const RunArguments& arguments) {
     return run_on_ranks(request.ranks, request.threads);
   }
   request.is_root = job_rank().is_root();
+  request.is_model_auto = true;
   const RunResult result = run_scene(request);
   if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));
   if (result.status == "unstable") throw UnstableError(result.reason);
@@ -140,7 +156,20 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
                    "equal parts, or by each rank's speed as measured before the run: measured")
       ->capture_default_str()
       ->group("Ranks");
-  command->add_option("--model", request.model, "spatial or planar (default: the scene's)");
+  command->add_option(
+      "--model", request.model,
+      "auto (default, unless the scene names one): the smallest that suffices, as `dssbench explain` says; or spatial, "
+      "small, linear, bending, planar, axial");
+  command->add_option(
+      "--model-tolerance", request.model_tolerance,
+      "Of --model auto: relative error that a model of small rotations may make (default: the scene's tolerance of "
+      "a run)");
+  command
+      ->add_option(
+          "--on-bound", request.on_bound,
+          "Of --model auto, where the error of small rotations may exceed it: promote (a larger model goes on from the "
+          "last good state) or stop")
+      ->capture_default_str();
   command->add_option("--precision", request.precision,
                       "f64, f32, or f32c: f32 whose state is summed with its low parts kept (default: f64)");
   command->add_option("--integrator", request.integrator,

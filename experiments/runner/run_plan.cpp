@@ -3,6 +3,7 @@
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/numerics/stability.hpp"
 
@@ -13,11 +14,6 @@
 
 namespace dss {
 namespace {
-
-Model chosen_model(const std::string& name) {
-  if (const auto model = find_model(name)) return *model;
-  throw InputError(fmt::format("--model {}: unknown model; {}", name, nearest_name(name, {"spatial", "planar"})));
-}
 
 Precision chosen_precision(const std::string& name) {
   if (const auto precision = find_precision(name)) return *precision;
@@ -168,6 +164,35 @@ void read_reference(const RunRequest& request, RunPlan& plan) {
     refuse(fmt::format("ends at {:.6g} s: give --steps {}, or none", plan.reference->times.end, plan.steps));
 }
 
+std::string why_no_watch(const RunRequest& request, const RunPlan& plan) {
+  if (request.ranks > 1) return "it is one on several ranks";
+  if (!request.hybrid.empty()) return "it is one of a hybrid";
+  if (plan.adaptive) return "its steps are adaptive";
+  if (plan.method->is_implicit()) return "its method is implicit";
+  return {};
+}
+
+ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
+  const Problem& problem = plan.scene.problem;
+  const std::string asked = request.model.value_or(request.is_model_auto ? plan.scene.asked_model : plan.scene.model);
+  const double tolerance = request.model_tolerance.value_or(plan.tolerance().run);
+  if (!(tolerance > 0) || !std::isfinite(tolerance))
+    throw InputError(fmt::format("--model-tolerance {:g}: give a positive number, 1e-3 for one", tolerance));
+  if (request.on_bound != "promote" && request.on_bound != "stop")
+    throw InputError(fmt::format("--on-bound {}: unknown; {}", request.on_bound,
+                                 nearest_name(request.on_bound, {"promote", "stop"})));
+  if (asked == "auto" && plan.rotation != Rotation::quaternion)
+    return {asked, Model::spatial, fmt::format("--rotation {} is one of it", name(plan.rotation)),
+            {},    tolerance,      false};
+  if (asked == "auto") return choose_model(problem, tolerance, why_no_watch(request, plan));
+  const auto model = find_model(asked);
+  if (!model)
+    throw InputError(fmt::format("--model {}: unknown model; {}", asked, nearest_name(asked, model_names_and_auto())));
+  if (const std::string why = why_not(*model, problem); !why.empty())
+    throw InputError(fmt::format("--model {}: {}: {}; use --model spatial, or auto", asked, plan.scene.name, why));
+  return {asked, *model, "asked for", {}, tolerance, false};
+}
+
 } // namespace
 
 std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const Method& method, Rotation rotation) {
@@ -210,7 +235,6 @@ RunPlan plan_run(const RunRequest& request) {
   const VariantName variant = asked_variant(request);
   plan.plugin = &load_variant(variant.name);
   plan.distribution = {request.ranks, variant.part, request.decomposition, request.halo, request.shares == "measured"};
-  plan.model = chosen_model(request.model.value_or(plan.scene.model));
   plan.precision = chosen_precision(request.precision.value_or("f64"));
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
   plan.rotation = chosen_rotation(request.rotation.value_or("quaternion"));
@@ -227,10 +251,10 @@ RunPlan plan_run(const RunRequest& request) {
     throw InputError(fmt::format("{}: variant {} {}; give {}", lack->option, plan.plugin->name, lack->what,
                                  plan.plugin->has_all ? "another --variant" : "--variant reference"));
   require_sensible(request, plan);
-  if (const std::string why = why_not_planar(problem); plan.model == Model::planar && !why.empty())
-    throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", plan.scene.name, why));
   if (request.is_root) require_outputs_writable(request);
   plan.adaptive = chosen_tolerance(request, *plan.method, plan.precision);
+  plan.model_choice = chosen_model(request, plan);
+  plan.model = plan.model_choice.chosen;
   plan.stability_limit =
       require_stable(problem, *plan.method, plan.dt, request.is_forced || plan.adaptive, request.stability_limit);
   if (plan.adaptive) plan.method = &dopri5_adaptive();

@@ -16,7 +16,8 @@ struct RunPlan {
   Distribution distribution;            ///< of a distributed variant
   std::shared_ptr<const Method> fitted; ///< to the problem and its step
   const Method* method = nullptr;       ///< fitted.get(), or of adaptive steps dopri5_adaptive()
-  Model model = Model::spatial;
+  Model model = Model::spatial;         ///< at the start
+  ModelChoice model_choice;
   Precision precision = Precision::f64;
   Rotation rotation = Rotation::quaternion;
   double dt = 0;  ///< of adaptive steps the first that is tried

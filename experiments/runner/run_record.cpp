@@ -39,6 +39,28 @@ Json hybrid_json(const HybridInfo& hybrid) {
   return {{"members", members}, {"rebalances", hybrid.rebalances}, {"reason", hybrid.reason}};
 }
 
+/// "smaller": why not each model of less work. "monitor" is null where nothing had to be watched.
+Json model_choice_json(const ModelChoice& choice, const ModelReport& report) {
+  Json smaller = Json::object(), promotions = Json::array();
+  for (const auto& [model, reason] : choice.smaller) smaller[std::string(name(model))] = reason;
+  for (const Promotion& promotion : report.promotions)
+    promotions.push_back({{"step", promotion.step},
+                          {"resumed_step", promotion.resumed_step},
+                          {"from", name(promotion.from)},
+                          {"to", name(promotion.to)},
+                          {"estimate", promotion.estimate}});
+  Json monitor;
+  if (choice.is_bounded)
+    monitor = {{"largest_rotation_rad", report.largest_rotation},
+               {"estimate", report.estimate},
+               {"limit", bounded_share * choice.tolerance},
+               {"looks", report.looks},
+               {"look_s", report.look_s}};
+  return {{"asked", choice.asked}, {"chosen", name(choice.chosen)},   {"why", choice.why},
+          {"smaller", smaller},    {"is_bounded", choice.is_bounded}, {"tolerance", choice.tolerance},
+          {"monitor", monitor},    {"promotions", promotions}};
+}
+
 /// Nothing for a run that was measured against no solution.
 void add_reference(const std::optional<ReferenceResult>& reference, Json& json) {
   if (!reference) return;
@@ -65,6 +87,7 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["isa"] = result.isa;
   json["has_fma"] = result.has_fma;
   json["model"] = result.model;
+  json["model_choice"] = model_choice_json(result.model_choice, result.model_report);
   json["precision"] = result.precision;
   json["integrator"] = result.integrator;
   json["rotation"] = result.rotation;

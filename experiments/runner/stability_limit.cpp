@@ -21,13 +21,13 @@ constexpr long least_steps = 100, usual_steps = 10'000, most_steps = 1'000'000;
 constexpr long looks = 32; ///< at the state, in each run
 
 /// What a random state is scaled by, so that no mode begins far below the others.
-struct Scale {
+struct MotionScale {
   double edge, omega;
 };
 
-Scale scale_of(const Problem& problem, double omega) { return {shortest_edge(problem), omega > 0 ? omega : 1}; }
+MotionScale scale_of(const Problem& problem, double omega) { return {shortest_edge(problem), omega > 0 ? omega : 1}; }
 
-std::vector<double> tiny_state(const Problem& problem, const Scale& scale) {
+std::vector<double> tiny_state(const Problem& problem, const MotionScale& scale) {
   std::vector<double> state = random_state(problem, Model::spatial, Precision::f64, 20220617);
   for (std::size_t at = 0; at < state.size(); at += field_count) {
     double* const y = &state[at];
@@ -43,7 +43,7 @@ std::vector<double> tiny_state(const Problem& problem, const Scale& scale) {
 }
 
 /// Largest field in units of the state's own scale; infinite where one is not finite.
-double amplitude(const std::vector<double>& state, const Scale& scale) {
+double amplitude(const std::vector<double>& state, const MotionScale& scale) {
   const std::array<double, 4> units = {scale.edge, scale.edge * scale.omega, 1, scale.omega}; // u v q w
   double most = 0;
   for (std::size_t n = 0; n < state.size(); ++n) {
@@ -128,7 +128,7 @@ private:
   const Plugin& plugin_;
   const Problem& problem_;
   const Method& method_;
-  Scale scale_;
+  MotionScale scale_;
   std::vector<double> start_, grown_, no_signals_;
   std::size_t signal_width_;
   long steps_ = 0;

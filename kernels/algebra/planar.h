@@ -105,6 +105,8 @@ static inline vec rotor_column(rotor q, const int axis) {
   return vec_along(rotor_turn(q, axis, SPLAT(2)), axis, SPLAT(1));
 }
 
+#include "kernels/algebra/turning_lever.h"
+
 static inline spin rotor_relative(rotor i, rotor j) {
   REAL i0 = i.s + SPLAT(1), j0 = j.s + SPLAT(1);
   spin r = {FMA(j.z, i0, -(j0 * i.z))};
@@ -115,6 +117,8 @@ static inline spin rotor_vector(rotor q) {
   spin r = {q.z};
   return r;
 }
+
+static inline REAL rotor_sign_of_life(rotor q) { return q.s; }
 
 /* By a right angle, counter-clockwise and back. In the plane a face of the y axis is a face of the x axis turned so (and
  * scaled by the ratio of the edges), and turned(a) x f = a x turned_back(f). */

@@ -1,95 +1,11 @@
 /* Algebra of the spatial model in the shared subset: vectors and spins have three components, a rotor is a unit
  * quaternion. Words from the includer: REAL, FMA(a, b, c) = a * b + c, SPLAT(scalar). The laws of motion are written in
- * these operations alone (kernels/README.md), so a model is an algebra: planar.h is the same list in the plane. */
+ * these operations alone (kernels/README.md), so a model is an algebra: the others are the same list. */
+#include "kernels/algebra/space.h"
 
-typedef struct {
-  REAL x, y, z;
-} vec; /* displacement, velocity, force */
-typedef struct {
-  REAL x, y, z;
-} spin; /* angular velocity, moment; twice a small rotor's vector part */
 typedef struct {
   REAL s, x, y, z;
 } rotor; /* unit quaternion (1 + s, x, y, z): the rest state is all zeros */
-
-static inline vec vec_add(vec a, vec b) {
-  vec r = {a.x + b.x, a.y + b.y, a.z + b.z};
-  return r;
-}
-static inline vec vec_sub(vec a, vec b) {
-  vec r = {a.x - b.x, a.y - b.y, a.z - b.z};
-  return r;
-}
-static inline vec vec_scale(REAL k, vec a) {
-  vec r = {k * a.x, k * a.y, k * a.z};
-  return r;
-}
-/* k a + b */
-static inline vec vec_axpy(REAL k, vec a, vec b) {
-  vec r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y), FMA(k, a.z, b.z)};
-  return r;
-}
-static inline REAL vec_dot(vec a, vec b) { return FMA(a.z, b.z, FMA(a.y, b.y, a.x * b.x)); }
-/* a + c e_axis; axis is a constant at every call */
-static inline vec vec_along(vec a, const int axis, REAL c) {
-  if (axis == 0) a.x = a.x + c;
-  if (axis == 1) a.y = a.y + c;
-  if (axis == 2) a.z = a.z + c;
-  return a;
-}
-
-static inline spin spin_zero(void) {
-  spin r = {SPLAT(0), SPLAT(0), SPLAT(0)};
-  return r;
-}
-static inline spin spin_add(spin a, spin b) {
-  spin r = {a.x + b.x, a.y + b.y, a.z + b.z};
-  return r;
-}
-static inline spin spin_sub(spin a, spin b) {
-  spin r = {a.x - b.x, a.y - b.y, a.z - b.z};
-  return r;
-}
-static inline spin spin_scale(REAL k, spin a) {
-  spin r = {k * a.x, k * a.y, k * a.z};
-  return r;
-}
-static inline spin spin_axpy(REAL k, spin a, spin b) {
-  spin r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y), FMA(k, a.z, b.z)};
-  return r;
-}
-static inline REAL spin_norm2(spin a) { return FMA(a.z, a.z, FMA(a.y, a.y, a.x * a.x)); }
-/* n.a of a spin along a direction */
-static inline REAL spin_dot(spin a, vec n) { return FMA(a.z, n.z, FMA(a.y, n.y, a.x * n.x)); }
-/* t + k n, a spin about a direction */
-static inline spin spin_about(REAL k, vec n, spin t) {
-  spin r = {FMA(k, n.x, t.x), FMA(k, n.y, t.y), FMA(k, n.z, t.z)};
-  return r;
-}
-
-/* w x a, the velocity of a point at a; and t + w x a */
-static inline vec spin_cross(spin w, vec a) {
-  vec r = {FMA(w.y, a.z, -(w.z * a.y)), FMA(w.z, a.x, -(w.x * a.z)), FMA(w.x, a.y, -(w.y * a.x))};
-  return r;
-}
-static inline vec spin_cross_add(spin w, vec a, vec t) {
-  vec r = {FMA(w.y, a.z, FMA(-w.z, a.y, t.x)), FMA(w.z, a.x, FMA(-w.x, a.z, t.y)), FMA(w.x, a.y, FMA(-w.y, a.x, t.z))};
-  return r;
-}
-/* a x f, the moment of a force at a; and t + a x f */
-static inline spin vec_cross(vec a, vec f) {
-  spin r = {FMA(a.y, f.z, -(a.z * f.y)), FMA(a.z, f.x, -(a.x * f.z)), FMA(a.x, f.y, -(a.y * f.x))};
-  return r;
-}
-static inline spin vec_moment(vec a, vec f, spin t) {
-  spin r = {FMA(a.y, f.z, FMA(-a.z, f.y, t.x)), FMA(a.z, f.x, FMA(-a.x, f.z, t.y)), FMA(a.x, f.y, FMA(-a.y, f.x, t.z))};
-  return r;
-}
-/* t + r x n, the turn of a direction n by a spin r, as a spin */
-static inline spin spin_turn(spin a, vec n, spin t) {
-  spin r = {FMA(a.y, n.z, FMA(-a.z, n.y, t.x)), FMA(a.z, n.x, FMA(-a.x, n.z, t.y)), FMA(a.x, n.y, FMA(-a.y, n.x, t.z))};
-  return r;
-}
 
 /* (A - I) (edge / 2) e_axis: how far the rotation moves the centre of a face. Column of A - I = 2 (q0 [r]x + [r]x^2).
  */
@@ -114,6 +30,8 @@ static inline vec rotor_column(rotor q, const int axis) {
   return vec_along(rotor_turn(q, axis, SPLAT(2)), axis, SPLAT(1));
 }
 
+#include "kernels/algebra/turning_lever.h"
+
 /* Vector part and s of p = q_j conj(q_i), the rotation from i to j in global axes. */
 static inline spin rotor_relative(rotor i, rotor j) {
   REAL i0 = i.s + SPLAT(1), j0 = j.s + SPLAT(1);
@@ -130,6 +48,9 @@ static inline spin rotor_vector(rotor q) {
   spin r = {q.x, q.y, q.z};
   return r;
 }
+
+/* A component that is not finite if the rotor is not. */
+static inline REAL rotor_sign_of_life(rotor q) { return q.s; }
 
 /* w q = 2 q', w in global axes */
 static inline rotor rotor_spun(rotor q, spin w) {

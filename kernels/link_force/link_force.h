@@ -29,21 +29,22 @@ typedef struct {
   REAL edge, half_edge, tau, kt2, dt;
 } paper_law; /* [m], [m]; d / k [s]; 2 kt / k [m^2]; dt / k [m^2 s] */
 typedef struct {
-  vec arm, swing;
+  lever arm;
+  vec swing;
 } face; /* a = A c; (A - I) c + tau w x a, by which x + tau x' of the face points differs from the centre's [m] */
 
 /* u + tau v, common to all faces of an element, and tau w */
 static inline vec centre_pull(element e, paper_law law, const int is_damped) {
   return is_damped ? vec_axpy(law.tau, e.v, e.u) : e.u;
 }
-static inline vec face_arm(rotor q, const int axis, REAL edge, REAL half_edge) {
-  return vec_along(rotor_turn(q, axis, edge), axis, half_edge);
+static inline lever face_arm(rotor q, const int axis, REAL edge, REAL half_edge) {
+  return lever_of(rotor_turn(q, axis, edge), axis, half_edge);
 }
 static inline face element_face(element e, const int axis, paper_law law, const int is_damped) {
   face f;
   f.swing = rotor_turn(e.q, axis, law.edge);
-  f.arm = vec_along(f.swing, axis, law.half_edge);
-  if (is_damped) f.swing = spin_cross_add(spin_scale(law.tau, e.w), f.arm, f.swing);
+  f.arm = lever_of(f.swing, axis, law.half_edge);
+  if (is_damped) f.swing = lever_rate(spin_scale(law.tau, e.w), f.arm, axis, f.swing);
   return f;
 }
 static inline vec lower_face(vec pull, face f) { return vec_sub(pull, f.swing); }
@@ -80,6 +81,30 @@ typedef struct {
   REAL k_z, k_xz, k_yz;      /* twice the rotational constants about z; about x minus z; about y minus z [N m/rad] */
   REAL d_z, d_xz, d_yz;      /* likewise for damping, not doubled [N m s/rad] */
 } material_law;
+
+#ifdef LINEAR
+
+/* To first order in displacements and rotations, about rest: directions are the axes of the frame, b = a = c, and X = 0. With constants
+ * along the principal axes,
+ *   F = k_s D + (k_n - k_s) (e.D) e,   T = 2 (k_x r_x, k_y r_y, k_z r_z),   likewise for damping with V and w_j - w_i. */
+static inline exchange material_link(element i, element j, const int axis, material_law law, const int is_damped) {
+  exchange x;
+  vec gap = vec_sub(vec_sub(j.u, i.u), vec_add(rotor_turn(i.q, axis, law.edge_i), rotor_turn(j.q, axis, law.edge_j)));
+  spin couple = spin_principal(rotor_relative(i.q, j.q), law.k_z, law.k_xz, law.k_yz);
+  x.force = vec_principal(gap, axis, law.k_s, law.k_ns);
+  if (is_damped) {
+    REAL half_i = SPLAT(0.5) * law.edge_i, half_j = SPLAT(0.5) * law.edge_j;
+    vec v_i = lever_rate(i.w, lever_of(i.u, axis, half_i), axis, i.v);
+    vec turning_j = lever_rate(j.w, lever_of(j.u, axis, half_j), axis, v_i);
+    x.force = vec_add(x.force, vec_principal(vec_sub(j.v, turning_j), axis, law.d_s, law.d_ns));
+    couple = spin_add(couple, spin_principal(spin_sub(j.w, i.w), law.d_z, law.d_xz, law.d_yz));
+  }
+  x.couple_i = couple;
+  x.couple_j = spin_scale(SPLAT(-1), couple);
+  return x;
+}
+
+#else
 
 static inline vec half_sum(vec a, vec b) { return vec_scale(SPLAT(0.5), vec_add(a, b)); }
 
@@ -122,6 +147,8 @@ static inline exchange material_link(element i, element j, const int axis, mater
   x.couple_j = vec_moment(vec_scale(SPLAT(0.5), gap), x.force, spin_scale(SPLAT(-1), couple));
   return x;
 }
+
+#endif
 
 /* Paper's law for one pair by itself, for links outside the grid; in units of k like the law it is given. */
 static inline exchange paper_link(element i, element j, const int axis, paper_law law_i, paper_law law_j,

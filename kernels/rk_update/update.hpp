@@ -84,7 +84,7 @@ private:
   static R load(const T* p) { return simd::load(p); }
   template <class Tuple>
   static Tuple load_all(const T*& p) {
-    Tuple t;
+    Tuple t{};
     each_component(t, [&](R& c) { c = load(p), p += W; });
     return t;
   }
@@ -178,7 +178,8 @@ private:
     }
     check.add(next.v_half);
     check.add(next.w_half);
-    check.add_one(next.q.s); // the Cayley map squares what it turns by, which may leave the range first
+    check.add_one(
+        P::rotor_sign_of_life(next.q)); // the Cayley map squares what it turns by, which may leave the range first
   }
 
   /// Sums y + (low + d), and their low parts, component by component.
@@ -222,7 +223,7 @@ private:
     store_all(low, w.low);
     check.add(v.value);
     check.add(w.value);
-    check.add_one(q.value.s);
+    check.add_one(P::rotor_sign_of_life(q.value));
   }
 
   const RowTask<T>& task_;

@@ -11,6 +11,22 @@ struct RowFlops {
   int stage, last_stage;
   constexpr int rk4_step() const { return 3 * stage + last_stage; }
 };
-constexpr RowFlops row_flops(Model model) { return model == Model::spatial ? RowFlops{218, 347} : RowFlops{79, 148}; }
+constexpr RowFlops row_flops(Model model) {
+  switch (model) {
+  case Model::axial:
+    return {11, 31};
+  case Model::bending:
+    return {59, 119};
+  case Model::planar:
+    return {79, 148};
+  case Model::linear:
+    return {123, 243};
+  case Model::small:
+    return {165, 285};
+  case Model::spatial:
+    break;
+  }
+  return {218, 347};
+}
 
 } // namespace dss

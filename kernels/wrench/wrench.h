@@ -86,7 +86,7 @@ static inline face face_across_alone(element e, const int axis, axis_law law, co
   return element_face(e, axis, law.own, terms.is_damped);
 #endif
 }
-static inline vec material_arm(element e, const int axis, material_law law) {
+static inline lever material_arm(element e, const int axis, material_law law) {
   return face_arm(e.q, axis, law.edge_i, SPLAT(0.5) * law.edge_i);
 }
 
@@ -123,7 +123,7 @@ static inline wrench wrench_of_x(prepared i, exchange up, carried low, axis_law 
   sum.on_x_face = vec_add(up.force, low.force);
   sum.moment = spin_zero();
   if (!has_one_lever(terms))
-    sum.moment = vec_cross(terms.is_material ? material_arm(i.e, 0, law.material) : i.x.arm, sum.on_x_face);
+    sum.moment = lever_cross(terms.is_material ? material_arm(i.e, 0, law.material) : i.x.arm, 0, sum.on_x_face);
   sum.couple = spin_zero();
   if (terms.is_material)
     sum.couple = spin_add(up.couple_i, low.couple);
@@ -132,7 +132,7 @@ static inline wrench wrench_of_x(prepared i, exchange up, carried low, axis_law 
   return sum;
 }
 /* The links of another axis; `arm` is the element's upper arm on it. */
-static inline wrench wrench_across(wrench sum, exchange up, carried low, vec arm, axis_law law,
+static inline wrench wrench_across(wrench sum, exchange up, carried low, lever arm, const int axis, axis_law law,
                                    const term_flags terms) {
   vec both = vec_add(up.force, low.force);
   sum.force = vec_sub(vec_add(sum.force, up.force), low.force);
@@ -140,10 +140,10 @@ static inline wrench wrench_across(wrench sum, exchange up, carried low, vec arm
   if (has_one_lever(terms))
     sum.on_x_face = vec_add(sum.on_x_face, scaled_to_y(vec_turned_back(both), law.edge_ratio, terms));
   else
-    sum.moment = vec_moment(arm, both, sum.moment);
+    sum.moment = lever_moment(arm, axis, both, sum.moment);
 #else
   (void)law;
-  sum.moment = vec_moment(arm, both, sum.moment);
+  sum.moment = lever_moment(arm, axis, both, sum.moment);
 #endif
   if (terms.is_material)
     sum.couple = spin_add(spin_add(sum.couple, up.couple_i), low.couple);
@@ -153,7 +153,7 @@ static inline wrench wrench_across(wrench sum, exchange up, carried low, vec arm
 }
 /* Couples join the moment, and ties both. */
 static inline wrench wrench_finished(wrench sum, prepared i, paper_law law_x, tie_law tie, const term_flags terms) {
-  if (has_one_lever(terms)) sum.moment = vec_cross(i.x.arm, sum.on_x_face);
+  if (has_one_lever(terms)) sum.moment = lever_cross(i.x.arm, 0, sum.on_x_face);
   if (terms.is_material)
     sum.moment = spin_add(sum.moment, sum.couple);
   else if (has_couples(terms))
@@ -175,8 +175,8 @@ static inline pair_wrench wrench_of_pair(element i, element j, const int axis, c
   pair_wrench w;
   exchange x = is_material ? material_link(i, j, axis, material, 1) : paper_link(i, j, axis, law_i, law_j, 1, 1);
   w.force = x.force;
-  w.moment_i = vec_moment(face_arm(i.q, axis, law_i.edge, law_i.half_edge), x.force, x.couple_i);
-  w.moment_j = vec_moment(face_arm(j.q, axis, law_j.edge, law_j.half_edge), x.force, x.couple_j);
+  w.moment_i = lever_moment(face_arm(i.q, axis, law_i.edge, law_i.half_edge), axis, x.force, x.couple_i);
+  w.moment_j = lever_moment(face_arm(j.q, axis, law_j.edge, law_j.half_edge), axis, x.force, x.couple_j);
   return w;
 }
 #undef IS_PLANAR

@@ -3,7 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace dss {
 
@@ -39,6 +41,12 @@ constexpr std::optional<Model> find_model(std::string_view text) {
   for (const Model model : models)
     if (name(model) == text) return model;
   return std::nullopt;
+}
+/// What --model and a scene's run.model take.
+inline std::vector<std::string> model_names_and_auto() {
+  std::vector<std::string> names{"auto"};
+  for (const Model model : models) names.emplace_back(name(model));
+  return names;
 }
 constexpr std::optional<Precision> find_precision(std::string_view text) {
   for (const Precision precision : precisions)

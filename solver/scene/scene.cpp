@@ -2,6 +2,7 @@
 
 #include "solver/error.hpp"
 #include "solver/model/model.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
 #include "solver/scene/constants.hpp"
 #include "solver/scene/geometry.hpp"
@@ -68,10 +69,11 @@ void read_run(const Node& node, Scene& scene) {
   const auto integrator = run.find("integrator"), model = run.find("model");
   scene.integrator = integrator ? known_methods[integrator->choice("integrator", known_methods)] : "rk4";
   scene.problem.integrator = scene.integrator;
-  const std::vector<std::string> model_names = {std::string(name(Model::spatial)), std::string(name(Model::planar))};
-  scene.model = model ? model_names[model->choice("model", model_names)] : model_names[0];
-  if (const std::string reason = why_not_planar(scene.problem); scene.model == "planar" && !reason.empty())
-    model->fail(fmt::format("\"planar\" does not hold: {}; use \"spatial\"", reason));
+  const std::vector<std::string> model_names = model_names_and_auto();
+  scene.asked_model = model ? model_names[model->choice("model", model_names)] : "auto";
+  scene.model = scene.asked_model == "auto" ? name(Model::spatial) : scene.asked_model;
+  if (const std::string reason = why_not(*find_model(scene.model), scene.problem); !reason.empty())
+    model->fail(fmt::format("\"{}\" does not hold: {}; use \"spatial\", or \"auto\"", scene.model, reason));
   const auto analysis = run.find("analysis");
   scene.analysis = analysis ? analyses[analysis->choice("analysis", analyses)] : analyses[0];
   run.finish();

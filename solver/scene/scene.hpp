@@ -22,7 +22,8 @@ struct Scene {
   Problem problem;
   std::map<std::string, double> parameters;
   std::vector<VerifyCase> verify; ///< at least one
-  std::string model;              ///< default: "spatial" or "planar"
+  std::string asked_model;        ///< as the scene says, or "auto"
+  std::string model;              ///< of studies: the same, but spatial where it is auto
   std::string integrator;         ///< default: a name of find_method
   std::string analysis;           ///< default: "dynamic", "static" or "modal"
 };

@@ -4,6 +4,8 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
 #include "tests/fixtures/schemes.hpp"
+#include "variants/engine/layout.hpp"
+#include "variants/engine/rotation_vector.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>
@@ -41,6 +43,29 @@ inline State flattened(State state) {
     state[at + qx] = state[at + qy] = 0;
   }
   return state;
+}
+
+/// What a model can hold of a state: of orientations the part of its rotation vector, or of its rotation in the plane.
+inline State restricted(State state, Model model) {
+  if (model == Model::planar) return flattened(std::move(state));
+  const ModelLayout layout = model_layout(model);
+  for (std::size_t at = 0; at < state.size() && model != Model::spatial; at += field_count) {
+    const auto fields = std::span(state).subspan(at, field_count);
+    to_rotation_vector(fields);
+    for (int f = 0; f < field_count; ++f)
+      if (std::ranges::find(layout.fields, Field(f)) == layout.fields.end()) fields[std::size_t(f)] = 0;
+    to_quaternion(fields);
+  }
+  return state;
+}
+/// Likewise of rates at a state that it can hold.
+inline State restricted_rates(State rates, Model model) {
+  const ModelLayout layout = model_layout(model);
+  for (std::size_t at = 0; at < rates.size(); ++at) {
+    const auto field = Field(at % field_count);
+    if (field != qs && std::ranges::find(layout.fields, field) == layout.fields.end()) rates[at] = 0;
+  }
+  return rates;
 }
 
 /// Whether a variant computes by kernels that are not its own: on devices, by members, on ranks. What kernels do is tested in theirs.
@@ -82,20 +107,23 @@ struct VariantRun {
   }
 };
 
-inline State oracle_derivative(const Problem& problem, const Method& method, const State& state) {
-  Oracle<long double> oracle(problem, method, problem.dt);
+/// By the equations of a model; its part of the results, which is all where its degrees of freedom suffice, or where equations are linear.
+inline State oracle_derivative(const Problem& problem, const Method& method, const State& state,
+                               Model model = Model::spatial) {
+  Oracle<long double> oracle(problem, method, problem.dt, rotation_of(model));
   oracle.write(state);
   State rates = poisoned(problem);
   oracle.derivative(0.0, rates);
-  return rates;
+  return restricted_rates(std::move(rates), model);
 }
-inline State oracle_after(const Problem& problem, const Method& method, const State& state, long steps) {
-  Oracle<long double> oracle(problem, method, problem.dt);
+inline State oracle_after(const Problem& problem, const Method& method, const State& state, long steps,
+                          Model model = Model::spatial) {
+  Oracle<long double> oracle(problem, method, problem.dt, rotation_of(model));
   oracle.write(state);
   oracle.advance(steps);
   State result = poisoned(problem);
   oracle.read(result);
-  return result;
+  return model == Model::planar ? result : restricted(std::move(result), model); // flattening would mend |q|
 }
 
 /// Largest difference over a group of fields (u, v, q, w), relative to the group's largest magnitude in `expected`; the

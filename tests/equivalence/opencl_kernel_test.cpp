@@ -2,21 +2,23 @@
 /// same bits as packs.
 #include "tests/equivalence/kernel_operands.hpp"
 #include "tests/equivalence/opencl_run.hpp"
+#include "variants/engine/layout.hpp"
 #include "variants/opencl/queue.hpp"
 
 #include <fmt/format.h>
 #include <fstream>
-#include <sstream>
 
 namespace dss::test {
 namespace {
 
+/// A file of the tree, with the shared headers that it includes in their place.
 std::string shared_header(const std::string& path) {
-  std::ifstream file(std::string(DSS_SOURCE_DIR) + "/kernels/" + path);
+  std::ifstream file(std::string(DSS_SOURCE_DIR) + "/" + path);
   EXPECT_TRUE(file) << path;
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
+  std::string text;
+  for (std::string line; std::getline(file, line);)
+    text += line.starts_with("#include \"") ? shared_header(line.substr(10, line.size() - 11)) : line + "\n";
+  return text;
 }
 
 /// The shared headers of a model over vectors of eight, and a kernel around one case.
@@ -25,13 +27,12 @@ std::string program_source(const CompiledKernel& kernel) {
   std::string source = "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#pragma OPENCL FP_CONTRACT OFF\n";
   source +=
       fmt::format("#define REAL {0}8\n#define SPLAT(a) (({0}8)({0})(a))\n#define FMA(a, b, c) fma(a, b, c)\n", scalar);
-  const bool is_planar = kernel.model == Model::planar;
-  if (is_planar) source += "#define PLANAR\n";
-  source += shared_header(is_planar ? "algebra/planar.h" : "algebra/spatial.h");
-  for (const char* header : {"link_force/link_force.h", "motion/motion.h", "rk_update/rk_update.h"})
-    source += shared_header(header);
-  if (!is_planar) source += shared_header("stress/stress.h");
-  source += shared_header("cases.h");
+  source += fmt::format("#define AXES {}\n", model_layout(kernel.model).axes);
+  if (kernel.model == Model::planar) source += "#define PLANAR\n";
+  if (is_linear(kernel.model)) source += "#define LINEAR\n";
+  source += shared_header(fmt::format("kernels/algebra/{}.h", name(kernel.model))) + shared_header("kernels/laws.h");
+  if (kernel.model == Model::spatial) source += "#define STRESS\n" + shared_header("kernels/stress/stress.h");
+  source += shared_header("kernels/cases.h");
   source += fmt::format(R"(
 __kernel void run_case(__global const {0} *in, __global {0} *out, int stride) {{
   REAL operands[{1}], results[{2}];

@@ -34,10 +34,10 @@ struct RowKernels {
     case in_place:
       return run_stage<in_place, leapfrog_fields>(task);
     case kept_stage:
-      if constexpr (sizeof(T) == sizeof(float)) return run_stage<kept_stage, 2 * P::fields>(task);
+      if constexpr (P::is_common && sizeof(T) == sizeof(float)) return run_stage<kept_stage, 2 * P::fields>(task);
       break;
     case kept_step:
-      if constexpr (sizeof(T) == sizeof(float)) return run_stage<kept_step, 2 * P::fields>(task);
+      if constexpr (P::is_common && sizeof(T) == sizeof(float)) return run_stage<kept_step, 2 * P::fields>(task);
       break;
     default:
       break;
@@ -46,8 +46,9 @@ struct RowKernels {
   }
   DSS_FLATTEN static void prime(const RowTask<T>& task, int axis) {
     const StageRow<P, T, terms> row{task};
-    if (axis == 1) row.prime(1);
-    if constexpr (component_count<typename P::vec>() == 3)
+    if constexpr (P::axes > 1)
+      if (axis == 1) row.prime(1);
+    if constexpr (P::axes > 2)
       if (axis == 2) row.prime(2);
   }
 
@@ -72,24 +73,33 @@ struct RowKernels {
       add(wrench_j, T(-1), w.force, w.moment_j);
     };
     if (link.axis == 0) along(std::integral_constant<int, 0>{});
-    if (link.axis == 1) along(std::integral_constant<int, 1>{});
-    if constexpr (component_count<typename S::vec>() == 3)
+    if constexpr (S::axes > 1)
+      if (link.axis == 1) along(std::integral_constant<int, 1>{});
+    if constexpr (S::axes > 2)
       if (link.axis == 2) along(std::integral_constant<int, 2>{});
   }
 
   static constexpr KernelSet<T> set{terms, stage, prime, extra_link};
 };
 
-template <template <class> class Physics, class T, std::size_t... index>
+/// Null where the row is not compiled for the model.
+template <template <class> class Physics, class T, Model model, std::size_t index>
+constexpr const KernelSet<T>* compiled_set() {
+  if constexpr (is_compiled(model, compiled_terms[index]))
+    return &RowKernels<Physics, T, compiled_terms[index]>::set;
+  else
+    return nullptr;
+}
+template <template <class> class Physics, class T, Model model, std::size_t... index>
 const KernelSet<T>& of_terms(const Terms& terms, std::index_sequence<index...>) {
-  static constexpr const KernelSet<T>* sets[] = {&RowKernels<Physics, T, compiled_terms[index]>::set...};
+  static constexpr const KernelSet<T>* sets[] = {compiled_set<Physics, T, model, index>()...};
   for (const KernelSet<T>* set : sets)
-    if (set->terms == terms) return *set;
+    if (set != nullptr && set->terms == terms) return *set;
   throw std::logic_error("kernel_set.hpp: this combination of terms is not compiled");
 }
-template <template <class> class Physics, class T>
+template <template <class> class Physics, class T, Model model>
 const KernelSet<T>& find_compiled(const Terms& terms) {
-  return of_terms<Physics, T>(terms, std::make_index_sequence<compiled_terms.size()>{});
+  return of_terms<Physics, T, model>(terms, std::make_index_sequence<compiled_terms.size()>{});
 }
 
 } // namespace dss

@@ -20,6 +20,13 @@ inline constexpr std::array compiled_terms{
     Terms{true, true, true, true, true, false},
 };
 
+/// Models that few runs take leave out what another row covers at some cost.
+constexpr bool is_compiled(Model model, const Terms& terms) {
+  if (model == Model::spatial || model == Model::planar) return true;
+  const bool is_full = terms.is_gyroscopic && terms.is_tied;
+  return is_full || (terms.is_material ? !terms.is_damped : !terms.is_oblong);
+}
+
 /// What the terms of a row make of its memory.
 struct RowShape {
   Terms terms;              ///< one of compiled_terms
@@ -52,32 +59,27 @@ struct KernelSet {
 };
 
 /// The kernels for a model and the terms of a shape. One definition a (model, precision): variants/engine/kernels_*.cpp.
-const KernelSet<double>& spatial_f64_kernels(const Terms& terms);
-const KernelSet<float>& spatial_f32_kernels(const Terms& terms);
-const KernelSet<double>& planar_f64_kernels(const Terms& terms);
-const KernelSet<float>& planar_f32_kernels(const Terms& terms);
+#define DSS_EACH_MODEL(act) act(spatial) act(small) act(linear) act(bending) act(planar) act(axial)
+#define DSS_DECLARE(model)                                                                                             \
+  const KernelSet<double>& model##_f64_kernels(const Terms& terms);                                                    \
+  const KernelSet<float>& model##_f32_kernels(const Terms& terms);
+DSS_EACH_MODEL(DSS_DECLARE)
+#undef DSS_DECLARE
 
 template <class T>
 const KernelSet<T>& find_kernels(Model model, const Terms& terms) {
-  constexpr bool is_f64 = sizeof(T) == sizeof(double);
   switch (model) { // no default: a model without kernels is a warning here
-  case Model::planar:
-    if constexpr (is_f64)
-      return planar_f64_kernels(terms);
-    else
-      return planar_f32_kernels(terms);
-  case Model::spatial:
-    break;
-  case Model::small:
-  case Model::linear:
-  case Model::bending:
-  case Model::axial:
-    throw std::logic_error("kernel_set.hpp: this model is not compiled");
+#define DSS_FIND(name)                                                                                                 \
+  case Model::name:                                                                                                    \
+    if constexpr (sizeof(T) == sizeof(double))                                                                         \
+      return name##_f64_kernels(terms);                                                                                \
+    else                                                                                                               \
+      return name##_f32_kernels(terms);
+    DSS_EACH_MODEL(DSS_FIND)
+#undef DSS_FIND
   }
-  if constexpr (is_f64)
-    return spatial_f64_kernels(terms);
-  else
-    return spatial_f32_kernels(terms);
+  throw std::logic_error("kernel_set.hpp: no such model");
 }
+#undef DSS_EACH_MODEL
 
 } // namespace dss

@@ -11,7 +11,7 @@ namespace dss {
 
 RowShape row_shape(Model model, const Terms& need) {
   for (const Terms& terms : compiled_terms) {
-    if (!terms.covers(need)) continue;
+    if (!is_compiled(model, terms) || !terms.covers(need)) continue;
     const ModelLayout layout = model_layout(model);
     const int all = int(layout.wrench.size());
     return {terms, terms.has_couples() ? all : layout.vec_size,
@@ -99,7 +99,7 @@ void PackedRows<T, W>::choose_shapes(const Problem& problem, Model model) {
       common.is_damped |= a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{};
       common.is_bending |= body.law == LinkLaw::paper && a.k_rot != Vec3{};
     }
-    common.is_gyroscopic |= body.has_tensor_inertia() && model == Model::spatial;
+    common.is_gyroscopic |= body.has_tensor_inertia() && model != Model::planar && model != Model::axial;
   }
   // The row kernels do not compute extra links, but leapfrog must carry predicted velocities for them; in all parts alike.
   common.is_damped |= problem.has_damped_links_elsewhere;
@@ -111,7 +111,8 @@ void PackedRows<T, W>::choose_shapes(const Problem& problem, Model model) {
     for (const Body& body : problem.bodies) {
       Terms need = common;
       need.is_material = body.law == LinkLaw::material;
-      need.is_oblong = body.edge[1] != body.edge[0] || (model == Model::spatial && body.edge[2] != body.edge[0]);
+      need.is_oblong =
+          (layout.axes > 1 && body.edge[1] != body.edge[0]) || (layout.axes > 2 && body.edge[2] != body.edge[0]);
       shapes_.push_back(row_shape(model, need));
       is_velocity_dependent |= shapes_.back().terms.is_velocity_dependent();
     }

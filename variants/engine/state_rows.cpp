@@ -1,8 +1,10 @@
 #include "variants/engine/state_rows.hpp"
 
 #include "variants/engine/packs.hpp"
+#include "variants/engine/rotation_vector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace dss {
@@ -33,9 +35,17 @@ void StateRows<T, W>::each_velocity(Visit&& visit) const {
 }
 
 template <class T, int W>
+void StateRows<T, W>::fields_out(const T* lane, std::span<double> out) const {
+  for (int f = 0; f < packed_.fields(); ++f)
+    out[std::size_t(packed_.layout.fields[std::size_t(f)])] = value(lane, f, f);
+}
+
+template <class T, int W>
 void StateRows<T, W>::write(std::size_t first, std::span<const double> fields) {
   each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
-    const double* from = &fields[(element - first) * field_count];
+    std::array<double, field_count> from;
+    std::copy_n(&fields[(element - first) * field_count], from.size(), from.begin());
+    if (packed_.layout.has_vectors) to_rotation_vector(from);
     for (int f = 0; f < packed_.fields(); ++f) keep(from[packed_.layout.fields[std::size_t(f)]], lane, f, f);
   });
 }
@@ -46,8 +56,8 @@ void StateRows<T, W>::read(std::size_t first, std::span<double> fields, const T*
   std::fill(fields.begin(), fields.end(), 0.0);
   each_element(first, fields.size() / field_count, [&](std::size_t element, T* lane) {
     const std::span<double> out = fields.subspan((element - first) * field_count, field_count);
-    for (int f = 0; f < packed_.fields(); ++f)
-      out[std::size_t(packed_.layout.fields[std::size_t(f)])] = value(lane, f, f);
+    fields_out(lane, out);
+    if (packed_.layout.has_vectors) to_quaternion(out);
     if (end_rates == nullptr) return;
     const Place place = place_of(packed_, element);
     const std::size_t pack = packed_.rows[place.row].pack_offset + std::size_t(place.pack);
@@ -115,8 +125,14 @@ void StateRows<T, W>::rates_out(const T* rates, std::span<double> out) const {
   for (std::size_t r = 0; r < packed_.rows.size(); ++r)
     each_cell(packed_.lattice, packed_.lattice.rows[r], [&](std::size_t element, int x) {
       const T* const lane = plain_lane(rates, r, x);
+      const std::span<double> of_element = out.subspan(element * field_count, field_count);
       for (int f = 0; f < packed_.fields(); ++f)
-        out[element * field_count + std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
+        of_element[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
+      if (!packed_.layout.has_vectors) return;
+      std::array<double, field_count> state{};
+      const std::ptrdiff_t pack = x / W - packed_.rows[r].first_pack;
+      fields_out(row_(int(r)) + pack * stored_fields() * W + x % W, state);
+      to_quaternion_rates(state, of_element);
     });
 }
 

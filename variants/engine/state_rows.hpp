@@ -62,6 +62,8 @@ private:
     return plain + pack * std::size_t(packed_.fields() * W) + x % W;
   }
 
+  /// Those of an element that the model has, as they are kept.
+  void fields_out(const T* lane, std::span<double> out) const;
   /// A number in double, its low part included; and how it is kept. `f`: of the model's fields.
   double value(const T* lane, int f, int stored_at) const {
     return double(lane[stored_at * W]) + (storage_.is_compensated() ? double(*low(lane, f)) : 0);

@@ -142,14 +142,13 @@ int RhsExecutor<T, W>::update_stage(int stage) {
 template <class T, int W>
 int RhsExecutor<T, W>::step(std::span<const double> signals) {
   const std::size_t width = signal_count(setup_.problem);
-  const bool is_planar = setup_.model == Model::planar;
   int failed = -1;
   for (int s = 0; s < setup_.method.stages; ++s) {
     dss::Buffer<T>& in = s == 0 ? state_ : stages_[std::size_t(s - 1)];
     const bool is_plain = rows_.stored_fields() == packed_.fields();
     if (!is_plain) rows_.copy_plain(plain_.data(), [&](int r) { return row_of(in, r); });
     evaluate(is_plain ? in.data() : plain_.data(), signals.subspan(std::size_t(s) * width, width));
-    failed = is_planar ? update_stage<PlanarPhysics<T>>(s) : update_stage<SpatialPhysics<T>>(s);
+    failed = with_physics<T>(setup_.model, [&]<class Physics>() { return update_stage<Physics>(s); });
   }
   return failed;
 }

@@ -1,5 +1,6 @@
 #include "variants/opencl/source.hpp"
 
+#include "variants/engine/layout.hpp"
 #include "variants/opencl/embedded.hpp"
 
 #include <fmt/format.h>
@@ -43,6 +44,27 @@ std::string vector_words(const ProgramKind& kind) {
                      numbered(", (a).s{}", 0, w - 2), numbered("(a).s{}, ", 1, w - 1));
 }
 
+/// The components of a tuple, whose first field and last are these, that the model has.
+std::string tuple_words(const ModelLayout& layout, std::string_view name, Field first, Field last) {
+  const std::string_view letters = last - first == 3 ? "sxyz" : "xyz";
+  std::string components, each;
+  for (const Field field : layout.fields)
+    if (field >= first && field <= last) {
+      components += fmt::format(" act({})", letters[std::size_t(field - first)]);
+      each += fmt::format(" act(t.{})", letters[std::size_t(field - first)]);
+    }
+  return fmt::format("#define COMPONENTS_OF_{0}(act){1}\n#define EACH_OF_{0}(act, t){2}\n", name, components, each);
+}
+
+std::string model_words(Model model) {
+  const ModelLayout layout = model_layout(model);
+  return fmt::format("#define AXES {}\n#define VEC_SIZE {}\n#define SPIN_SIZE {}\n#define FIELDS {}\n{}{}{}{}{}",
+                     layout.axes, layout.vec_size, int(layout.wrench.size()) - layout.vec_size, layout.fields.size(),
+                     tuple_words(layout, "VEC", ux, uz), tuple_words(layout, "ROTOR", qs, qz),
+                     tuple_words(layout, "SPIN", wx, wz), model == Model::planar ? "#define PLANAR\n" : "",
+                     is_linear(model) ? "#define LINEAR\n" : "");
+}
+
 std::string head(const ProgramKind& kind, bool has_items) {
   const bool is_f64 = kind.precision == Precision::f64;
   std::string text = is_f64 ? "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n" : "";
@@ -55,12 +77,8 @@ std::string head(const ProgramKind& kind, bool has_items) {
     text += "#define REAL NUMBER\n#define SPLAT(a) ((NUMBER)(a))\n" + device_text("words_of_items.h");
   else
     text += vector_words(kind) + device_text("words_of_vectors.h");
-  const bool is_planar = kind.model == Model::planar;
-  if (is_planar) text += "#define PLANAR\n";
-  for (const char* file :
-       {is_planar ? "kernels/algebra/planar.h" : "kernels/algebra/spatial.h", "kernels/link_force/link_force.h",
-        "kernels/motion/motion.h", "kernels/wrench/wrench.h", "kernels/rk_update/rk_update.h"})
-    text += text_of(file);
+  text += model_words(kind.model) + text_of(fmt::format("kernels/algebra/{}.h", name(kind.model))) +
+          text_of("kernels/laws.h");
   text += text_of("kernels/stage_row/row_action.h");
   for (const char* file : {"tables.h", "tables_of_device.h", "tuples.cl"}) text += device_text(file);
   return text;
@@ -82,13 +100,14 @@ std::string row_program(const ProgramKind& kind) {
                         int(t.is_material), int(t.is_damped), int(t.is_bending), int(t.is_gyroscopic), int(t.is_tied),
                         int(t.is_oblong), n);
     text += device_text("row.cl") + device_text(kind.has_items ? "row_of_items.cl" : "row_of_vectors.cl") +
-            device_text("run.cl") + "#undef FLAGS\n#undef NAME\n";
+            "#undef FLAGS\n#undef NAME\n";
     cases += fmt::format("  if (task->shape == {0}) return run_{0}(d, task, signals);\n", n);
   }
   text += fmt::format("static int run_task(device d, global const row_stage* task, global const NUMBER* signals) {{\n"
                       "{}  return 1;\n}}\n",
                       cases);
-  text += device_text("passes.cl");
+  text += device_text("rows.cl");
+  if (!kind.has_items) text += device_text("passes.cl");
   if (kind.actions.contains(error_stage) || kind.actions.contains(kept_error)) text += device_text("step_error.cl");
   return text;
 }

@@ -30,8 +30,10 @@ kernel void evaluate_extra_links(global NUMBER* arena, global const extra_link* 
                   j = element_at(arena + row_starts[link->row_j] + link->lane_j);
     pair_wrench w;
     if (link->axis == 0) w = wrench_of_extra(link, i, j, 0);
+#if AXES > 1
     else if (link->axis == 1) w = wrench_of_extra(link, i, j, 1);
-#ifndef PLANAR
+#endif
+#if AXES > 2
     else w = wrench_of_extra(link, i, j, 2);
 #endif
     add_wrench(arena + link->wrench_i, 1, link->unit, w.force, w.moment_i);

@@ -1,26 +1,5 @@
-/* Components of the model's tuples, and how they move between memory and REALs. Words: W lanes a pack; LOAD(p), STORE(v, p) at a
- * component's address; COMPONENT_STEP from one component to the next. */
-#ifdef PLANAR
-#define COMPONENTS_OF_VEC(act) act(x) act(y)
-#define COMPONENTS_OF_SPIN(act) act(z)
-#define COMPONENTS_OF_ROTOR(act) act(s) act(z)
-#define EACH_OF_VEC(act, t) act(t.x) act(t.y)
-#define EACH_OF_SPIN(act, t) act(t.z)
-#define EACH_OF_ROTOR(act, t) act(t.s) act(t.z)
-#define VEC_SIZE 2
-#define SPIN_SIZE 1
-#define FIELDS 7
-#else
-#define COMPONENTS_OF_VEC(act) act(x) act(y) act(z)
-#define COMPONENTS_OF_SPIN(act) act(x) act(y) act(z)
-#define COMPONENTS_OF_ROTOR(act) act(s) act(x) act(y) act(z)
-#define EACH_OF_VEC(act, t) act(t.x) act(t.y) act(t.z)
-#define EACH_OF_SPIN(act, t) act(t.x) act(t.y) act(t.z)
-#define EACH_OF_ROTOR(act, t) act(t.s) act(t.x) act(t.y) act(t.z)
-#define VEC_SIZE 3
-#define SPIN_SIZE 3
-#define FIELDS 13
-#endif
+/* The model's tuples, and how they move between memory and REALs. Words: W lanes a pack; LOAD(p), STORE(v, p) at a component's address. From the
+ * host, for VEC, SPIN and ROTOR: COMPONENTS_OF_...(act), EACH_OF_...(act, tuple); VEC_SIZE, SPIN_SIZE, FIELDS. */
 #define WRENCH_SIZE (VEC_SIZE + SPIN_SIZE)
 
 #define READ(c) c = LOAD(p), p += W;
@@ -50,20 +29,18 @@ static inline vec vec_zero(void) {
   EACH_OF_VEC(CLEAR, a)
   return a;
 }
+#define PLACE_x 0
+#define PLACE_y 1
+#define PLACE_z 2
+#define SPLAT_COMPONENT(c) a.c = SPLAT(xyz[PLACE_##c]);
 static inline vec vec_splat(global const NUMBER* xyz) {
   vec a;
-  a.x = SPLAT(xyz[0]), a.y = SPLAT(xyz[1]);
-#ifndef PLANAR
-  a.z = SPLAT(xyz[2]);
-#endif
+  COMPONENTS_OF_VEC(SPLAT_COMPONENT)
   return a;
 }
 static inline spin spin_splat(global const NUMBER* xyz) {
-  spin a;
-#ifndef PLANAR
-  a.x = SPLAT(xyz[0]), a.y = SPLAT(xyz[1]);
-#endif
-  a.z = SPLAT(xyz[2]);
+  spin a = spin_zero();
+  COMPONENTS_OF_SPIN(SPLAT_COMPONENT)
   return a;
 }
 static inline exchange no_exchange(void) {

@@ -1,4 +1,4 @@
-#include "solver/model/problem.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 
 #include <fmt/format.h>
 
@@ -6,19 +6,6 @@
 
 namespace dss {
 namespace {
-
-std::string geometry_leaves_plane(const Problem& problem) {
-  const std::vector<Row>& rows = problem.lattice.rows;
-  for (std::size_t r = 1; r < rows.size(); ++r)
-    if (rows[r].body == rows[r - 1].body && rows[r].z != rows[r - 1].z)
-      return fmt::format("body \"{}\" is more than one element thick in z",
-                         problem.bodies[std::size_t(rows[r].body)].name);
-  for (std::size_t l = 0; l < problem.extra_links.size(); ++l)
-    if (problem.extra_links[l].axis == 2)
-      return fmt::format("extra link {} between elements {} and {} is along z", l, problem.extra_links[l].i,
-                         problem.extra_links[l].j);
-  return {};
-}
 
 /// The first component that leaves the plane of a vector (z) or of an axial vector (x and y), or an empty text.
 std::string out_of_plane(const Vec3& v, const char* what, const char* unit, bool is_axial) {
@@ -55,7 +42,7 @@ std::string start_leaves_plane(const Problem& problem) {
 
 // Clamps need no check: a clamp out of the plane holds what does not move, one in the plane is the planar model's too.
 std::string why_not_planar(const Problem& problem) {
-  for (const auto& leaves : {geometry_leaves_plane, load_leaves_plane, start_leaves_plane})
+  for (const auto& leaves : {thickness_in_z, load_leaves_plane, start_leaves_plane})
     if (std::string reason = leaves(problem); !reason.empty()) return reason;
   return {};
 }

@@ -1,0 +1,100 @@
+#include "experiments/runner/model/model_monitor.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace dss {
+namespace {
+
+constexpr long looks_of_a_run = 64; ///< at least
+constexpr long most_looks = 1024;   ///< near the bound
+
+using MonitorClock = std::chrono::steady_clock;
+
+} // namespace
+
+double relative_error(const Problem& problem, const KindBounds& errors, const KindValues& largest) {
+  const KindValues scales = error_scales(problem, largest);
+  double most = 0;
+  for (std::size_t kind = 0; kind < scales.size(); ++kind) most = std::max(most, relative(errors[kind], scales[kind]));
+  return most;
+}
+
+ModelMonitor::ModelMonitor(const Problem& problem, Model model, double tolerance, long steps, double dt)
+    : problem_(problem), model_(model), limit_(bounded_share * tolerance), tolerance_(tolerance), dt_(dt),
+      longest_interval_(std::max(1L, steps / looks_of_a_run)), shortest_interval_(std::max(1L, steps / most_looks)),
+      good_state_(initial_state(problem)) {
+  largest_ = largest_of_kinds(good_state_);
+  begin();
+}
+
+void ModelMonitor::begin() {
+  bound_.emplace(problem_, model_);
+  bound_->look(good_state_, double(good_step_) * dt_);
+  good_errors_ = bound_->errors();
+  interval_ = 1;
+}
+
+double ModelMonitor::estimate_of(const ModelErrorBound& bound, double ahead) const {
+  KindBounds errors = bound.errors(ahead);
+  for (std::size_t kind = 0; kind < errors.size(); ++kind) errors[kind] += carried_[kind];
+  return relative_error(problem_, errors, largest_);
+}
+
+bool ModelMonitor::look(Executor& executor, long step) {
+  const auto start = MonitorClock::now();
+  std::vector<double> state = whole_state(executor, problem_.lattice.element_count);
+  bound_->look(state, double(step) * dt_);
+  const KindValues now = largest_of_kinds(state);
+  for (std::size_t kind = 0; kind < now.size(); ++kind) largest_[kind] = std::max(largest_[kind], now[kind]);
+  estimate_ = estimate_of(*bound_, 0);
+  ++report_.looks;
+  if (estimate_ <= limit_) adapt_interval();
+  const bool is_good = estimate_ <= limit_; // false for what is no number
+  if (is_good) {
+    good_step_ = step;
+    good_state_ = std::move(state);
+    good_errors_ = bound_->errors();
+    report_.estimate = std::max(report_.estimate, estimate_);
+    report_.largest_rotation = std::max(report_.largest_rotation, bound_->largest_rotation());
+  }
+  report_.look_s += std::chrono::duration<double>(MonitorClock::now() - start).count();
+  return is_good;
+}
+
+/// Looks follow closer on each other where rotations that grow as fast as they do now would reach the bound before the next. If even the shortest
+/// interval reaches it, the bound counts as exceeded.
+void ModelMonitor::adapt_interval() {
+  const auto ahead = [&](long steps) { return estimate_of(*bound_, double(steps) * dt_); };
+  interval_ = std::min(2 * interval_, longest_interval_);
+  while (interval_ > shortest_interval_ && !(ahead(interval_) <= limit_))
+    interval_ = std::max(shortest_interval_, interval_ / 2);
+  if (interval_ <= shortest_interval_) estimate_ = std::max(estimate_, ahead(interval_));
+}
+
+bool ModelMonitor::holds_at_end() const {
+  KindBounds errors = good_errors_;
+  for (std::size_t kind = 0; kind < errors.size(); ++kind) errors[kind] += carried_[kind];
+  return relative_error(problem_, errors, largest_of_kinds(good_state_)) <= tolerance_;
+}
+
+Model ModelMonitor::promoted() const {
+  for (const Model model : models) {
+    const bool is_larger = std::ranges::find(models, model) > std::ranges::find(models, model_);
+    if (!is_larger || !has_rotation_vectors(model) || !why_not(model, problem_).empty()) continue;
+    ModelErrorBound bound(problem_, model);
+    bound.look(good_state_, double(good_step_) * dt_);
+    if (estimate_of(bound, double(longest_interval_) * dt_) <= limit_) return model;
+  }
+  return Model::spatial;
+}
+
+void ModelMonitor::go_on_with(Model model) {
+  for (std::size_t kind = 0; kind < carried_.size(); ++kind) carried_[kind] += good_errors_[kind];
+  model_ = model;
+  begin();
+}
+
+} // namespace dss

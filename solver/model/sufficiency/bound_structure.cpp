@@ -1,0 +1,126 @@
+#include "solver/model/sufficiency/bound_structure.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+namespace dss {
+namespace {
+
+/// Sets of linked elements; all that are clamped in every degree of freedom count as one.
+class Pieces {
+public:
+  explicit Pieces(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
+  /// @return whether they were apart
+  bool join(std::size_t a, std::size_t b) {
+    a = root(a), b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
+  }
+  std::size_t root(std::size_t e) {
+    while (parent_[e] != e) e = parent_[e] = parent_[parent_[e]];
+    return e;
+  }
+
+private:
+  std::vector<std::size_t> parent_;
+};
+
+template <class Visit>
+void for_each_link_kind(const Problem& problem, const Visit& visit) {
+  std::vector<int> body_of(problem.lattice.element_count);
+  std::vector<bool> met(problem.bodies.size() * 3);
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) { body_of[e] = row.body; });
+  problem.lattice.for_each_link([&](std::size_t i, std::size_t, int axis) {
+    const auto body = std::size_t(body_of[i]);
+    if (met[3 * body + std::size_t(axis)]) return;
+    met[3 * body + std::size_t(axis)] = true;
+    const Body& b = problem.bodies[body];
+    visit(b.law, axis, b.axis[std::size_t(axis)], b.edge[std::size_t(axis)]);
+  });
+  for (const ExtraLink& link : problem.extra_links) {
+    const auto a = std::size_t(link.axis);
+    visit(
+        link.law, link.axis, link.constants,
+        (problem.bodies[std::size_t(body_of[link.i])].edge[a] + problem.bodies[std::size_t(body_of[link.j])].edge[a]) /
+            2);
+  }
+}
+
+void look_at_connections(const Problem& problem, BoundStructure& structure) {
+  const std::size_t count = problem.lattice.element_count;
+  Pieces pieces(count);
+  std::vector<bool> is_held(count);
+  structure.is_tree = true;
+  for (const Clamp& clamp : problem.clamps)
+    if (clamp.dofs == dof_all)
+      is_held[clamp.element] = true;
+    else
+      structure.is_tree = false; // may restrain what a tree leaves free
+  const auto first_held = std::size_t(std::find(is_held.begin(), is_held.end(), true) - is_held.begin());
+  for (std::size_t e = 0; e < count; ++e)
+    if (is_held[e]) pieces.join(first_held, e);
+  const auto join = [&](std::size_t i, std::size_t j) {
+    if (!pieces.join(i, j) && !(is_held[i] && is_held[j])) structure.is_tree = false;
+  };
+  problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int) { join(i, j); });
+  for (const ExtraLink& link : problem.extra_links) join(link.i, link.j);
+  structure.is_held = first_held < count;
+  for (std::size_t e = 0; e < count && structure.is_held; ++e)
+    structure.is_held = pieces.root(e) == pieces.root(first_held);
+}
+
+double longest_way(const Problem& problem) {
+  std::vector<std::array<int, 6>> extents(problem.bodies.size(), {1 << 30, -1, 1 << 30, -1, 1 << 30, -1});
+  for (const Row& row : problem.lattice.rows) {
+    auto& extent = extents[std::size_t(row.body)];
+    const std::array<std::pair<int, int>, 3> ends{{{row.x_begin, row.x_end}, {row.y, row.y + 1}, {row.z, row.z + 1}}};
+    for (std::size_t a = 0; a < 3; ++a) {
+      extent[2 * a] = std::min(extent[2 * a], ends[a].first);
+      extent[2 * a + 1] = std::max(extent[2 * a + 1], ends[a].second);
+    }
+  }
+  double longest = 0, sum = 0;
+  for (std::size_t b = 0; b < extents.size(); ++b) {
+    double way = 0;
+    for (std::size_t a = 0; a < 3; ++a) way += problem.bodies[b].edge[a] * (extents[b][2 * a + 1] - extents[b][2 * a]);
+    longest = std::max(longest, way);
+    sum += way;
+  }
+  return problem.extra_links.empty() ? longest : sum;
+}
+
+} // namespace
+
+BoundStructure bound_structure(const Problem& problem) {
+  BoundStructure structure;
+  structure.is_flat = why_not_bending(problem).empty();
+  look_at_connections(problem, structure);
+  structure.length = longest_way(problem);
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  structure.mass = structure.inertia = endless;
+  structure.shortest_edge = shortest_edge(problem);
+  for (const Body& body : problem.bodies) {
+    structure.edge = std::max(structure.edge, *std::ranges::max_element(body.edge));
+    structure.mass = std::min(structure.mass, body.mass);
+    structure.inertia = std::min(structure.inertia, *std::ranges::min_element(body.inertia));
+  }
+  double yielding = 0; // one over the least buckling load
+  for_each_link_kind(problem, [&](LinkLaw law, int axis, const AxisConstants& c, double edge) {
+    structure.stiffness = std::max(structure.stiffness, c.k_normal);
+    double k_bend = law == LinkLaw::paper ? c.k_rot[0] : endless;
+    for (std::size_t m = 0; m < 3 && law != LinkLaw::paper; ++m)
+      if (int(m) != axis) k_bend = std::min(k_bend, c.k_rot[m]);
+    const double column = 2 * structure.length / std::numbers::pi;
+    yielding = std::max(yielding, column * column / (k_bend * edge) + 1 / (c.k_shear * edge));
+  });
+  structure.least_buckling = yielding > 0 ? 1 / yielding : endless;
+  if (structure.least_buckling == 0) structure.is_held = false;
+  return structure;
+}
+
+} // namespace dss

@@ -1,0 +1,149 @@
+#include "solver/model/sufficiency/model_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dss {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+double length_of(const double* v) { return std::hypot(v[0], v[1], v[2]); }
+
+/// Rotation vector's length [rad].
+double angle_of(const double* fields) { return 2 * std::atan2(length_of(fields + qx), 1 + fields[qs]); }
+
+/// Gap and rotation of a link by the linear law, and its constants.
+struct LinearLink {
+  double force = 0, energy = 0; ///< [N], twice the elastic energy [J]
+  double gap = 0, rate = 0;     ///< [m], [m/s]
+};
+
+/// Lengths of the opening of a link of axis `axis`: of displacements and small rotations, or of velocities and spins.
+std::array<double, 3> opening(const double* shift_i, const double* turn_i, const double* shift_j, const double* turn_j,
+                              int axis, double arm_i, double arm_j) {
+  const int b = (axis + 1) % 3, d = (axis + 2) % 3;
+  // turn x c with c along `axis`: c turn_d along b, -c turn_b along d
+  return {shift_j[axis] - shift_i[axis], shift_j[b] - shift_i[b] - (arm_i * turn_i[d] + arm_j * turn_j[d]),
+          shift_j[d] - shift_i[d] + (arm_i * turn_i[b] + arm_j * turn_j[b])};
+}
+
+LinearLink linear_link(const double* i, const double* j, int axis, LinkLaw law, const AxisConstants& c, double arm_i,
+                       double arm_j) {
+  const auto [along, b, d] = opening(i + ux, i + qx, j + ux, j + qx, axis, 2 * arm_i, 2 * arm_j); // theta = 2 q
+  const auto rates = opening(i + vx, i + wx, j + vx, j + wx, axis, arm_i, arm_j);
+  LinearLink link;
+  link.gap = std::hypot(along, b, d);
+  link.rate = length_of(rates.data());
+  link.force = std::hypot(c.k_normal * along, c.k_shear * b, c.k_shear * d);
+  link.energy = c.k_normal * along * along + c.k_shear * (b * b + d * d);
+  for (int m = 0; m < 3; ++m) {
+    const double turn = 2 * (j[qx + m] - i[qx + m]);
+    link.energy += c.k_rot[law == LinkLaw::paper ? 0 : std::size_t(m)] * turn * turn;
+  }
+  return link;
+}
+
+} // namespace
+
+ModelErrorBound::ModelErrorBound(const Problem& problem, Model model)
+    : problem_(problem), model_(model), structure_(bound_structure(problem)) {
+  if (!needs_links()) return;
+  body_of_.resize(problem.lattice.element_count);
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) { body_of_[e] = row.body; });
+}
+
+void ModelErrorBound::look(std::span<const double> state, double time) {
+  KindBounds now{};
+  double rotation = 0;
+  for (std::size_t e = 0; e < state.size(); e += field_count) {
+    const double* fields = state.data() + e;
+    const KindBounds own{length_of(fields + ux), length_of(fields + qx), length_of(fields + vx),
+                         length_of(fields + wx)};
+    for (std::size_t kind = 0; kind < now.size(); ++kind) now[kind] = std::max(now[kind], own[kind]);
+    rotation = std::max(rotation, angle_of(fields));
+  }
+  for (std::size_t kind = 0; kind < now.size(); ++kind) largest_[kind] = std::max(largest_[kind], now[kind]);
+  rotation_ = std::max(rotation_, rotation);
+  spin_ = now[3];
+  if (!has_begun_) start_ = time_ = time;
+  has_begun_ = true;
+  double frequency = 0;
+  if (largest_[0] > 0) frequency = now[2] / largest_[0];
+  if (largest_[1] > 0) frequency = std::max(frequency, now[3] / (2 * largest_[1]));
+  cycles_ += frequency * (time - time_);
+  time_ = time;
+  if (needs_links()) look_at_links(state);
+}
+
+void ModelErrorBound::look_at_links(std::span<const double> state) {
+  double strain_energy = 0, arms_energy = 0;
+  const auto add = [&](std::size_t e, std::size_t f, int axis, LinkLaw law, const AxisConstants& c) {
+    const double *i = state.data() + e * field_count, *j = state.data() + f * field_count;
+    const auto a = std::size_t(axis);
+    const double arm_i = problem_.bodies[std::size_t(body_of_[e])].edge[a] / 2,
+                 arm_j = problem_.bodies[std::size_t(body_of_[f])].edge[a] / 2;
+    const LinearLink link = linear_link(i, j, axis, law, c, arm_i, arm_j);
+    force_ = std::max(force_, link.force);
+    gap_ = std::max(gap_, link.gap);
+    rate_ = std::max(rate_, link.rate);
+    strain_energy += link.energy;
+    const double theta_i = angle_of(i), theta_j = angle_of(j);
+    const double longer = (arm_i * theta_i * theta_i + arm_j * theta_j * theta_j) / 2;
+    arms_energy += c.k_normal * longer * longer;
+  };
+  problem_.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
+    const Body& body = problem_.bodies[std::size_t(body_of_[i])];
+    add(i, j, axis, body.law, body.axis[std::size_t(axis)]);
+  });
+  for (const ExtraLink& link : problem_.extra_links) add(link.i, link.j, link.axis, link.law, link.constants);
+  strain_energy_ = std::max(strain_energy_, strain_energy);
+  arms_energy_ = std::max(arms_energy_, arms_energy);
+}
+
+/// Of the stiffness as the motion feels it, relative, but for what forces along turned links do.
+/// @param growth  of the rotation since the last look
+double ModelErrorBound::operator_error(double rotation, double growth) const {
+  if (structure_.is_flat) return 4 * rotation * rotation;
+  const double of_arms =
+      structure_.is_tree || arms_energy_ == 0 ? 0 : growth * growth * std::sqrt(arms_energy_ / strain_energy_);
+  return rotation + of_arms + (model_ == Model::small ? 0 : growth * gap_ / structure_.shortest_edge);
+}
+
+/// Errors of forces that turn with links, where the model does not turn them: of all its forces, or of what arms of wrong length strain.
+KindBounds ModelErrorBound::turned_forces(double rotation, double growth, double time) const {
+  double force = structure_.is_tree ? 0 : structure_.stiffness * structure_.edge * rotation * rotation / 2;
+  if (model_ != Model::small && !structure_.is_flat) force += force_ * growth;
+  if (force == 0) return {};
+  // As a change of the stiffness against buckling ...
+  const double load = structure_.is_held ? force / structure_.least_buckling : unbounded;
+  const double amplified = load < 0.5 ? load / (1 - load) * (1 + cycles_) : unbounded;
+  // ... or as forces that push elements, whatever their stiffness: six links each.
+  const double push = 6 * force * rotation / structure_.mass,
+               twist = 6 * force * rotation * structure_.edge / structure_.inertia;
+  const double rate = std::sqrt(
+      6 * force * std::max(1 / (structure_.shortest_edge * structure_.mass), structure_.edge / structure_.inertia));
+  const double feedback = std::cosh(std::min(rate * time, 700.0)); // beyond, it is out of all bounds anyway
+  KindBounds errors{push * time * time / 2, twist * time * time / 4, push * time, twist * time};
+  for (std::size_t kind = 0; kind < errors.size(); ++kind)
+    errors[kind] = std::min(errors[kind] * feedback, largest_[kind] > 0 ? amplified * largest_[kind] : unbounded);
+  return errors;
+}
+
+KindBounds ModelErrorBound::errors(double ahead) const {
+  const double theta = rotation_ + spin_ * ahead, growth = rotation_ > 0 ? theta / rotation_ : 1;
+  if (theta == 0 && gap_ == 0) return {};
+  const double longer = theta * theta / 2; // an arm, relative
+  const auto [u, q, v, w] = largest_;
+  KindBounds errors{longer * structure_.length, theta * theta / 4, theta * w * structure_.length, theta * w};
+  const KindBounds turned = turned_forces(theta, growth, time_ + ahead - start_);
+  const double edge = structure_.shortest_edge;
+  const bool has_products = model_ == Model::small; // else gaps have couples that are left out, and push where nothing turns yet
+  const KindBounds scales{u, has_products ? q : std::max(q, gap_ / edge), v, has_products ? w : std::max(w, rate_ / edge)};
+  const double stiffness = operator_error(theta, growth) * (1 + cycles_);
+  for (std::size_t kind = 0; kind < errors.size(); ++kind) errors[kind] += turned[kind] + stiffness * scales[kind];
+  return errors;
+}
+
+} // namespace dss

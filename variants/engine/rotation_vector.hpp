@@ -1,0 +1,38 @@
+#pragma once
+/// Rotations of models that keep them as vectors (has_rotation_vectors): the fields qx .. qz of their rows are r, half the rotation vector, and
+/// become unit quaternions where states cross the interface, q = (cos |r| - 1, sin |r| / |r| r).
+#include "solver/model/fields.hpp"
+
+#include <cmath>
+#include <span>
+
+namespace dss {
+
+/// All 13 fields of an element: from the quaternion to r, with qs = 0; of an angle up to 360 degrees.
+inline void to_rotation_vector(std::span<double> fields) {
+  const double sine = std::hypot(fields[qx], fields[qy], fields[qz]);
+  const double scale = sine == 0 ? 1 : std::atan2(sine, 1 + fields[qs]) / sine;
+  fields[qs] = 0;
+  for (const Field f : {qx, qy, qz}) fields[f] *= scale;
+}
+
+/// And back.
+inline void to_quaternion(std::span<double> fields) {
+  const double angle = std::hypot(fields[qx], fields[qy], fields[qz]);
+  const double half_sine = std::sin(angle / 2), scale = angle == 0 ? 1 : std::sin(angle) / angle;
+  fields[qs] = -2 * half_sine * half_sine;
+  for (const Field f : {qx, qy, qz}) fields[f] *= scale;
+}
+
+/// Rates of all fields from those of r, at a state that holds r.
+inline void to_quaternion_rates(std::span<const double> fields, std::span<double> rates) {
+  const double angle = std::hypot(fields[qx], fields[qy], fields[qz]);
+  const double along = fields[qx] * rates[qx] + fields[qy] * rates[qy] + fields[qz] * rates[qz];
+  const double scale = angle == 0 ? 1 : std::sin(angle) / angle;
+  // (cos a - sin a / a) / a^2, which cancels for small angles
+  const double slope = angle < 1e-3 ? angle * angle / 30 - 1.0 / 3.0 : (std::cos(angle) - scale) / (angle * angle);
+  rates[qs] = -scale * along;
+  for (const Field f : {qx, qy, qz}) rates[f] = scale * rates[f] + slope * along * fields[f];
+}
+
+} // namespace dss
