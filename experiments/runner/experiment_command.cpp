@@ -10,6 +10,7 @@
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/simulation_study.hpp"
 #include "experiments/runner/stability_study.hpp"
+#include "experiments/runner/statics/statics_study.hpp"
 #include "experiments/runner/text_table.hpp"
 
 #include "solver/io/atomic_file.hpp"
@@ -142,6 +143,8 @@ int experiment(const ExperimentArguments& arguments) {
   if (const auto continuum = load_continuum(arguments.file, arguments.scale))
     return check(*continuum, arguments, continuum->checks.size(), continuum_table, continuum_text);
   if (const auto ladder = load_ladder(arguments.file, arguments.scale)) return climb(*ladder, arguments);
+  if (const auto statics = load_statics(arguments.file, arguments.scale))
+    return check(*statics, arguments, statics->cases.size(), statics_table, statics_text);
   if (const auto budget = load_error_budget(arguments.file, arguments.scale)) return account(*budget, arguments);
   if (const auto balance = load_balance(arguments.file, arguments.scale)) return model(*balance, arguments);
   if (const auto limits = load_stability(arguments.file, arguments.scale)) return find_limits(*limits, arguments);

@@ -2,6 +2,7 @@
 #include "solver/error.hpp"
 #include "solver/numerics/spectrum.hpp"
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,6 +35,20 @@ void find_element(const FreeDofs& dofs, const Eigen::VectorXd& moved, NaturalMod
   mode.element_share /= energy.sum();
 }
 
+/// Shapes of equal frequency are turned into one another so that the first of them follows the frame as much as it can along one axis, the next
+/// along another: what a square beam's pair of modes would else share out by chance.
+void align_equal_modes(const Eigen::VectorXd& values, const Eigen::MatrixXd& taken, Eigen::MatrixXd& shapes) {
+  for (Eigen::Index first = 0, next = 0; first < values.size(); first = next) {
+    for (next = first + 1; next < values.size() && values[next] - values[first] <= 1e-8 * std::abs(values[first]);)
+      ++next;
+    if (next == first + 1) continue;
+    auto equal = shapes.middleCols(first, next - first);
+    const Eigen::MatrixXd participation = equal.transpose() * taken;
+    const Eigen::MatrixXd turn = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(participation).householderQ();
+    equal = (equal * turn).eval();
+  }
+}
+
 } // namespace
 
 ModalAnalysis find_modes(const StaticSystem& system, int count, const StaticSystem::State& state, bool is_rest) {
@@ -55,11 +70,12 @@ ModalAnalysis find_modes(const StaticSystem& system, int count, const StaticSyst
   const Eigen::Index available = system.size() - analysis.free_motions;
   const double shift = analysis.free_motions > 0 ? -shift_share * largest : 0;
   const int all = int(analysis.free_motions + std::min<Eigen::Index>(count, available));
-  const Eigenmodes found = lowest_modes(stiffness, mass, all, shift);
+  Eigenmodes found = lowest_modes(stiffness, mass, all, shift);
 
   const Eigen::MatrixXd motions = unit_motions(system.dofs());
-  const Eigen::MatrixXd moved = mass.selfadjointView<Eigen::Lower>() * found.shapes;
   const Eigen::MatrixXd taken = mass.selfadjointView<Eigen::Lower>() * motions;
+  align_equal_modes(found.values, taken, found.shapes);
+  const Eigen::MatrixXd moved = mass.selfadjointView<Eigen::Lower>() * found.shapes;
   for (int axis = 0; axis < 3; ++axis) analysis.free_mass[std::size_t(axis)] = motions.col(axis).dot(taken.col(axis));
   for (Eigen::Index n = analysis.free_motions; n < found.values.size(); ++n) {
     NaturalMode mode;

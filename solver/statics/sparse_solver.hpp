@@ -34,7 +34,11 @@ public:
   explicit SparseSolver(SolverKind kind, Preconditioner preconditioner = Preconditioner::incomplete_cholesky)
       : kind_(kind), preconditioner_(preconditioner) {}
 
-  void take_conjugate_gradients() { kind_ = SolverKind::cg; }
+  /// For a matrix that is singular, of which incomplete factors would be too.
+  void take_conjugate_gradients() {
+    kind_ = SolverKind::cg;
+    preconditioner_ = Preconditioner::block_jacobi;
+  }
 
   /// Factors of a matrix whose lower half is given, or its preconditioner. The first matrix settles what `automatic` is.
   void prepare(const Eigen::SparseMatrix<double>& lower);

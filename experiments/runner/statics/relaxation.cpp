@@ -94,14 +94,15 @@ private:
     std::vector<double> now(state_.size());
     long since = 0;
     for (double last = 0;;) {
-      const Outcome outcome = executor_.advance(steps_between_, repeated(steps_between_ * method_.stages + 1));
+      const long steps = std::min(steps_between_, settings_.most_steps - found_.steps);
+      const Outcome outcome = executor_.advance(steps, repeated(steps * method_.stages + 1));
       if (!outcome.is_finite) {
         found_.reason = breakdown_text(outcome.what, found_.steps + outcome.step, settings_.dt, outcome.element);
         found_.is_finite = false;
         return false;
       }
-      found_.steps += steps_between_;
-      since += steps_between_;
+      found_.steps += steps;
+      since += steps;
       executor_.read(0, now);
       const double energy = kinetic_energy(now);
       if (!(energy >= last)) break;
