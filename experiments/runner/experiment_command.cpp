@@ -1,3 +1,4 @@
+#include "experiments/runner/advise/advise_study.hpp"
 #include "experiments/runner/atlas/continuum_study.hpp"
 #include "experiments/runner/atlas/failure_study.hpp"
 #include "experiments/runner/balance_study.hpp"
@@ -137,7 +138,22 @@ int climb(const LadderStudy& study, const ExperimentArguments& arguments) {
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
 
+int judge_advice(const AdviseStudy& study, const ExperimentArguments& arguments) {
+  if (arguments.is_dry) {
+    fmt::print("{}: advice on {} scenes at {} tolerances\n", study.name, study.cases.size(), study.tolerances.size());
+    return exit_success;
+  }
+  const std::string path = table_path(study.name, arguments.out);
+  Progress progress;
+  const Table table = advise_table(study, experiment_paths(arguments.out, study.name).oracle_directory,
+                                   [&](const std::string& line) { progress.note(line); });
+  write_csv(path, table);
+  fmt::print("{}\nTable: {}\n", advise_study_text(study, table), path);
+  return has_failed_rows(table) ? exit_check_failed : exit_success;
+}
+
 int experiment(const ExperimentArguments& arguments) {
+  if (const auto advice = load_advise(arguments.file, arguments.scale)) return judge_advice(*advice, arguments);
   if (const auto failures = load_failures(arguments.file, arguments.scale))
     return check(*failures, arguments, failures->cases.size(), failures_table, failures_text);
   if (const auto continuum = load_continuum(arguments.file, arguments.scale))

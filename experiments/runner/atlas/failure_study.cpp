@@ -13,7 +13,7 @@
 namespace dss {
 namespace {
 
-const std::vector<std::string> columns = {
+const std::vector<std::string> failure_columns = {
     "experiment", "case",   "scene",  "set",       "method",    "precision", "rotation", "model", "variant", "dt_s",
     "steps",      "metric", "figure", "predicted", "deviation", "verdict",   "expected", "why",   "status",  "reason"};
 
@@ -115,7 +115,7 @@ private:
     return {steps, dt};
   }
 
-  /// Compares with what was expected; fills the last columns.
+  /// Compares with what was expected; fills the last failure_columns.
   void judge(Record& row, const Expectation* expected, const AtlasFigure& figure, const Parameters& parameters) const {
     std::string reason = row["reason"];
     bool passes = expected != nullptr && expected->verdict == row["verdict"];
@@ -187,7 +187,7 @@ private:
 } // namespace
 
 Table failures_table(const FailureStudy& study) {
-  Table table{columns, {}};
+  Table table{failure_columns, {}};
   for (const FailureCase& atlas : study.cases)
     for (const std::vector<Override>& set : atlas.sets) CaseRun(study, atlas, set).run(table.rows);
   return table;
