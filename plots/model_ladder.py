@@ -71,7 +71,8 @@ def draw(path, output):
         axes.set_axis_off()
     entries = [Line2D([], [], color=colour, marker="o", linestyle="none", label=model) for model, colour in COLOURS.items()]
     entries.append(Line2D([], [], color="#000000", marker="o", markersize=11, markerfacecolor="none", linestyle="none", label="auto"))
-    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries), fontsize=9, frameon=False)
+    figure.legend(handles=entries, loc="upper right", ncol=len(entries), fontsize=9, frameon=False).set_in_layout(False)
+    figure.suptitle("", fontsize=14)
     figure.supxlabel("time of a run [s]", fontsize=9)
     figure.supylabel("relative error against the spatial oracle", fontsize=9)
     output.parent.mkdir(parents=True, exist_ok=True)

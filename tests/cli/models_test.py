@@ -1,4 +1,5 @@
 """`--model auto`, what it records, and `explain`."""
+import csv
 import json
 import pathlib
 import unittest
@@ -80,6 +81,30 @@ class Models(ProgramTest):
         for scene in ("chain", "block", "two_bodies", "tumbling_box", LADDER / "strip.json", LADDER / "eccentric.json"):
             explained = json.loads(dssbench("explain", scene, "--json", "-").stdout)
             self.assertEqual(explained["model"], self.run_json(scene, "--steps", "2")["model_choice"]["chosen"])
+
+    def ladder(self, name, *scenes):
+        study = {"experiment": name, "title": "t", "model_ladder": {"scenes": list(scenes)}, "scales": {"host": {}}}
+        result = dssbench("experiment", self.write(f"{name}.json", json.dumps(study)), "--scale", "host", "--out", self.directory)
+        with open(self.path(f"tables/{name}.csv"), encoding="utf-8") as file:
+            return result.returncode, list(csv.DictReader(file))
+
+    def test_the_ladder_holds_every_model_against_the_oracle(self):
+        strip = {"scene": str(LADDER / "strip.json"), "set": {"n": 5, "width": 2}, "steps": 300}
+        exit_code, rows = self.ladder("ladder", dict(strip, auto="bending", fails=["axial", "planar"]))
+        self.assertEqual((exit_code, [row["status"] for row in rows]), (0, ["ok"] * 7))
+        verdicts = {row["model"]: (row["verdict"], row["provable"]) for row in rows}
+        self.assertEqual(verdicts["planar"], ("insufficient", "no"))
+        self.assertEqual(verdicts["bending"], ("sufficient", "bounded"))
+        self.assertEqual(verdicts["spatial"], ("sufficient", "proven"))
+        self.assertEqual(rows[-1]["ends_with"], "bending")
+
+    def test_the_ladder_fails_in_both_directions(self):
+        strip = {"scene": str(LADDER / "strip.json"), "set": {"n": 4, "width": 1}, "steps": 50}
+        exit_code, rows = self.ladder("stronger", dict(strip, auto="bending", fails=["linear"]))
+        self.assertEqual((exit_code, [row["model"] for row in rows if row["status"] == "failed"]), (1, ["linear"]))
+        exit_code, rows = self.ladder("weaker", dict(strip, auto="spatial"))
+        self.assertEqual((exit_code, rows[-1]["status"]), (1, "failed"))
+        self.assertIn("auto ends with bending, expected spatial", rows[-1]["reason"])
 
     def test_every_term_is_named_where_a_scene_has_it(self):
         terms = json.loads(dssbench("explain", "two_bodies", "--json", "-").stdout)["terms"]

@@ -57,7 +57,8 @@ protected:
     request.overrides = set;
     request.steps = steps;
     const Problem problem = load_scene(scene, set).problem;
-    write_oracle_state(file("truth"), compute_oracle_state(problem, *find_method("rk4"), problem.dt, steps, "truth"));
+    write_oracle_state(file("truth"), compute_oracle_state(problem, *find_method("rk4"), Rotation::quaternion,
+                                                           problem.dt, steps, "truth"));
     request.check_state = file("truth");
     return run_scene(request);
   }

@@ -31,7 +31,8 @@ public:
         method_(require_method(scene_.problem.integrator)), steps_(place.steps.value_or(scene_.problem.steps)),
         truth_("", ".oracle") {
     const double dt = scene_.problem.dt;
-    const OracleState state = compute_oracle_state(scene_.problem, method_, Rotation::quaternion, dt, steps_, place.scene);
+    const OracleState state =
+        compute_oracle_state(scene_.problem, method_, Rotation::quaternion, dt, steps_, place.scene);
     expected_ = state.state;
     write_oracle_state(truth_.path(), state);
   }
