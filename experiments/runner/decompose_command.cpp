@@ -15,7 +15,7 @@ namespace {
 
 constexpr int most_depth = 255; // a layer's number is a byte
 constexpr std::size_t most_rows_shown = 16;
-constexpr std::size_t element_bytes = field_count * sizeof(double);
+constexpr std::size_t bytes_of_element = field_count * sizeof(double);
 
 struct DecomposeArguments {
   std::string scene, method = "strips", output, from, json;
@@ -74,7 +74,7 @@ nlohmann::ordered_json as_json(const DecompositionReport& report) {
                      {"neighbours", size.faces.size()},
                      {"halo_elements", halo_elements(size)},
                      {"sent_elements", sent_elements(size)},
-                     {"sent_bytes_per_step", element_bytes * sent_elements(size)}});
+                     {"sent_bytes_per_step", bytes_of_element * sent_elements(size)}});
   }
   return {{"scene", report.scene},
           {"method", report.decomposition.method},
@@ -84,7 +84,7 @@ nlohmann::ordered_json as_json(const DecompositionReport& report) {
           {"imbalance", imbalance(report)},
           {"cut_links", report.cut},
           {"halo_elements", sum(report.sizes, halo_elements)},
-          {"halo_bytes_per_step", element_bytes * sum(report.sizes, sent_elements)},
+          {"halo_bytes_per_step", bytes_of_element * sum(report.sizes, sent_elements)},
           {"parts", parts}};
 }
 
@@ -96,14 +96,14 @@ void print(const DecompositionReport& report) {
     rows.push_back({fmt::format("{}", p), fmt::format("{}", size.own_elements),
                     fmt::format("{:.3f}", 100 * double(size.own_elements) / double(elements)),
                     fmt::format("{}", size.faces.size()), fmt::format("{}", halo_elements(size)),
-                    fmt::format("{}", element_bytes * sent_elements(size))});
+                    fmt::format("{}", bytes_of_element * sent_elements(size))});
   }
   fmt::print("{}: {} elements in {} parts ({}), halo of {} layer{}\n", report.scene, elements, report.sizes.size(),
              report.decomposition.method, report.depth, report.depth == 1 ? "" : "s");
   fmt::print("{}", text_table({"part", "elements", "cost [%]", "neighbours", "halo", "sent [bytes/step]"}, rows));
   if (report.sizes.size() > most_rows_shown) fmt::print("...\n");
   fmt::print("imbalance {:.4f} (largest/mean); {} cut links; halo {} elements, {} bytes a step\n", imbalance(report),
-             report.cut, sum(report.sizes, halo_elements), element_bytes * sum(report.sizes, sent_elements));
+             report.cut, sum(report.sizes, halo_elements), bytes_of_element * sum(report.sizes, sent_elements));
 }
 
 void require_sound(const DecomposeArguments& arguments) {

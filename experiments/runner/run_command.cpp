@@ -103,6 +103,7 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   RunRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.set);
   const std::string analysis = chosen_analysis(command, request, arguments.analysis);
+  if (analysis != "dynamic" && request.model == "auto") request.model.reset(); // solvers have models of their own
   if (analysis != "dynamic") return run_analysis(analysis, request, arguments.analysis);
   if (job_rank().ranks > 1 && request.ranks == 1) request.ranks = job_rank().ranks; // started by mpirun itself
   if (request.ranks > 1 && !job_rank().is_started) {
@@ -114,7 +115,7 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   const RunResult result = run_scene(request);
   if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));
   if (result.status == "unstable") throw UnstableError(result.reason);
-  if (request.json != "-") print_summary(result);
+  if (request.json != "-" && result.status != "bound") print_summary(result);
   if (result.status == "ok") return exit_success;
   fmt::print(stderr, "dssbench: {}: {}\n", result.scene, result.reason);
   return exit_check_failed;

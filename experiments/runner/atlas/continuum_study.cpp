@@ -14,7 +14,7 @@
 namespace dss {
 namespace {
 
-const std::vector<std::string> columns = {
+const std::vector<std::string> continuum_columns = {
     "experiment",  "check",     "scene",  "set",    "quantity", "mode",  "refined",          "value",
     "elements",    "spacing_m", "figure", "theory", "error",    "order", "richardson_order", "richardson_limit",
     "limit_error", "bar",       "bar_at", "status", "reason",   "source"};
@@ -187,7 +187,7 @@ Richardson richardson(const std::vector<double>& h, const std::vector<double>& f
 }
 
 Table continuum_table(const ContinuumStudy& study) {
-  Table table{columns, {}};
+  Table table{continuum_columns, {}};
   for (const ContinuumCheck& check : study.checks) add_rows(study, check, table);
   return table;
 }

@@ -3,6 +3,7 @@
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/stability.hpp"
 #include "variants/loader.hpp"
 
@@ -13,7 +14,7 @@
 namespace dss {
 namespace {
 
-const std::vector<std::string> columns = {
+const std::vector<std::string> failure_columns = {
     "experiment", "case",   "scene",  "set",       "method",    "precision", "rotation", "model", "variant", "dt_s",
     "steps",      "metric", "figure", "predicted", "deviation", "verdict",   "expected", "why",   "status",  "reason"};
 
@@ -79,8 +80,8 @@ private:
   std::string refusal(const Method& method, Precision precision, Rotation rotation, Model model, double dt) {
     if (const auto lack = what_lacks(plugin_, precision, method, rotation))
       return fmt::format("variant {} {}", plugin_.name, lack->what);
-    if (const std::string why = why_not_planar(scene_.problem); model == Model::planar && !why.empty())
-      return fmt::format("model planar: {}", why);
+    if (const std::string why = why_not(model, scene_.problem); !why.empty())
+      return fmt::format("model {}: {}", name(model), why);
     if (dt == 0) return fmt::format("no step of {} is stable here", method.name);
     if (atlas_.is_forced || method.is_implicit()) return {};
     if (dt > limit_of(method))
@@ -115,7 +116,7 @@ private:
     return {steps, dt};
   }
 
-  /// Compares with what was expected; fills the last columns.
+  /// Compares with what was expected; fills the last failure_columns.
   void judge(Record& row, const Expectation* expected, const AtlasFigure& figure, const Parameters& parameters) const {
     std::string reason = row["reason"];
     bool passes = expected != nullptr && expected->verdict == row["verdict"];
@@ -187,7 +188,7 @@ private:
 } // namespace
 
 Table failures_table(const FailureStudy& study) {
-  Table table{columns, {}};
+  Table table{failure_columns, {}};
   for (const FailureCase& atlas : study.cases)
     for (const std::vector<Override>& set : atlas.sets) CaseRun(study, atlas, set).run(table.rows);
   return table;

@@ -1,0 +1,135 @@
+#include "experiments/runner/advise/advice_text.hpp"
+#include "experiments/runner/advise/grid_advice.hpp"
+#include "experiments/runner/arguments.hpp"
+#include "experiments/runner/commands.hpp"
+#include "experiments/runner/context.hpp"
+#include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace dss {
+namespace {
+
+struct AdviseArguments {
+  std::string scene, quantity = "displacement", json, vary;
+  std::vector<std::string> set;
+  AdviseRequest request;
+  std::optional<double> end;
+  long saved_times = 10;
+  int threads = 0; ///< 0: all cores
+  bool is_verbose = false;
+};
+
+AdviseRequest checked_request(const AdviseArguments& arguments) {
+  AdviseRequest request = arguments.request;
+  const auto quantity = find_quantity(arguments.quantity);
+  if (!quantity)
+    throw InputError(fmt::format("--quantity {}: unknown quantity; {}", arguments.quantity,
+                                 nearest_name(arguments.quantity, {"displacement", "stress", "energy"})));
+  request.quantity = *quantity;
+  if (arguments.threads < 0 || arguments.threads > 1024)
+    throw InputError(fmt::format("--threads {}: give 1 to 1024", arguments.threads));
+  request.most_threads = arguments.threads == 0 ? usable_cores() : arguments.threads;
+  if (request.budget_s && !(*request.budget_s > 0))
+    throw InputError(fmt::format("--budget {:g}: give a positive time [s]", *request.budget_s));
+  return request;
+}
+
+SavedTimes checked_times(const AdviseArguments& arguments, const Problem& problem) {
+  const double end = arguments.end.value_or(problem.dt * double(problem.steps));
+  if (!(end > 0) || !std::isfinite(end)) throw InputError(fmt::format("--end {:g}: give a positive time [s]", end));
+  if (arguments.saved_times < 1)
+    throw InputError(fmt::format("--saved-times {}: give at least 1", arguments.saved_times));
+  return {end, arguments.saved_times};
+}
+
+/// The grid first, where a parameter refines it; what it leaves of the tolerance is the run's.
+/// @return nothing without --vary
+std::optional<GridAdvice> grid_for(const AdviseArguments& arguments, const SavedTimes& times, AdviseRequest& request,
+                                   std::vector<Override>& overrides,
+                                   const std::function<void(const std::string&)>& note) {
+  if (arguments.vary.empty()) return {};
+  GridAdvice grid = advise_grid(arguments.scene, overrides, arguments.vary, times, request, note);
+  if (!grid.failure.empty()) return grid;
+  overrides.push_back({arguments.vary, fmt::format("{}", grid.value)});
+  request.tolerance -= grid.error;
+  return grid;
+}
+
+int fail_check(const std::string& scene, const std::string& failure) {
+  fmt::print(stderr, "dssbench: {}: {}\n", scene, failure);
+  return exit_check_failed;
+}
+
+int advise_scene(const AdviseArguments& arguments) {
+  AdviseRequest request = checked_request(arguments);
+  std::vector<Override> overrides = parse_overrides(arguments.set);
+  const auto note = [&](const std::string& what) {
+    if (arguments.is_verbose) fmt::print(stderr, "{}\n", what);
+  };
+  const SavedTimes times = checked_times(arguments, load_scene(arguments.scene, overrides).problem);
+  const std::optional<GridAdvice> grid = grid_for(arguments, times, request, overrides, note);
+  if (grid && !grid->failure.empty()) return fail_check(arguments.scene, grid->failure);
+  const Scene scene = load_scene(arguments.scene, overrides);
+  AdvisedScene advised{arguments.scene, "", scene.name, scene.problem.lattice.element_count};
+  for (const Override& set : overrides) advised.set += fmt::format(" --set {}={}", set.key, set.value);
+  const Advice advice = advise(scene.problem, times, request, note);
+  const Workbench bench(scene.problem, times, request.quantity);
+  if (!arguments.json.empty()) {
+    nlohmann::ordered_json json = advice_json(advised, request, bench, advice);
+    if (grid) json["grid"] = grid_json(arguments.vary, *grid);
+    write_json(arguments.json, json);
+  }
+  if (arguments.json != "-" && grid) fmt::print("{}", grid_text(arguments.vary, *grid));
+  if (arguments.json != "-") fmt::print("{}", advice_text(advised, request, bench, advice, arguments.is_verbose));
+  return advice.failure.empty() ? exit_success : fail_check(scene.name, advice.failure);
+}
+
+} // namespace
+
+void add_advise_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "advise",
+      "The cheapest model, integrator, precision, step, variant and threads that keep a scene within a tolerance");
+  const auto arguments = std::make_shared<AdviseArguments>();
+  AdviseRequest& request = arguments->request;
+  command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")->required();
+  command
+      ->add_option("--tolerance", request.tolerance,
+                   "Of the error against the exact solution in time of the scene's elements")
+      ->required();
+  command
+      ->add_option("--quantity", arguments->quantity,
+                   fmt::format("displacement: {}; stress: {}; energy: {}", measure_of(Quantity::displacement),
+                               measure_of(Quantity::stress), measure_of(Quantity::energy)))
+      ->capture_default_str();
+  command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option(
+      "--vary", arguments->vary,
+      "A parameter of the scene that refines its grid: the element count is chosen too, for half of the "
+      "tolerance, by Richardson over three grids (default: the scene's grid, whose errors are those in time)");
+  command->add_option("--end", arguments->end, "End of the run [s] (default: that of the scene's steps)");
+  command
+      ->add_option("--saved-times", arguments->saved_times,
+                   "Equally spaced times at which errors are taken, the end the last")
+      ->capture_default_str();
+  command->add_option("--variant", request.variants, "Variants to choose from, a list (default: all of this CPU)")
+      ->delimiter(',');
+  command->add_option("--threads", arguments->threads, "Most threads to choose from (default: all cores)");
+  command->add_option(
+      "--budget", request.budget_s,
+      fmt::format("Time that all trials may take [s] (default: {:g} times the paper's run, at least {:g} s)",
+                  budget_share, least_budget_s));
+  command->add_option("--json", arguments->json, "File for the advice, or - for standard output");
+  command->add_flag("--verbose", arguments->is_verbose, "Every candidate, and why it was not chosen");
+  command->footer(
+      "Example: dssbench advise cantilever_beam --tolerance 1e-4\nExit code 1 if nothing meets the tolerance, or no "
+      "error can be estimated.");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return advise_scene(*arguments); }; });
+}
+
+} // namespace dss

@@ -1,0 +1,103 @@
+#include "experiments/runner/advise/reference_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace dss {
+namespace {
+
+constexpr double least_shrinking = 1.0 / 8; ///< of the change by a halving, that is believed
+constexpr double shrinks = 0.7;             ///< a change that is not below so much of the one before does not
+constexpr double of_rounding = 1e-7;        ///< changes that stop shrinking above it are none of rounding in f64
+
+/// Halvings until the goal is met, or cannot be.
+class Halving {
+public:
+  Halving(const Workbench& bench, Configuration start, double tolerance, double budget_s)
+      : bench_(bench), next_(std::move(start)), tolerance_(tolerance), budget_s_(budget_s) {}
+
+  ReferenceRun result() {
+    while (step()) next_.steps_between *= 2;
+    return std::move(reference_);
+  }
+
+private:
+  /// One more level. @return whether another is wanted
+  bool step() {
+    if (const double next_s = predicted_s(); !is_first() && next_s > budget_s_) return give_up_for_time(next_s);
+    Observation observation = bench_.run(next_);
+    budget_s_ -= observation.wall_s;
+    if (!observation.failure.empty()) {
+      if (is_first() && ++tries_ < 4) return true; // large motions may need shorter steps than small ones
+      reference_.failure = fmt::format("a run with steps of {:.3g} s fails: {}", bench_.dt(next_), observation.failure);
+      return false;
+    }
+    const bool was_first = is_first();
+    if (!was_first) judge(observation.observed);
+    reference_.configuration = next_;
+    reference_.observed = std::move(observation.observed);
+    reference_.levels.push_back({next_.steps_between, 0, observation.wall_s});
+    if (was_first) return true;
+    return reference_.error > reference_goal * tolerance_ && !has_stalled();
+  }
+
+  bool is_first() const { return reference_.levels.empty(); }
+  double predicted_s() const { return is_first() ? 0 : 2 * reference_.levels.back().wall_s; }
+
+  void judge(const Observed& finer) {
+    const double before = reference_.levels.size() > 1 ? reference_.levels[reference_.levels.size() - 2].change : 0;
+    const double change = bench_.error(finer, reference_.observed);
+    reference_.levels.back().change = change;
+    const double ratio = before > 0 ? change / before : 0.5; // nothing is known of the order yet
+    stalls_ = before > 0 && ratio > shrinks ? stalls_ + 1 : 0;
+    const double believed = std::clamp(ratio, least_shrinking, shrinks);
+    reference_.error = stalls_ > 0 ? std::max(change, before) : change * believed / (1 - believed);
+  }
+
+  /// Twice in a row changes did not shrink: halving will not help any more.
+  bool has_stalled() {
+    if (stalls_ < 2) return false;
+    if (reference_.error <= reference_bar * tolerance_) return true;
+    const bool is_rounding = reference_.error < of_rounding;
+    if (is_rounding) reference_.least_tolerance = reference_.error / reference_bar;
+    reference_.failure =
+        is_rounding
+            ? fmt::format(
+                  "rounding of f64 leaves {:.1e}, whatever the step; the least tolerance that can be judged here "
+                  "is {:.1e}",
+                  reference_.error, reference_.least_tolerance)
+            : fmt::format(
+                  "halving the step three times over still changes the {} by {:.1e}: the motion amplifies what "
+                  "differs (chaos, buckling, a step far too long), so no error can be estimated; take a shorter "
+                  "--end",
+                  name(bench_.quantity()), reference_.error);
+    return true;
+  }
+
+  bool give_up_for_time(double next_s) {
+    if (reference_.error > 0 && reference_.levels.size() > 1 && reference_.error <= reference_bar * tolerance_)
+      return false;
+    if (reference_.levels.size() > 1) reference_.least_tolerance = reference_.error / reference_bar;
+    reference_.failure =
+        fmt::format("a run to estimate errors by needs {:.2g} s more, above what is left of --budget: {:.2g} s", next_s,
+                    std::max(budget_s_, 0.0));
+    return false;
+  }
+
+  const Workbench& bench_;
+  Configuration next_;
+  const double tolerance_;
+  double budget_s_;
+  int stalls_ = 0, tries_ = 0;
+  ReferenceRun reference_;
+};
+
+} // namespace
+
+ReferenceRun find_reference(const Workbench& bench, const Configuration& start, double tolerance, double budget_s) {
+  return Halving(bench, start, tolerance, budget_s).result();
+}
+
+} // namespace dss

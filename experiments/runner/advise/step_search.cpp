@@ -1,0 +1,93 @@
+#include "experiments/runner/advise/step_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dss {
+namespace {
+
+constexpr double fine_enough = 1.07;              ///< steps that meet the tolerance over steps that do not
+constexpr double margin = 1.03;                   ///< more steps than the order promises to need
+constexpr double longest_leap = 4;                ///< from steps that fail to the next that are tried
+constexpr double stalls_from = 1.5, stalls = 0.8; ///< of steps; of the error
+constexpr int most_runs = 14;
+
+class StepSearch {
+public:
+  explicit StepSearch(const StepTask& task) : task_(task), order_(task.order), failing_(task.first - 1) {}
+
+  StepResult result() {
+    for (long steps = task_.first; result_.runs < most_runs; steps = next()) {
+      if (task_.cost(steps) > task_.most_cost) break;
+      if (try_steps(steps) || !is_open()) break;
+    }
+    if (result_.verdict != StepResult::Verdict::stalls && passing_ > 0)
+      result_ = {StepResult::Verdict::meets, passing_, passing_error_, result_.runs};
+    return result_;
+  }
+
+private:
+  /// @return whether the search is over because errors stall
+  bool try_steps(long steps) {
+    const double error = task_.error(steps);
+    ++result_.runs;
+    result_.steps = steps;
+    result_.error = error;
+    if (error <= task_.most_error) {
+      passing_ = steps;
+      passing_error_ = error;
+      return false;
+    }
+    if (std::isfinite(failing_error_) && failing_error_ > 0) {
+      const double finer = double(steps) / double(failing_);
+      if (passing_ == 0 && finer >= stalls_from && error > stalls * failing_error_) {
+        result_.verdict = StepResult::Verdict::stalls;
+        return true;
+      }
+      if (finer > 1.1) {
+        order_ = std::clamp(std::log(failing_error_ / error) / std::log(finer), 0.5, 2.0 * task_.order);
+        knows_order_ = true;
+      }
+    }
+    failing_ = steps;
+    failing_error_ = error;
+    return false;
+  }
+
+  bool is_open() const {
+    return passing_ == 0 || (passing_ > failing_ + 1 && double(passing_) > fine_enough * double(failing_));
+  }
+
+  long next() const {
+    const double few = double(failing_);
+    if (passing_ > 0) { // between one that fails and one that meets it
+      double guess = std::sqrt(few * double(passing_));
+      if (std::isfinite(failing_error_) && failing_error_ > 0) {
+        const double predicted = few * std::pow(failing_error_ / task_.most_error, 1 / order_) * margin;
+        if (predicted < 0.98 * double(passing_)) guess = predicted;
+      }
+      return std::clamp(long(std::ceil(guess)), failing_ + 1, passing_ - 1);
+    }
+    if (!std::isfinite(failing_error_)) return 2 * failing_;
+    const double predicted = few * std::pow(failing_error_ / task_.most_error, 1 / order_) * margin;
+    // Near the stability limit errors may fall faster than the order says: one more look before the prediction is believed.
+    const bool is_dear = task_.cost(long(std::min(predicted, 1e15))) > task_.most_cost;
+    const double steps = is_dear && !knows_order_ ? 2 * few
+                         : is_dear                ? predicted
+                                                  : std::min(predicted, longest_leap * few);
+    return std::max(failing_ + 1, long(std::ceil(std::min(steps, 1e15))));
+  }
+
+  const StepTask& task_;
+  double order_;
+  long failing_, passing_ = 0;
+  double failing_error_ = 0, passing_error_ = 0;
+  bool knows_order_ = false;
+  StepResult result_;
+};
+
+} // namespace
+
+StepResult fewest_steps(const StepTask& task) { return StepSearch(task).result(); }
+
+} // namespace dss
