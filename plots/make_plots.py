@@ -19,6 +19,7 @@ import plate_picture
 import scaling_lines
 import speedup_bars
 import stability_map
+import statics
 import work_precision
 
 
@@ -42,7 +43,7 @@ def main():
             continue
         if table.stem.startswith("work_precision_"):  # what the chart shows already, in words
             continue
-        if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum, work_precision, error_budget, model_ladder)):
+        if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum, statics, work_precision, error_budget, model_ladder)):
             print(output)
             continue
         print(speedup_bars.draw(table, None, output) or output)

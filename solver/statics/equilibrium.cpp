@@ -18,10 +18,31 @@ constexpr double large_turn = 1e-3;           ///< of the first one, after which
 constexpr double least_increment = 1.0 / 256; ///< of the loads
 constexpr double near_enough = 1e-9;          ///< a correction that rounding keeps from falling further
 
+/// Conjugate gradients take some thirty iterations for each element along the longest side: what is held at one end is felt at the other.
+double expected_iterations(const Problem& problem) {
+  int longest = 1;
+  for (const Row& row : problem.lattice.rows)
+    longest = std::max({longest, row.x_end - row.x_begin, row.y + 1, row.z + 1});
+  return 30.0 * longest;
+}
+
+/// Factors of more unknowns take more than some 10 GB: in a plane they grow nearly in proportion, in space by the power 4/3.
+SolverKind affordable(const StaticSystem& system, SolverKind kind) {
+  const Problem& problem = system.problem();
+  const bool is_flat = double(problem.link_count()) < 2.2 * double(problem.lattice.element_count);
+  const Eigen::Index most = is_flat ? 1'500'000 : 150'000;
+  if (system.size() <= most) return kind;
+  if (kind == SolverKind::direct)
+    throw InputError(fmt::format("{}: {} unknowns are too many for factors; give --solver cg, relaxation or auto",
+                                 problem.name, system.size()));
+  return SolverKind::cg;
+}
+
 class Iteration {
 public:
   Iteration(StaticSystem& system, const EquilibriumOptions& options)
-      : system_(system), options_(options), solver_(options.solver, options.preconditioner),
+      : system_(system), options_(options),
+        solver_(affordable(system, options.solver), options.preconditioner, expected_iterations(system.problem())),
         edge_(shortest_edge(system.problem())) {}
 
   Equilibrium run(const StaticSystem::State& start) {

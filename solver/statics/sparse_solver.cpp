@@ -13,8 +13,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr double most_direct_work =
-    2e10; ///< multiplications of a factorisation that `automatic` still takes: some 20 s
+// Of time: a multiplication of a factorisation takes as long as so many of conjugate gradients.
+constexpr double weight_of_factors = 3;
+constexpr double cg_work = 8; ///< multiplications of an iteration for each entry of the lower half
 constexpr double zero_pivot_share = 1e-12;
 
 /// Inverses of blocks of six successive unknowns, an element's where nothing is clamped.
@@ -82,7 +83,9 @@ void SparseSolver::prepare(const Matrix& lower) {
     factors_.analyzePattern(lower);
     is_analysed_ = true;
     if (kind_ == SolverKind::automatic)
-      kind_ = factors_.work() <= most_direct_work ? SolverKind::direct : SolverKind::cg;
+      kind_ = weight_of_factors * factors_.work() <= cg_work * cg_iterations_ * double(lower.nonZeros())
+                  ? SolverKind::direct
+                  : SolverKind::cg;
   }
   if (is_direct()) {
     factors_.analyzePattern(lower); // entries may vanish or appear with the state

@@ -12,8 +12,8 @@
 
 namespace dss {
 
-/// direct: L D L^T in an approximate minimum degree order. cg: preconditioned conjugate gradients. automatic: direct where its factors take
-/// little work, as the order of elimination tells before any is done.
+/// direct: L D L^T in an approximate minimum degree order. cg: preconditioned conjugate gradients. automatic: which is expected to take less work;
+/// that of the factors is known from the order of elimination before any is done.
 enum class SolverKind { automatic, direct, cg };
 enum class Preconditioner { incomplete_cholesky, block_jacobi };
 
@@ -31,8 +31,10 @@ public:
 
 class SparseSolver {
 public:
-  explicit SparseSolver(SolverKind kind, Preconditioner preconditioner = Preconditioner::incomplete_cholesky)
-      : kind_(kind), preconditioner_(preconditioner) {}
+  /// @param cg_iterations  that conjugate gradients are expected to take, for `automatic`
+  explicit SparseSolver(SolverKind kind, Preconditioner preconditioner = Preconditioner::incomplete_cholesky,
+                        double cg_iterations = 1000)
+      : kind_(kind), preconditioner_(preconditioner), cg_iterations_(cg_iterations) {}
 
   /// For a matrix that is singular, of which incomplete factors would be too.
   void take_conjugate_gradients() {
@@ -60,6 +62,7 @@ private:
 
   SolverKind kind_;
   Preconditioner preconditioner_;
+  double cg_iterations_;
   Factors factors_;
   bool is_analysed_ = false, met_no_stiffness_ = false;
   Eigen::SparseMatrix<double> lower_; ///< for conjugate gradients

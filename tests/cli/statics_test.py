@@ -84,7 +84,7 @@ class Statics(ProgramTest):
         self.assert_refused(2, ["--solver direct", "--model linear"], *STATIC, "--solver", "direct", "--model", "spatial")
         self.assert_refused(2, ["--solver newton", "linear"], *STATIC, "--solver", "newton", "--model", "linear")
         self.assert_refused(2, ["--modes 0"], *MODAL, "--modes", "0")
-        self.assert_refused(2, ["--model axial", "loads"], *STATIC, "--model", "axial")
+        self.assert_refused(2, ["--model axial", "load 0"], *STATIC, "--model", "axial")
 
     def test_the_shipped_study_passes(self):
         result = dssbench("experiment", "statics", "--scale", "smoke", "--out", self.directory)

@@ -46,8 +46,6 @@ struct AnalysisResult {
   std::string note;                  ///< what a user should know of a result that is fine
 };
 
-std::vector<std::string> names_of_models();
-
 /// Adds the options of analyses to those of `run`.
 void add_analysis_options(CLI::App& command, AnalysisRequest& request);
 

@@ -1,6 +1,6 @@
 #include "experiments/runner/statics/analysis.hpp"
+#include "experiments/runner/statics/analysis_model.hpp"
 #include "solver/error.hpp"
-#include "solver/nearest_name.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -11,23 +11,13 @@ namespace {
 
 constexpr int most_modes = 1000;
 
-Model chosen_model(const RunRequest& run, const Scene& scene) {
-  const std::string text = run.model.value_or(scene.model);
-  const std::optional<Model> model = find_model(text);
-  if (!model)
-    throw InputError(fmt::format("--model {}: unknown model; {}", text, nearest_name(text, names_of_models())));
-  if (const std::string why = why_not_planar(scene.problem); *model == Model::planar && !why.empty())
-    throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", scene.name, why));
-  return *model;
-}
-
 } // namespace
 
 AnalysisResult solve_modal(const RunRequest& run, const AnalysisRequest& request) {
   if (request.modes < 1 || request.modes > most_modes)
     throw InputError(fmt::format("--modes {}: give 1 to {}", request.modes, most_modes));
   const Scene scene = load_scene(run.scene, run.overrides);
-  const Model model = chosen_model(run, scene);
+  const Model model = modal_model(run, scene);
   if (request.is_prestressed && is_linear(model))
     throw InputError(fmt::format("--prestressed: loads do not change the stiffness of the model {}; give --model "
                                  "spatial, or leave it out",

@@ -1,8 +1,10 @@
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/statics/analysis.hpp"
+#include "experiments/runner/statics/analysis_model.hpp"
 #include "experiments/runner/statics/relaxation.hpp"
 #include "solver/error.hpp"
 #include "solver/model/energy.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/numerics/denormals.hpp"
 #include "solver/numerics/stability.hpp"
@@ -18,27 +20,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr double step_share = 0.95;     ///< of the largest stable step
-constexpr int most_tries = 4;           ///< each with half the step
-constexpr double foreign_forces = 1e-6; ///< left on what a model holds, against the loads
-
-/// Of the scene, the option, or the solver: direct and cg solve linear equations.
-Model chosen_model(const RunRequest& run, const Scene& scene, const std::string& solver) {
-  const bool is_linear_solver = solver == "direct" || solver == "cg";
-  const std::string name = run.model.value_or(is_linear_solver ? "linear" : scene.model);
-  const std::optional<Model> model = find_model(name);
-  if (!model)
-    throw InputError(fmt::format("--model {}: unknown model; {}", name, nearest_name(name, names_of_models())));
-  if (is_linear_solver && !is_linear(*model))
-    throw InputError(
-        fmt::format("--solver {}: solves linear equations; give --model linear, or --solver newton", solver));
-  if (solver == "newton" && is_linear(*model))
-    throw InputError(
-        fmt::format("--solver newton: equations of the model {} are linear; give --solver direct or cg", name));
-  if (const std::string why = why_not_planar(scene.problem); *model == Model::planar && !why.empty())
-    throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", scene.name, why));
-  return *model;
-}
+constexpr double step_share = 0.95; ///< of the largest stable step
+constexpr int most_tries = 4;       ///< each with half the step
 
 std::string chosen_solver(const std::string& solver) {
   const std::vector<std::string> known = {"auto", "direct", "cg", "newton", "relaxation"};
@@ -54,21 +37,13 @@ Preconditioner chosen_preconditioner(const std::string& name) {
                                nearest_name(name, {"incomplete_cholesky", "block_jacobi"})));
 }
 
-/// Where nothing leaves the plane only what moves in it is unknown.
+/// Where nothing leaves the plane only what moves in it is unknown, and of linear equations as little as the smallest linear model has.
 std::uint8_t unknowns_of(Model model, const Problem& problem) {
-  const std::uint8_t dofs = dofs_of(model);
-  return dofs == dof_all && why_not_planar(problem).empty() ? dofs_of(Model::planar) : dofs;
-}
-
-/// A model of fewer degrees of freedom holds if the others feel no forces in its state.
-void require_no_foreign_forces(const Problem& problem, Model model, double loads, const std::vector<double>& state) {
-  if (dofs_of(model) == dof_all) return;
-  StaticSystem whole(problem, rotation_of(model), dof_all, loads);
-  const double all = whole.load_norm(), left = whole.norm(whole.unbalanced(whole.inside(state)));
-  if (left > foreign_forces * all)
-    throw InputError(fmt::format("--model {}: {}: {:.3g} of the loads are on degrees of freedom that the model lacks; "
-                                 "give --model {}",
-                                 name(model), problem.name, left / all, is_linear(model) ? "linear" : "spatial"));
+  if (dofs_of(model) != dof_all) return dofs_of(model);
+  if (model == Model::linear)
+    for (const Model less : {Model::axial, Model::bending})
+      if (why_not(less, problem).empty()) return dofs_of(less);
+  return why_not_planar(problem).empty() ? dofs_of(Model::planar) : std::uint8_t(dof_all);
 }
 
 /// What a state in its plane would do if anything pushed it out; empty where it would come back.
@@ -117,7 +92,6 @@ void solve_equations(const Problem& problem, Model model, const std::string& sol
   result.cg_iterations = found.cg_iterations;
   if (!found.is_found) result.status = "not converged", result.reason = found.reason;
   result.note = found.note;
-  require_no_foreign_forces(problem, model, request.loads, result.state);
   if (dofs_of(model) == dof_all && !is_linear(model) && system.moving() != dof_all && found.solver == "direct")
     result.note = out_of_plane(problem, request.loads, found.state);
 }
@@ -136,7 +110,7 @@ void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& re
         fmt::format("--solver relaxation: runs an explicit method on one process; {}",
                     plan.method->is_implicit() ? "give --integrator velocity_verlet" : "leave --ranks out"));
   const Problem& problem = plan.scene.problem;
-  if (const std::string why = why_not_held(problem, dofs_of(model)); !why.empty())
+  if (const std::string why = why_not_held(problem, unknowns_of(model, problem)); !why.empty())
     throw InputError(fmt::format("{}: {}", problem.name, why));
   const Problem relaxed = relaxed_problem(problem, request.masses == "scaled", request.loads);
   const double loads = StaticSystem(problem, rotation_of(model), dofs_of(model), request.loads).load_norm();
@@ -171,12 +145,6 @@ void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& re
 
 } // namespace
 
-std::vector<std::string> names_of_models() {
-  std::vector<std::string> names;
-  for (const Model model : models) names.emplace_back(name(model));
-  return names;
-}
-
 AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& request) {
   const std::string solver = chosen_solver(request.solver);
   if (request.masses != "scaled" && request.masses != "scene")
@@ -185,7 +153,7 @@ AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& reques
   if (!(request.tolerance > 0))
     throw InputError(fmt::format("--tolerance {:g}: give a positive number", request.tolerance));
   const Scene scene = load_scene(run.scene, run.overrides);
-  const Model model = chosen_model(run, scene, solver);
+  const Model model = static_model(run, scene, solver);
   AnalysisResult result;
   result.analysis = "static";
   result.scene = scene.name;
