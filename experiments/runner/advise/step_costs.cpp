@@ -61,6 +61,7 @@ double StepCosts::evaluation_time(const Configuration& configuration) {
   if (known != evaluation_s_.end()) return known->second;
   Configuration fixed = configuration;
   fixed.rtol.reset();
+  if (bench_.stages(fixed) == 0) return std::numeric_limits<double>::infinity();
   const double time_s = bench_.step_time(fixed, step_timing_s) / bench_.stages(fixed);
   return evaluation_s_[key] = time_s;
 }
@@ -90,6 +91,7 @@ Configuration StepCosts::placed(Configuration configuration) {
 }
 
 double StepCosts::run_time(const Configuration& configuration) {
+  if (bench_.stages(configuration) == 0) return std::numeric_limits<double>::infinity();
   return evaluation_time(configuration) * bench_.stages(configuration) * double(bench_.steps(configuration));
 }
 

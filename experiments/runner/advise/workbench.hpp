@@ -5,6 +5,7 @@
 #include "solver/numerics/method.hpp"
 #include "variants/api.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -40,7 +41,7 @@ public:
   Quantity quantity() const { return quantity_; }
   double dt(const Configuration& of) const { return times_.interval() / double(of.steps_between); }
   long steps(const Configuration& of) const { return of.steps_between * times_.count; }
-  /// Force evaluations of a step: of rkc2 they follow from the step.
+  /// Force evaluations of a step: of rkc2 they follow from the step. 0: it has no number of stages for that
   int stages(const Configuration& of) const;
 
   Observation run(const Configuration& configuration) const;
@@ -54,9 +55,11 @@ public:
 
 private:
   class Process;
+  Method method_of(const Configuration& of) const;
   const Problem& problem_;
   const SavedTimes times_;
   const Quantity quantity_;
+  mutable std::map<long, int> rkc2_stages_; ///< by steps between saved times
 };
 
 } // namespace dss
