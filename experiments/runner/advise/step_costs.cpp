@@ -46,6 +46,7 @@ StepCosts::StepCosts(const Workbench& bench, const Configuration& base, const st
     for (int threads = 2; threads <= most_threads;
          threads = threads < most_threads ? std::min(2 * threads, most_threads) : threads + 1) {
       tried.threads = threads;
+      if (bench_.workers(tried) < threads) break; // too few rows
       const double threaded_s = evaluation_time(tried);
       if (threaded_s > thread_gain * before_s) break;
       before_s = threaded_s;

@@ -55,6 +55,8 @@ public:
 
   void restart() { write_initial_state(*executor_, bench_.problem_); }
 
+  int workers() const { return executor_->workers(); }
+
   double wall_s = 0;
   long steps = 0;
   std::string failure;
@@ -118,6 +120,8 @@ Observation Workbench::run(const Configuration& configuration) const {
   observation.failure = process.failure;
   return observation;
 }
+
+int Workbench::workers(const Configuration& configuration) const { return Process(*this, configuration).workers(); }
 
 double Workbench::step_time(const Configuration& configuration, double least_s) const {
   const FlushDenormals flush;

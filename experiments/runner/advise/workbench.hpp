@@ -20,6 +20,8 @@ struct Configuration {
   std::optional<double> rtol; ///< of adaptive steps
   std::string variant;
   int threads = 1;
+
+  bool operator==(const Configuration&) const = default;
 };
 
 /// What a run came to.
@@ -48,6 +50,8 @@ public:
   double error(const Observed& expected, const Observed& actual) const {
     return observed_error(problem_, quantity_, expected, actual);
   }
+  /// Threads that would compute.
+  int workers(const Configuration& configuration) const;
   /// Time of a step [s], the best of three short timings, each of `least_s` [s] or one step.
   double step_time(const Configuration& configuration, double least_s) const;
   /// Mean time of whole runs [s], so many that `least_s` [s] are measured.
