@@ -14,6 +14,7 @@ import continuum
 import error_budget
 import failure_atlas
 import figure9_lines
+import model_ladder
 import plate_picture
 import scaling_lines
 import speedup_bars
@@ -41,7 +42,7 @@ def main():
             continue
         if table.stem.startswith("work_precision_"):  # what the chart shows already, in words
             continue
-        if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum, work_precision, error_budget)):
+        if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum, work_precision, error_budget, model_ladder)):
             print(output)
             continue
         print(speedup_bars.draw(table, None, output) or output)

@@ -68,7 +68,7 @@ void register_all() {
           fmt::format("kernel/{}/{}/{}/{}", kernel.name, name(kernel.model), name(kernel.precision), plugin.name)
               .c_str(),
           [&kernel](benchmark::State& state) { run_kernel(state, kernel); });
-    for (const Model model : {Model::spatial, Model::planar})
+    for (const Model model : models)
       for (const Precision precision : {Precision::f64, Precision::f32})
         for (const int n : {100, 300})
           benchmark::RegisterBenchmark(

@@ -9,6 +9,18 @@
 
 namespace dss {
 
+namespace {
+
+Rotation rotation_of(const Cell& cell) { return rotation_of(find_model(cell.model).value_or(Model::spatial)); }
+
+/// Nothing where they are those of the spatial model, as in files of before there were others.
+std::string equations_of(const Cell& cell) {
+  const Rotation rotation = rotation_of(cell);
+  return rotation == Rotation::quaternion ? "" : fmt::format(", {} rotations", name(rotation));
+}
+
+} // namespace
+
 std::string ExpectedFiles::file_of(const Cell& cell) {
   const long steps = std::min(cell.steps, study_.scale.oracle_steps);
   const Scene scene = load_scene(cell.scene, cell.set);
@@ -19,7 +31,8 @@ std::string ExpectedFiles::file_of(const Cell& cell) {
           ? fmt::format("{} {} at {} times to {:.17g} s, {} to {:g}", cell.scene, of_scene, cell.times.count,
                         cell.times.end, study_.precision->solution.integrator, study_.precision->solution.tolerance)
           : fmt::format("{} {} {} steps of {:.17g} s, {}", cell.scene, cell.integrator, steps, scene.problem.dt,
-                        of_scene);
+                        of_scene) +
+                equations_of(cell);
   const std::string path = fmt::format("{}/{:016x}.{}", directory_, std::hash<std::string>{}(key),
                                        cell.is_of_precision() ? "solution" : "state");
   if (made_.contains(path)) return path;
@@ -39,7 +52,8 @@ void ExpectedFiles::make_oracle_state(const Cell& cell, const Scene& scene, cons
   const long steps = std::min(cell.steps, study_.scale.oracle_steps);
   require_stable(scene.problem, method, scene.problem.dt, false);
   note_(fmt::format("oracle: {} {}, {} steps", cell.scene, cell.set_text(), steps));
-  write_oracle_state(path, compute_oracle_state(scene.problem, method, scene.problem.dt, steps, key));
+  write_oracle_state(path,
+                     compute_oracle_state(scene.problem, method, rotation_of(cell), scene.problem.dt, steps, key));
 }
 
 void ExpectedFiles::make_solution(const Cell& cell, const Scene& scene, const std::string& key,

@@ -6,10 +6,12 @@
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/experiment.hpp"
+#include "experiments/runner/model/ladder_study.hpp"
 #include "experiments/runner/precision/error_budget.hpp"
 #include "experiments/runner/progress.hpp"
 #include "experiments/runner/simulation_study.hpp"
 #include "experiments/runner/stability_study.hpp"
+#include "experiments/runner/statics/statics_study.hpp"
 #include "experiments/runner/text_table.hpp"
 
 #include "solver/io/atomic_file.hpp"
@@ -121,6 +123,21 @@ int account(const ErrorBudgetStudy& study, const ExperimentArguments& arguments)
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
 
+int climb(const LadderStudy& study, const ExperimentArguments& arguments) {
+  if (arguments.is_dry) {
+    for (const LadderScene& scene : study.scenes)
+      fmt::print("{}: {} {}, auto ends with {}\n", study.name, scene.scene, set_text(scene.set), name(scene.ends_with));
+    return exit_success;
+  }
+  const std::string path = table_path(study.name, arguments.out);
+  flush_denormals();
+  Progress progress;
+  const Table table = ladder_table(study, [&](const std::string& line) { progress.note(line); });
+  write_csv(path, table);
+  fmt::print("{}\nTable: {}\n", ladder_text(study, table), path);
+  return has_failed_rows(table) ? exit_check_failed : exit_success;
+}
+
 int judge_advice(const AdviseStudy& study, const ExperimentArguments& arguments) {
   if (arguments.is_dry) {
     fmt::print("{}: advice on {} scenes at {} tolerances\n", study.name, study.cases.size(), study.tolerances.size());
@@ -141,6 +158,9 @@ int experiment(const ExperimentArguments& arguments) {
     return check(*failures, arguments, failures->cases.size(), failures_table, failures_text);
   if (const auto continuum = load_continuum(arguments.file, arguments.scale))
     return check(*continuum, arguments, continuum->checks.size(), continuum_table, continuum_text);
+  if (const auto ladder = load_ladder(arguments.file, arguments.scale)) return climb(*ladder, arguments);
+  if (const auto statics = load_statics(arguments.file, arguments.scale))
+    return check(*statics, arguments, statics->cases.size(), statics_table, statics_text);
   if (const auto budget = load_error_budget(arguments.file, arguments.scale)) return account(*budget, arguments);
   if (const auto balance = load_balance(arguments.file, arguments.scale)) return model(*balance, arguments);
   if (const auto limits = load_stability(arguments.file, arguments.scale)) return find_limits(*limits, arguments);

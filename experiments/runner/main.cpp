@@ -68,6 +68,7 @@ int run_program(int argc, char** argv) {
   Chosen chosen;
   add_list_command(app, chosen);
   add_run_command(app, chosen);
+  add_explain_command(app, chosen);
   add_advise_command(app, chosen);
   add_verify_command(app, chosen);
   add_experiment_command(app, chosen);

@@ -15,9 +15,10 @@ constexpr const char* format = "dssbench-oracle-1";
 
 } // namespace
 
-OracleState compute_oracle_state(const Problem& problem, const Method& method, double dt, long steps, std::string key) {
+OracleState compute_oracle_state(const Problem& problem, const Method& method, Rotation rotation, double dt, long steps,
+                                 std::string key) {
   OracleState result{std::move(key), steps, initial_state(problem)};
-  Oracle<long double> oracle(problem, method, dt);
+  Oracle<long double> oracle(problem, method, dt, rotation);
   oracle.write(result.state);
   if (const auto breakdown = oracle.advance(steps))
     throw UnstableError(fmt::format("{}: by the oracle {}; take a smaller dt", problem.name,
@@ -26,9 +27,9 @@ OracleState compute_oracle_state(const Problem& problem, const Method& method, d
   return result;
 }
 
-std::vector<double> continue_by_oracle(const Problem& problem, const Method& method, double dt, long first_step,
-                                       long steps, const std::vector<double>& state) {
-  Oracle<long double> oracle(problem, method, dt);
+std::vector<double> continue_by_oracle(const Problem& problem, const Method& method, Rotation rotation, double dt,
+                                       long first_step, long steps, const std::vector<double>& state) {
+  Oracle<long double> oracle(problem, method, dt, rotation);
   oracle.write(state);
   const std::size_t width = signal_count(problem);
   const std::vector<double> rows = signal_rows(problem, method, dt, first_step, steps);

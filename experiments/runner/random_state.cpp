@@ -1,5 +1,7 @@
 #include "experiments/runner/verify.hpp"
+#include "variants/engine/layout.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -18,25 +20,30 @@ private:
   std::mt19937_64 generator_;
 };
 
+bool has(Model model, Field field) {
+  const auto fields = model_layout(model).fields;
+  return std::ranges::find(fields, field) != fields.end();
+}
+
 void set_rotation(double* fields, Model model, Symmetric& random) {
   double axis[3] = {random(), random(), random()};
   const double angle = largest_angle * random();
-  if (model == Model::planar) axis[0] = axis[1] = 0;
+  for (int a = 0; a < 3; ++a)
+    if (!has(model, Field(qx + a))) axis[a] = 0;
+  if (model == Model::axial) return;
   const double length = std::hypot(axis[0], axis[1], axis[2]);
   for (int a = 0; a < 3; ++a) fields[qx + a] = axis[a] / length * std::sin(angle / 2);
   fields[qs] = -2 * std::sin(angle / 4) * std::sin(angle / 4);
 }
 
-void clear_out_of_plane(double* fields) {
-  for (const int field : {uz, vz, wx, wy}) fields[field] = 0;
-}
-
 } // namespace
 
 std::vector<double> random_state(const Problem& problem, Model model, Precision precision, unsigned seed) {
-  Symmetric random(seed);
+  Symmetric of_all(seed);
   std::vector<double> state(problem.lattice.element_count * field_count);
-  problem.lattice.for_each_element([&](std::size_t element, const Row& row, int) {
+  problem.lattice.for_each_element([&](std::size_t element, const Row& row, int x) {
+    Symmetric of_x(seed + unsigned(x)); // the axial model holds what rows do alike
+    Symmetric& random = model == Model::axial ? of_x : of_all;
     double* fields = &state[element * field_count];
     const Vec3& edge = problem.bodies[std::size_t(row.body)].edge;
     for (int a = 0; a < 3; ++a) {
@@ -44,8 +51,9 @@ std::vector<double> random_state(const Problem& problem, Model model, Precision 
       fields[vx + a] = random();
       fields[wx + a] = 10 * random();
     }
+    for (const Field field : {ux, uy, uz, vx, vy, vz, wx, wy, wz})
+      if (!has(model, field)) fields[field] = 0;
     set_rotation(fields, model, random);
-    if (model == Model::planar) clear_out_of_plane(fields);
   });
   for (const Clamp& clamp : problem.clamps)
     for (int a = 0; a < 3; ++a) {

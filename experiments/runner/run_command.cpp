@@ -3,6 +3,7 @@
 #include "experiments/runner/job.hpp"
 #include "experiments/runner/run.hpp"
 #include "experiments/runner/run_plan.hpp"
+#include "experiments/runner/statics/analysis.hpp"
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 
 struct RunArguments {
   RunRequest request;
+  AnalysisRequest analysis;
   std::vector<std::string> set;
 };
 
@@ -97,9 +99,12 @@ void require_startable(RunRequest request) {
   decomposition_for(plan.scene.problem, request.decomposition, request.ranks);
 }
 
-int run(const RunArguments& arguments) {
+int run(const CLI::App& command, const RunArguments& arguments) {
   RunRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.set);
+  const std::string analysis = chosen_analysis(command, request, arguments.analysis);
+  if (analysis != "dynamic" && request.model == "auto") request.model.reset(); // solvers have models of their own
+  if (analysis != "dynamic") return run_analysis(analysis, request, arguments.analysis);
   if (job_rank().ranks > 1 && request.ranks == 1) request.ranks = job_rank().ranks; // started by mpirun itself
   if (request.ranks > 1 && !job_rank().is_started) {
     require_startable(request);
@@ -110,7 +115,7 @@ int run(const RunArguments& arguments) {
   const RunResult result = run_scene(request);
   if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));
   if (result.status == "unstable") throw UnstableError(result.reason);
-  if (request.json != "-") print_summary(result);
+  if (request.json != "-" && result.status != "bound") print_summary(result);
   if (result.status == "ok") return exit_success;
   fmt::print(stderr, "dssbench: {}: {}\n", result.scene, result.reason);
   return exit_check_failed;
@@ -221,7 +226,9 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       ->group("Checks");
   command->footer(
       "Example: dssbench run plate_paper --set n=100 --steps 500 --variant avx2 --threads 2 --output plate.vtu");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+  add_analysis_options(*command, arguments->analysis);
+  command->callback(
+      [arguments, command, &chosen] { chosen = [arguments, command] { return run(*command, *arguments); }; });
 }
 
 } // namespace dss

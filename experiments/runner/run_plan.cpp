@@ -15,12 +15,6 @@
 namespace dss {
 namespace {
 
-Precision chosen_precision(const std::string& name) {
-  if (const auto precision = find_precision(name)) return *precision;
-  throw InputError(
-      fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32", "f32c"})));
-}
-
 Rotation chosen_rotation(const std::string& text) {
   if (const auto rotation = find_rotation(text)) return *rotation;
   std::vector<std::string> known;
@@ -175,9 +169,7 @@ std::string why_no_watch(const RunRequest& request, const RunPlan& plan) {
 ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
   const Problem& problem = plan.scene.problem;
   const std::string asked = request.model.value_or(request.is_model_auto ? plan.scene.asked_model : plan.scene.model);
-  const double tolerance = request.model_tolerance.value_or(plan.tolerance().run);
-  if (!(tolerance > 0) || !std::isfinite(tolerance))
-    throw InputError(fmt::format("--model-tolerance {:g}: give a positive number, 1e-3 for one", tolerance));
+  const double tolerance = require_model_tolerance(request.model_tolerance.value_or(plan.tolerance().run));
   if (request.on_bound != "promote" && request.on_bound != "stop")
     throw InputError(fmt::format("--on-bound {}: unknown; {}", request.on_bound,
                                  nearest_name(request.on_bound, {"promote", "stop"})));
@@ -202,6 +194,17 @@ std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const 
   if (rotation != Rotation::quaternion)
     return Lack{fmt::format("--rotation {}", name(rotation)), "has quaternions alone"};
   return {};
+}
+
+Precision require_precision_name(const std::string& name) {
+  if (const auto precision = find_precision(name)) return *precision;
+  throw InputError(
+      fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32", "f32c"})));
+}
+
+double require_model_tolerance(double tolerance) {
+  if (tolerance > 0 && std::isfinite(tolerance)) return tolerance;
+  throw InputError(fmt::format("--model-tolerance {:g}: give a positive number, 1e-3 for one", tolerance));
 }
 
 const Method& require_method(const std::string& name) {
@@ -235,7 +238,7 @@ RunPlan plan_run(const RunRequest& request) {
   const VariantName variant = asked_variant(request);
   plan.plugin = &load_variant(variant.name);
   plan.distribution = {request.ranks, variant.part, request.decomposition, request.halo, request.shares == "measured"};
-  plan.precision = chosen_precision(request.precision.value_or("f64"));
+  plan.precision = require_precision_name(request.precision.value_or("f64"));
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
   plan.rotation = chosen_rotation(request.rotation.value_or("quaternion"));
   plan.dt = request.dt.value_or(problem.dt);

@@ -45,6 +45,12 @@ struct Lack {
 };
 std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const Method& method, Rotation rotation);
 
+/// @throws InputError for an unknown name, with the nearest
+Precision require_precision_name(const std::string& name);
+
+/// @return the tolerance. @throws InputError for one that is not positive
+double require_model_tolerance(double tolerance);
+
 /// Method by its name. @throws InputError for an unknown one, naming the nearest
 const Method& require_method(const std::string& name);
 

@@ -135,7 +135,7 @@ nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& resu
   json["element_steps_per_s"] = result.element_steps_per_s();
   json["energy_j"] = result.energy_j ? Json(*result.energy_j) : nullptr;
   json["energy_drift"] = result.energy_drift ? Json(*result.energy_drift) : nullptr;
-  const bool has_state = result.status != "unstable";
+  const bool has_state = result.status != "unstable" && result.status != "bound";
   json["max_displacement_m"] = has_state ? Json(result.max_displacement_m) : nullptr;
   json["state_digest"] = has_state ? Json(fmt::format("{:016x}", result.digest)) : nullptr;
   json["schedule"] = result.schedule;

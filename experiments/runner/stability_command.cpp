@@ -47,9 +47,9 @@ std::vector<LimitComparison> comparisons(const StabilityArguments& arguments, co
 }
 
 nlohmann::ordered_json limit_json(const LimitComparison& row) {
-  using Json = nlohmann::ordered_json;
+  using LimitJson = nlohmann::ordered_json;
   const auto number = [](double value, bool is_there = true) {
-    return is_there && std::isfinite(value) ? Json(value) : Json();
+    return is_there && std::isfinite(value) ? LimitJson(value) : LimitJson();
   };
   const bool is_measured = row.measured.runs > 0;
   return {{"integrator", std::string(row.method->name)},

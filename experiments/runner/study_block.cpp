@@ -4,6 +4,7 @@
 #include "experiments/runner/study_devices.hpp"
 #include "solver/decomposition/decomposition.hpp"
 #include "solver/model/model.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/numerics/method.hpp"
 
@@ -129,7 +130,7 @@ Block read_block(const JsonPlace& place, const Sets& scale_sets, int cores) {
     }
   read_variants(place, cores, block);
   block.threads = place.has("threads") ? counts(place["threads"], cores, "threads") : std::vector<int>{1};
-  block.models = known_names(place, "models", "spatial", "model", {"spatial", "planar"});
+  block.models = known_names(place, "models", "spatial", "model", model_names());
   block.precisions = known_names(place, "precisions", "f64", "precision", {"f64", "f32", "f32c"});
   block.integrators = known_names(place, "integrators", "rk4", "integrator", method_names());
   read_ranks(place, cores, block);
@@ -225,16 +226,16 @@ std::vector<Cell> cells_of(const JsonPlace& place, const Block& block, const Sca
   return cells;
 }
 
-/// Refuses what cannot be run at all: an unknown scene or override, a planar model of what leaves the plane.
+/// Refuses what cannot be run at all: an unknown scene or override, a model without the degrees of freedom.
 void require_loadable(const JsonPlace& place, const Block& block, const std::vector<Cell>& cells) {
   std::set<std::string> loaded;
   for (const Cell& cell : cells) {
     if (!loaded.insert(cell.set_text()).second) continue;
     try {
       const Scene scene = load_scene(cell.scene, cell.set);
-      const bool is_planar = std::find(block.models.begin(), block.models.end(), "planar") != block.models.end();
-      if (const std::string why = why_not_planar(scene.problem); is_planar && !why.empty())
-        throw InputError(fmt::format("model \"planar\": {}", why));
+      for (const std::string& model : block.models)
+        if (const std::string why = why_not(*find_model(model), scene.problem); !why.empty())
+          throw InputError(fmt::format("model \"{}\": {}", model, why));
     } catch (const InputError& error) {
       place.fail(error.what());
     }

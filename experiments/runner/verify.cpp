@@ -3,6 +3,7 @@
 #include "experiments/runner/state_access.hpp"
 #include "solver/decomposition/decomposition.hpp"
 #include "solver/error.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
@@ -37,7 +38,7 @@ class SceneVerification {
 public:
   SceneVerification(const Scene& scene, long steps, const std::string& device)
       : scene_(scene), problem_(scene.problem), steps_(steps), device_(device) {
-    for (const Method& method : methods()) expected_runs_[&method] = expected_run(method);
+    for (const Method& method : methods()) steps_of_[&method] = verified_step(problem_, method);
   }
 
   void verify(Model model, Precision precision, const std::vector<const Plugin*>& plugins) {
@@ -46,7 +47,7 @@ public:
     first_bits_.clear();
     random_ = random_state(problem_, model, precision, seed);
     expected_rates_.assign(random_.size(), std::numeric_limits<double>::quiet_NaN());
-    Oracle<long double> oracle(problem_, methods().front(), problem_.dt);
+    Oracle<long double> oracle(problem_, methods().front(), problem_.dt, rotation_of(model));
     oracle.write(random_);
     oracle.derivative(first_signals(), expected_rates_);
     for (const Plugin* plugin : plugins) {
@@ -74,16 +75,24 @@ private:
   std::vector<const Method*> verified_methods(const Plugin& plugin) const {
     std::vector<const Method*> chosen;
     for (const Method& method : methods())
-      if ((precision_ == Precision::f64 && (plugin.kernels != nullptr || plugin.has_all)) || is_of_the_tables(method))
+      if ((precision_ == Precision::f64 && (plugin.kernels != nullptr || plugin.has_all) && is_common()) ||
+          is_of_the_tables(method))
         chosen.push_back(&method);
     return chosen;
   }
 
-  ExpectedRun expected_run(const Method& method) const {
-    ExpectedRun run;
-    run.dt = verified_step(problem_, method);
+  /// The two models that most runs take are verified with every method on every variant.
+  bool is_common() const { return model_ == Model::spatial || model_ == Model::planar; }
+
+  /// Found once for all models of the same equations.
+  const ExpectedRun& expected_run(const Method& method) {
+    const Rotation equations = rotation_of(model_);
+    const auto [place, is_new] = expected_runs_.try_emplace({&method, equations});
+    ExpectedRun& run = place->second;
+    if (!is_new) return run;
+    run.dt = steps_of_.at(&method);
     run.state = initial_state(problem_);
-    Oracle<long double> oracle(problem_, method, run.dt);
+    Oracle<long double> oracle(problem_, method, run.dt, equations);
     oracle.write(run.state);
     oracle.advance(steps_);
     oracle.read(run.state);
@@ -101,6 +110,9 @@ private:
       if (const auto lack = what_lacks(plugin, precision_, methods().front(), Rotation::quaternion)) return lack->what;
       if (precision_ == Precision::f32c && plugin.devices != nullptr)
         return "left to tests/equivalence: programs of their own for every scene take minutes to compile";
+      if (!is_common() && plugin.kernels == nullptr && !plugin.has_all)
+        return "left to tests/equivalence: this variant computes by the kernels of others, or compiles them for every "
+               "scene";
       if (plugin.devices != nullptr) require_precision(choose_device(plugin.devices(), device_), precision_);
     } catch (const InputError& error) {
       return error.what();
@@ -155,7 +167,7 @@ private:
   }
 
   void run(const Plugin& plugin, const Method& method) {
-    const ExpectedRun& expected = expected_runs_.at(&method);
+    const ExpectedRun& expected = expected_run(method);
     const std::vector<double> signals = signal_rows(problem_, method, expected.dt, 0, steps_);
     const std::string run_name(method.name);
     std::optional<std::uint64_t> digest;
@@ -191,7 +203,8 @@ private:
   std::string device_;
   Model model_ = Model::spatial;
   Precision precision_ = Precision::f64;
-  std::map<const Method*, ExpectedRun> expected_runs_;
+  std::map<const Method*, double> steps_of_;
+  std::map<std::pair<const Method*, Rotation>, ExpectedRun> expected_runs_;
   std::vector<double> random_, expected_rates_;
   std::map<std::string, std::pair<std::string, std::uint64_t>> first_bits_;
 };
@@ -202,8 +215,8 @@ std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin
                                     int ranks, const std::string& device) {
   const Problem& problem = scene.problem;
   std::vector<VerifyRow> rows;
-  for (const Model model : {Model::spatial, Model::planar}) {
-    if (model == Model::planar && !why_not_planar(problem).empty()) continue;
+  for (const Model model : models) {
+    if (!why_not(model, problem).empty()) continue;
     for (const Precision precision : precisions)
       for (const Method& method : methods()) {
         if (!is_of_the_tables(method)) continue; // what ranks exchange does not depend on coefficients
@@ -251,10 +264,9 @@ std::vector<VerifyRow> verify_scene(const Scene& scene, long steps, const std::v
   std::vector<const Plugin*> verified = plugins;
   if (device == no_device) std::erase_if(verified, [](const Plugin* plugin) { return plugin->devices != nullptr; });
   SceneVerification verification(scene, steps, device);
-  const std::string why = why_not_planar(scene.problem);
-  for (const Model model : {Model::spatial, Model::planar}) {
-    if (model == Model::planar && !why.empty()) {
-      verification.rows.push_back({scene.name, "planar", "", "", "all", {}, {}, Verdict::skipped, why});
+  for (const Model model : models) {
+    if (const std::string why = why_not(model, scene.problem); !why.empty()) {
+      verification.rows.push_back({scene.name, std::string(name(model)), "", "", "all", {}, {}, Verdict::skipped, why});
       continue;
     }
     for (const Precision precision : precisions) verification.verify(model, precision, verified);

@@ -42,10 +42,15 @@ constexpr std::optional<Model> find_model(std::string_view text) {
     if (name(model) == text) return model;
   return std::nullopt;
 }
+inline std::vector<std::string> model_names() {
+  std::vector<std::string> names;
+  for (const Model model : models) names.emplace_back(name(model));
+  return names;
+}
 /// What --model and a scene's run.model take.
 inline std::vector<std::string> model_names_and_auto() {
-  std::vector<std::string> names{"auto"};
-  for (const Model model : models) names.emplace_back(name(model));
+  std::vector<std::string> names = model_names();
+  names.emplace_back("auto");
   return names;
 }
 constexpr std::optional<Precision> find_precision(std::string_view text) {

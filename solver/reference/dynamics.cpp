@@ -73,23 +73,27 @@ void Dynamics<T>::add_links(const Problem& problem) {
 }
 
 template <class T>
-void Dynamics<T>::place(std::span<const T> state) {
-  for (std::size_t e = 0; e < elements_.size(); ++e) {
-    Motion<T>& motion = motions_[e] = motion_of(state.data() + e * field_count);
-    if (coordinates_.rotation() == Rotation::quaternion) continue;
-    if (has_vectors()) {
-      motion.turned = cross_matrix<T>(motion.q.v);
-      motion.q.v /= T(2);
-    } else {
-      motion.q = coordinates_.read(e, motion.q);
-      motion.turned = turn(motion.q);
-    }
+Motion<T> Dynamics<T>::placed(std::size_t e, const T* fields) const {
+  Motion<T> motion = motion_of(fields);
+  if (coordinates_.rotation() == Rotation::quaternion) return motion;
+  if (has_vectors()) {
+    motion.turned = cross_matrix<T>(motion.q.v);
+    motion.q.v /= T(2);
+  } else {
+    motion.q = coordinates_.read(e, motion.q);
+    motion.turned = turn(motion.q);
   }
+  return motion;
 }
 
 template <class T>
-Reaction<T> Dynamics<T>::link_reaction(const Motion<T>& i, const Motion<T>& j,
-                                       const LinkProperties<T>& properties) const {
+void Dynamics<T>::place(std::span<const T> state) {
+  for (std::size_t e = 0; e < elements_.size(); ++e) motions_[e] = placed(e, state.data() + e * field_count);
+}
+
+template <class T>
+Reaction<T> Dynamics<T>::link_reaction(const Motion<T>& i, const Motion<T>& j, const Link& link) const {
+  const LinkProperties<T>& properties = properties_[link.properties];
   if (is_linearised()) return linearised_reaction(i, j, properties);
   return has_vectors() ? small_reaction(i, j, properties) : reaction(i, j, properties);
 }
@@ -97,8 +101,7 @@ Reaction<T> Dynamics<T>::link_reaction(const Motion<T>& i, const Motion<T>& j,
 template <class T>
 void Dynamics<T>::add_link_reactions() {
   for (const Link& link : links_) {
-    const Motion<T>&i = motions_[link.i], &j = motions_[link.j];
-    const Reaction<T> r = link_reaction(i, j, properties_[link.properties]);
+    const Reaction<T> r = link_reaction(motions_[link.i], motions_[link.j], link);
     wrenches_[link.i].force += r.force;
     wrenches_[link.j].force -= r.force;
     wrenches_[link.i].moment += r.moment_i;
@@ -150,12 +153,30 @@ Vector<T> Dynamics<T>::angular_acceleration(const BodyMass& body, const Motion<T
 }
 
 template <class T>
-void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signals, std::span<T> rates) {
+void Dynamics<T>::find_wrenches(std::span<const T> state, std::span<const double> signals) {
   place(state);
   std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
   add_link_reactions();
   add_loads(signals);
   add_stabilization();
+}
+
+template <class T>
+void Dynamics<T>::wrenches(std::span<const T> state, std::span<const double> signals, std::span<T> wrenches) {
+  find_wrenches(state, signals);
+  const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Vector<T> force = wrenches_[e].force + bodies_[std::size_t(elements_[e].body)].mass * frame;
+    for (const int axis : {0, 1, 2}) {
+      wrenches[6 * e + std::size_t(axis)] = force[axis];
+      wrenches[6 * e + 3 + std::size_t(axis)] = wrenches_[e].moment[axis];
+    }
+  }
+}
+
+template <class T>
+void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signals, std::span<T> rates) {
+  find_wrenches(state, signals);
   const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const BodyMass& body = bodies_[std::size_t(elements_[e].body)];

@@ -44,6 +44,20 @@ public:
   /// load
   void rates(std::span<const T> state, std::span<const double> signals, std::span<T> rates);
 
+  /// Force and moment about its centre on every element, global frame: 6 numbers each [N], [N m]. What holds clamped degrees of freedom is
+  /// not in it, the frame's acceleration is.
+  void wrenches(std::span<const T> state, std::span<const double> signals, std::span<T> wrenches);
+
+  struct Link {
+    std::size_t i, j;
+    std::size_t properties; ///< its constants
+  };
+  /// Of the grid, then the extra ones.
+  const std::vector<Link>& links() const { return links_; }
+  /// Motion of element e whose fields are these, and what a link does to two elements that move so.
+  Motion<T> placed(std::size_t e, const T* fields) const;
+  Reaction<T> link_reaction(const Motion<T>& i, const Motion<T>& j, const Link& link) const;
+
   /// Kinetic energy, plus elastic energy of all links, plus that of the stabilizing springs [J].
   T energy(std::span<const T> state);
 
@@ -60,22 +74,18 @@ private:
     Vector<T> inertia;
     bool has_tensor_inertia;
   };
-  struct Link {
-    std::size_t i, j;
-    std::size_t properties; ///< place in properties_
-  };
   struct Wrench {
     Vector<T> force = Vector<T>::Zero(), moment = Vector<T>::Zero();
   };
 
   void add_links(const Problem& problem);
   void place(std::span<const T> state);
+  void find_wrenches(std::span<const T> state, std::span<const double> signals);
   void add_link_reactions();
   void add_loads(std::span<const double> signals);
   void add_stabilization();
   bool is_linearised() const { return coordinates_.rotation() == Rotation::linearised; }
   bool has_vectors() const { return coordinates_.has_vectors(); }
-  Reaction<T> link_reaction(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& properties) const;
   Matrix<T> body_axes(const Motion<T>& motion) const;
   Vector<T> angular_acceleration(const BodyMass& body, const Motion<T>& motion, const Vector<T>& moment) const;
 

@@ -19,6 +19,7 @@ namespace dss {
 namespace {
 
 constexpr long max_steps = 1L << 53; // the largest counts that doubles hold exactly
+const std::vector<std::string> analyses = {"dynamic", "static", "modal"};
 
 Body read_body_properties(ObjectNode& object) {
   Body body;
@@ -73,6 +74,8 @@ void read_run(const Node& node, Scene& scene) {
   scene.model = scene.asked_model == "auto" ? name(Model::spatial) : scene.asked_model;
   if (const std::string reason = why_not(*find_model(scene.model), scene.problem); !reason.empty())
     model->fail(fmt::format("\"{}\" does not hold: {}; use \"spatial\", or \"auto\"", scene.model, reason));
+  const auto analysis = run.find("analysis");
+  scene.analysis = analysis ? analyses[analysis->choice("analysis", analyses)] : analyses[0];
   run.finish();
 }
 
@@ -163,6 +166,13 @@ Scene load_scene(const std::string& name_or_path, const std::vector<Override>& o
     throw InputError(
         fmt::format("{}: the scene does not fit into this machine's memory; give it fewer elements", path));
   }
+}
+
+std::string scene_analysis(const std::string& name_or_path, const std::vector<Override>& overrides) {
+  const SceneText text = read_scene_text(scene_path(name_or_path), overrides);
+  const nlohmann::json run = text.root.is_object() ? text.root.value("run", nlohmann::json()) : nlohmann::json();
+  const bool is_given = run.is_object() && run.contains("analysis") && run["analysis"].is_string();
+  return is_given ? run["analysis"].get<std::string>() : analyses[0];
 }
 
 std::vector<SceneListing> list_scenes() {

@@ -25,6 +25,7 @@ struct Scene {
   std::string asked_model;        ///< as the scene says, or "auto"
   std::string model;              ///< of studies: the same, but spatial where it is auto
   std::string integrator;         ///< default: a name of find_method
+  std::string analysis;           ///< default: "dynamic", "static" or "modal"
 };
 
 struct SceneListing {
@@ -35,6 +36,9 @@ struct SceneListing {
 /// Reads a scene by name (see scene_directory) or path, with overrides applied in order.
 /// @throws InputError, one line "file: /json/pointer: what is wrong and what would be right", for any fault
 Scene load_scene(const std::string& name_or_path, const std::vector<Override>& overrides = {});
+
+/// The analysis that a scene asks for, before anything else of it is read. @throws InputError for a file that cannot be read
+std::string scene_analysis(const std::string& name_or_path, const std::vector<Override>& overrides = {});
 
 /// Every shipped scene, by name.
 std::vector<SceneListing> list_scenes();

@@ -23,11 +23,11 @@ struct Tables {
 #undef NUMBER
 };
 
-/// Where bands of rows are computed. A GPU gets work-groups, a CPU work-items.
+/// Where rows are computed. A GPU gets a work-item for each element, a CPU one for each band of rows.
 struct Layout {
   bool has_items = false;
   int lanes = 1;
-  int bands = 1; ///< at most: there may be fewer rows
+  int bands = 1; ///< of a CPU, at most: there may be fewer rows
 };
 /// For a device.
 Layout layout_on(const Device& device, Precision precision, int threads);
@@ -61,6 +61,8 @@ public:
   std::size_t group_size() const { return group_size_; }
   /// Launches a kernel over bands, by a queue of the device and after these events. @return its event
   cl::Event launch(Queue& by, const Kernel& kernel, int bands, const Events& after = {});
+  /// Launches, in the problem's queue, a kernel whose work-items need no others: on a GPU one for each element across.
+  void launch_rows(const Kernel& kernel, int bands);
   /// The host may use the arena until to_device(). Without shared memory [from, to) of these ranges are copied.
   struct Range {
     const T *from, *to;
@@ -86,6 +88,7 @@ public:
 
 private:
   int shape_of(const Terms& terms);
+  long lower(long in, int row, int lower, int fields) const;
   std::size_t largest_group() const;
   void make_constant_tables();
   const Problem& problem_;
@@ -101,7 +104,7 @@ private:
   Kernel extra_kernel_;
   std::unique_ptr<Mapping> mapping_; ///< while the host has the arena of a device that shares the host's memory
   std::vector<T> signal_values_;
-  std::size_t group_size_ = 1;
+  std::size_t group_size_ = 1, items_across_ = 1; ///< work-items of a group, and of a row
   double build_s_ = 0;
   bool is_cached_ = true;
 };

@@ -19,11 +19,12 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
     return rows.data() + packed.rows[std::size_t(r)].pack_offset * pack_size;
   };
   const auto in = [&](int r) { return row_of(plain_, r); };
-  const std::vector<int> cuts = cut_rows(packed, layout.bands);
+  const std::vector<int> cuts = cut_rows(packed, layout.has_items ? int(packed.rows.size()) : layout.bands);
   for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
-    CarryRings<T>& carry = carry_.emplace_back(packed);
+    if (b == 0 || !layout.has_items) carry_.emplace_back(packed); // items need none
+    CarryRings<T>& carry = carry_.back();
     const int begin = device_.next_place();
-    if (cuts[b] > 0)
+    if (cuts[b] > 0 && !layout.has_items)
       each_prime(packed, cuts[b], fields, carry, in, [&](int r, const RowTask<T>& task, int axis) {
         device_.add(task, r, axis == 1 ? prime_y : prime_z, fields);
       });
@@ -62,7 +63,7 @@ void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals
   kernel_.set_one(n++, device_.signals());
   kernel_.set_one(n++, failed_);
   for (const cl_int value : {0, 0}) kernel_.set_one(n++, value); // first signal, step
-  device_.launch(device_.queue, kernel_, bands());
+  device_.launch_rows(kernel_, bands());
   queue.read(device_.arena(), place(rates_), {reinterpret_cast<std::byte*>(rates), bytes});
 }
 

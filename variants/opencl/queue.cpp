@@ -161,13 +161,11 @@ Mapping Queue::map(const Buffer& buffer, std::size_t offset, std::size_t bytes, 
   });
 }
 
-cl::Event Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local,
-                        const Events* after) {
-  cl::Event end;
+void Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local, const Events* after,
+                   cl::Event* end) {
   guarded(kernel.device_,
-          [&] { queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local, after, &end); });
+          [&] { queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local, after, end); });
   if (is_counting_) ++counts_.launches;
-  return end;
 }
 
 void Queue::flush() {

@@ -112,8 +112,9 @@ public:
   Mapping map(const Buffer& buffer, std::size_t offset, std::size_t bytes, cl_map_flags flags);
 
   /// @param after  null, or events of any queue that must have come; that queue has been flushed
-  cl::Event launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local = cl::NullRange,
-                   const Events* after = nullptr);
+  /// @param end  null, or what comes when it is done: of many short launches that would cost more than they do
+  void launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local = cl::NullRange,
+              const Events* after = nullptr, cl::Event* end = nullptr);
   /// Begins what is enqueued, without waiting.
   void flush();
   /// Waits for all that is enqueued.

@@ -14,12 +14,9 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
       rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }),
       halo_rows_(problem_) {
   const PartWorksAlone alone(part_);
-  // Work-items of a group read what others update in place: methods in place take turns between two states there.
-  // Where bands are thinner than their halo, most of what they do is done by others as well.
-  const int rows = packed_.own_end - packed_.own_begin, halo = setup_.method.stages * packed_.reach;
-  const bool is_staged = setup_.method.has_error_stage || (layout.has_items && rows < layout.bands * halo) ||
-                         !setup_.problem.extra_links.empty() || (is_part() && part_->is_every_stage) ||
-                         (layout.has_items && setup_.method.is_in_place());
+  // On a GPU more work-items than rows compute at once, and a wavefront over all of them would not stay in its caches.
+  const bool is_staged = layout.has_items || setup_.method.has_error_stage || !setup_.problem.extra_links.empty() ||
+                         (is_part() && part_->is_every_stage);
   if (is_staged)
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(), layout.bands, part_);
   else
@@ -63,7 +60,7 @@ void ResidentExecutor<T, W>::make_blocks() {
   blocks_.make(packed_, method, cuts, stored_fields(), halo, is_alone);
   std::vector<Block<T, W>>& blocks = blocks_.all();
   most_sweeps_ = WavefrontStep<T, W>::sweeps(packed_, method, is_alone);
-  if (!problem_.layout.has_items && !is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
+  if (!is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
   for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
     if (blocks[b].is_remote()) continue;
     add_neighbours(cuts, int(band++), halo);
@@ -101,23 +98,29 @@ void ResidentExecutor<T, W>::add_neighbours(const std::vector<int>& cuts, int ba
   neighbours_.push_back({{first, last + 1}});
 }
 
+/// Lists of row tasks: one a band, on a GPU one a row.
 template <class T, int W>
 void ResidentExecutor<T, W>::add_stages() {
-  bands_ = staged_->threads();
   const int stages = setup_.method.stages, parities = staged_->is_swapped() ? 2 : 1;
+  const bool has_items = problem_.layout.has_items;
   for (int parity = 0; parity < parities; ++parity) {
     for (int stage = 0; stage < stages; ++stage) {
       std::vector<cl_int2>& lists = lists_.emplace_back();
-      for (int band = 0; band < bands_; ++band) {
+      for (int band = 0; band < staged_->threads(); ++band) {
         const int begin = problem_.next_place();
         staged_->each_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& task) {
-          problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields());
+          if (has_items && !is_whole) return; // computed at both ends
+          const int place = problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields());
+          if (has_items) lists.push_back({{place, place + 1}});
         });
-        lists.push_back({{begin, problem_.next_place()}});
+        if (!has_items) lists.push_back({{begin, problem_.next_place()}});
       }
+      bands_ = std::max(bands_, int(lists.size()));
     }
     if (parities == 2) staged_->swap();
   }
+  for (auto& lists : lists_)
+    lists.resize(std::size_t(bands_)); // a part computes the less of its halo the later the stage
 }
 
 template <class T, int W>
@@ -152,7 +155,7 @@ void ResidentExecutor<T, W>::warm_up() {
   if (staged_) {
     if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_.front());
     set_stage_arguments(nothing, 0, 0);
-    problem_.launch(problem_.queue, kernel_, bands_);
+    problem_.launch_rows(kernel_, bands_);
     if (setup_.method.has_error_stage) warm_up_error_kernels(nothing);
   } else {
     set_pass_arguments(0);
@@ -202,16 +205,17 @@ void ResidentExecutor<T, W>::to_host() {
 template <class T, int W>
 void ResidentExecutor<T, W>::to_device() {
   if (!is_on_host_) return;
+  publish_changed();
   problem_.queue.set_counting(false);
   problem_.to_device(is_changed_ ? state_ranges() : std::vector<Range>{});
   problem_.queue.set_counting(true);
   is_on_host_ = is_changed_ = false;
 }
 
+/// States are written in pieces, of thousands of elements each: what bands publish is copied once, behind the last.
 template <class T, int W>
-void ResidentExecutor<T, W>::publish_all() {
-  is_changed_ = true;
-  blocks_.publish_all(parity_);
+void ResidentExecutor<T, W>::publish_changed() {
+  if (is_changed_) blocks_.publish_all(parity_);
 }
 
 template <class T, int W>
@@ -220,7 +224,7 @@ void ResidentExecutor<T, W>::write(std::size_t first, std::span<const double> fi
   to_host();
   parity_ = 0;
   rows_.write(first, fields);
-  publish_all();
+  is_changed_ = true;
 }
 
 template <class T, int W>
@@ -241,7 +245,7 @@ void ResidentExecutor<T, W>::restore(std::size_t first, std::span<const double> 
   to_host();
   end_rates_.clear();
   is_started_ = rows_.restore(first, kept);
-  publish_all();
+  is_changed_ = true;
 }
 
 /// Rates of plain rows, at the present state, which is on the host.
@@ -281,9 +285,11 @@ void ResidentExecutor<T, W>::stop_leapfrog() {
 
 template <class T, int W>
 std::string ResidentExecutor<T, W>::schedule() const {
-  const char* const where = problem_.layout.has_items ? "work-groups" : "work-items";
-  return fmt::format("on {}: {} bands of rows, {} of {} lanes; {}", problem_.queue.device().entry.name, bands_, where,
-                     W, staged_ ? "stage by stage" : fmt::format("wavefront, reach {}, in place", packed_.reach));
+  const std::string& device = problem_.queue.device().entry.name;
+  if (problem_.layout.has_items)
+    return fmt::format("on {}: a work-item an element, in packs of {} lanes; stage by stage", device, W);
+  return fmt::format("on {}: {} bands of rows, work-items of {} lanes; {}", device, bands_, W,
+                     staged_ ? "stage by stage" : fmt::format("wavefront, reach {}, in place", packed_.reach));
 }
 
 template <class T, int W>

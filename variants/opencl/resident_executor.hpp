@@ -51,10 +51,10 @@ private:
   void warm_up();
   T* row(int r);
   std::pair<T*, T*> copy_row(int copy, int r);
-  void publish_all();
   std::size_t row_size(int r) const {
     return std::size_t(packed_.rows[std::size_t(r)].packs) * std::size_t(stored_fields() * W);
   }
+  void publish_changed();
   std::vector<Range> state_ranges();
   void make_images(std::span<const std::size_t> elements, int copy);
   void add_to_halo(int r, std::span<const std::size_t> elements, int copy, HaloLayout& layout);
@@ -103,7 +103,7 @@ private:
   Events rest_, edges_; ///< split: launches of the last step
   double computing_s_ = 0;
   int parity_ = 0;
-  bool is_on_host_ = false, is_changed_ = false; ///< by the host, since the device had it
+  bool is_on_host_ = false, is_changed_ = false; ///< by the host, since the device had it; published when it goes there
   int trials_left_ =
       0; ///< of bands that wait for one another, until they are found not to be computed at the same time
   std::vector<typename Tables<T>::sweep> sweeps_;

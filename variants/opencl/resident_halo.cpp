@@ -70,10 +70,12 @@ void ResidentExecutor<T, W>::receive_all_sides(int copy) {
 template <class T, int W>
 void ResidentExecutor<T, W>::send(int copy) {
   const auto& ranges = sent_[std::size_t(copy)];
-  if (is_on_host_)
+  if (is_on_host_) {
+    publish_changed();
     halo_rows_.fetch_from_arena(ranges);
-  else
+  } else {
     problem_.queue.await({halo_rows_.fetch(ranges)});
+  }
   send_all_sides(copy);
 }
 

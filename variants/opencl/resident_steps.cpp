@@ -16,8 +16,7 @@ Outcome ResidentExecutor<T, W>::advance(long steps, std::span<const double> sign
   if (rows_.is_staggered() && !is_started_) {
     to_host();
     rows_.start(evaluate(signals.first(width)).data());
-    publish_all();
-    is_started_ = true;
+    is_started_ = is_changed_ = true;
   }
   end_rates_.clear();
   rest_.clear(), edges_.clear();
@@ -153,7 +152,7 @@ void ResidentExecutor<T, W>::launch_stage(int stage, long step) {
   const std::size_t table = std::size_t((staged_->is_swapped() ? staged_->current_copy() : 0) * stages + stage);
   if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_[table]);
   set_stage_arguments(list_tables_[table], stage, step);
-  problem_.launch(problem_.queue, kernel_, bands_);
+  problem_.launch_rows(kernel_, bands_);
 }
 
 template <class T, int W>
@@ -234,7 +233,7 @@ StepMaxima ResidentExecutor<T, W>::try_step(double dt, std::span<const double> s
 template <class T, int W>
 void ResidentExecutor<T, W>::accept_step() {
   to_device();
-  problem_.launch(problem_.queue, accept_kernel_, bands_);
+  problem_.launch_rows(accept_kernel_, bands_);
 }
 
 template <class T, int W>

@@ -100,13 +100,14 @@ std::string row_program(const ProgramKind& kind) {
                         int(t.is_material), int(t.is_damped), int(t.is_bending), int(t.is_gyroscopic), int(t.is_tied),
                         int(t.is_oblong), n);
     text += device_text("row.cl") + device_text(kind.has_items ? "row_of_items.cl" : "row_of_vectors.cl") +
-            device_text("run.cl") + "#undef FLAGS\n#undef NAME\n";
+            "#undef FLAGS\n#undef NAME\n";
     cases += fmt::format("  if (task->shape == {0}) return run_{0}(d, task, signals);\n", n);
   }
   text += fmt::format("static int run_task(device d, global const row_stage* task, global const NUMBER* signals) {{\n"
                       "{}  return 1;\n}}\n",
                       cases);
-  text += device_text("passes.cl");
+  text += device_text("rows.cl");
+  if (!kind.has_items) text += device_text("passes.cl");
   if (kind.actions.contains(error_stage) || kind.actions.contains(kept_error)) text += device_text("step_error.cl");
   return text;
 }

@@ -12,11 +12,13 @@ std::vector<double> converged_state(const Problem& problem, double t, double tol
   const Method& method = *find_method("rk4");
   const double limit = std::min(0.5 * stable_step(problem, method, true).dt, t / 16);
   long steps = std::lround(std::ceil(t / limit));
-  std::vector<double> coarse = compute_oracle_state(problem, method, t / double(steps), steps, {}).state;
+  std::vector<double> coarse =
+      compute_oracle_state(problem, method, Rotation::quaternion, t / double(steps), steps, {}).state;
   double change = 0;
   for (int halving = 0; halving < most_halvings; ++halving) {
     steps *= 2;
-    std::vector<double> fine = compute_oracle_state(problem, method, t / double(steps), steps, {}).state;
+    std::vector<double> fine =
+        compute_oracle_state(problem, method, Rotation::quaternion, t / double(steps), steps, {}).state;
     change = state_error(problem, fine, coarse);
     if (change < tolerance) return fine;
     coarse = std::move(fine);

@@ -1,10 +1,11 @@
 #include "experiments/runner/atlas/continuum_study.hpp"
 #include "experiments/runner/atlas/beam_theory.hpp"
 #include "experiments/runner/atlas/failure_case.hpp"
-#include "experiments/runner/atlas/tangent.hpp"
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "solver/scene/scene.hpp"
+#include "solver/statics/eigenmodes.hpp"
+#include "solver/statics/equilibrium.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +21,11 @@ const std::vector<std::string> continuum_columns = {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<double> rest_of(const Problem& problem) {
-  return std::vector<double>(problem.lattice.element_count * field_count, 0.0);
+/// Past the load that buckles it a column still has its straight equilibrium: it is not asked whether that is stable.
+StaticSystem::State equilibrium(StaticSystem& system) {
+  const Equilibrium found = find_equilibrium(system, {.solver = SolverKind::direct, .must_be_stable = false});
+  if (!found.is_found) throw InputError(fmt::format("{}: {}", system.problem().name, found.reason));
+  return found.state;
 }
 
 double deflection(const ContinuumCheck& check, const Scene& scene) {
@@ -30,15 +34,16 @@ double deflection(const ContinuumCheck& check, const Scene& scene) {
   if (!(element >= 0 && element < double(problem.lattice.element_count)))
     throw InputError(fmt::format("check {}: element {} is not one of the scene's {}", check.name, element,
                                  problem.lattice.element_count));
-  const std::vector<double> state = equilibrium(problem, free_dofs(problem), rest_of(problem));
+  StaticSystem system(problem);
+  const std::vector<double> state = system.fields(equilibrium(system));
   const auto field = std::ranges::find(field_names(), check.field) - field_names().begin();
   return state[std::size_t(element) * field_count + std::size_t(field)];
 }
 
 std::vector<double> frequencies(const ContinuumCheck& check, const Problem& problem) {
-  const FreeDofs dofs = free_dofs(problem);
-  const Eigen::VectorXd values =
-      smallest_eigenvalues(tangent_stiffness(problem, dofs, rest_of(problem)), dofs.inertia, check.count);
+  const StaticSystem system(problem);
+  const StaticSystem::State rest = system.rest();
+  const Eigen::VectorXd values = lowest_modes(system.tangent(rest), system.mass(rest), check.count).values;
   std::vector<double> all;
   for (const double value : values) all.push_back(std::sqrt(value));
   return all;
@@ -48,9 +53,9 @@ std::vector<double> frequencies(const ContinuumCheck& check, const Problem& prob
 double loaded_eigenvalue(const ContinuumCheck& check, std::vector<Override> set, double load, double shift) {
   set.push_back({check.load_parameter, number_text(load)});
   const Scene scene = load_scene(check.scene, set);
-  const FreeDofs dofs = free_dofs(scene.problem);
-  const std::vector<double> state = equilibrium(scene.problem, dofs, rest_of(scene.problem));
-  return smallest_eigenvalues(tangent_stiffness(scene.problem, dofs, state), dofs.inertia, 1, shift)[0];
+  StaticSystem system(scene.problem);
+  const StaticSystem::State state = equilibrium(system);
+  return lowest_modes(system.tangent(state), system.mass(state), 1, shift).values[0];
 }
 
 /// The eigenvalue falls nearly in a straight line: secants find where it vanishes, beyond which it is negative.

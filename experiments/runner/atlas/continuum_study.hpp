@@ -1,7 +1,7 @@
 #pragma once
 /// Whether lattices of links converge to the continuum that their constants come from: figures of scenes at several refinements against
-/// theory, with the observed order (experiments/README.md describes the JSON). Nothing is stepped in time: equations linearised by
-/// tangent.hpp are solved.
+/// theory, with the observed order (experiments/README.md describes the JSON). Nothing is stepped in time: the
+/// equations of solver/statics are solved.
 #include "experiments/runner/atlas/formula.hpp"
 #include "experiments/runner/records.hpp"
 

@@ -137,8 +137,7 @@ void read_run(const JsonPlace& place, FailureCase& atlas) {
   atlas.methods = chosen_list(place, "methods", method_names(), names_of(methods()));
   atlas.precisions = chosen_list(place, "precisions", precision_list(), {"f64"});
   atlas.rotations = chosen_list(place, "rotations", rotation_list(), {"quaternion"});
-  if (place.has("model"))
-    atlas.model = chosen(place["model"], {std::string(name(Model::spatial)), std::string(name(Model::planar))});
+  if (place.has("model")) atlas.model = chosen(place["model"], model_names());
   if (place.has("variant")) atlas.variant = place["variant"].text();
   load_variant(atlas.variant); // for its errors
 }

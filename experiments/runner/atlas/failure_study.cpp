@@ -3,6 +3,7 @@
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/stability.hpp"
 #include "variants/loader.hpp"
 
@@ -79,8 +80,8 @@ private:
   std::string refusal(const Method& method, Precision precision, Rotation rotation, Model model, double dt) {
     if (const auto lack = what_lacks(plugin_, precision, method, rotation))
       return fmt::format("variant {} {}", plugin_.name, lack->what);
-    if (const std::string why = why_not_planar(scene_.problem); model == Model::planar && !why.empty())
-      return fmt::format("model planar: {}", why);
+    if (const std::string why = why_not(model, scene_.problem); !why.empty())
+      return fmt::format("model {}: {}", name(model), why);
     if (dt == 0) return fmt::format("no step of {} is stable here", method.name);
     if (atlas_.is_forced || method.is_implicit()) return {};
     if (dt > limit_of(method))

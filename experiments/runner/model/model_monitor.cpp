@@ -31,6 +31,7 @@ ModelMonitor::ModelMonitor(const Problem& problem, Model model, double tolerance
 }
 
 void ModelMonitor::begin() {
+  failed_state_.clear();
   bound_.emplace(problem_, model_);
   bound_->look(good_state_, double(good_step_) * dt_);
   good_errors_ = bound_->errors();
@@ -53,7 +54,10 @@ bool ModelMonitor::look(Executor& executor, long step) {
   ++report_.looks;
   if (estimate_ <= limit_) adapt_interval();
   const bool is_good = estimate_ <= limit_; // false for what is no number
-  if (is_good) {
+  if (!is_good) {
+    failed_step_ = step;
+    failed_state_ = std::move(state);
+  } else {
     good_step_ = step;
     good_state_ = std::move(state);
     good_errors_ = bound_->errors();
@@ -86,7 +90,8 @@ Model ModelMonitor::promoted() const {
     if (!is_larger || !has_rotation_vectors(model) || !why_not(model, problem_).empty()) continue;
     ModelErrorBound bound(problem_, model);
     bound.look(good_state_, double(good_step_) * dt_);
-    if (estimate_of(bound, double(longest_interval_) * dt_) <= limit_) return model;
+    if (!failed_state_.empty()) bound.look(failed_state_, double(failed_step_) * dt_);
+    if (estimate_of(bound, double(shortest_interval_) * dt_) <= limit_) return model;
   }
   return Model::spatial;
 }

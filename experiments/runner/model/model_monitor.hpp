@@ -45,7 +45,7 @@ public:
   bool look(Executor& executor, long step);
   /// Whether the error is within the tolerance of what the last good state, the end, has itself: a motion may end where it passes its rest.
   bool holds_at_end() const;
-  /// The next larger model whose bound at the last good state allows it to go on, or spatial; spatial needs no watch any more.
+  /// The next larger model whose bound allows the last good state and the one that was refused, or spatial, which needs no watch any more.
   Model promoted() const;
   /// Goes on from the last good state with another model; what the first one may have left out stays in the account.
   void go_on_with(Model model);
@@ -73,6 +73,8 @@ private:
   long good_step_ = 0;
   std::vector<double> good_state_;
   KindBounds good_errors_{};
+  long failed_step_ = 0;
+  std::vector<double> failed_state_; ///< that a look refused, and not a number that was not finite
   ModelReport report_;
 };
 

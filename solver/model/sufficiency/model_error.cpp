@@ -139,8 +139,10 @@ KindBounds ModelErrorBound::errors(double ahead) const {
   KindBounds errors{longer * structure_.length, theta * theta / 4, theta * w * structure_.length, theta * w};
   const KindBounds turned = turned_forces(theta, growth, time_ + ahead - start_);
   const double edge = structure_.shortest_edge;
-  const bool has_products = model_ == Model::small; // else gaps have couples that are left out, and push where nothing turns yet
-  const KindBounds scales{u, has_products ? q : std::max(q, gap_ / edge), v, has_products ? w : std::max(w, rate_ / edge)};
+  const bool has_products =
+      model_ == Model::small; // else gaps have couples that are left out, and push where nothing turns yet
+  const KindBounds scales{u, has_products ? q : std::max(q, gap_ / edge), v,
+                          has_products ? w : std::max(w, rate_ / edge)};
   const double stiffness = operator_error(theta, growth) * (1 + cycles_);
   for (std::size_t kind = 0; kind < errors.size(); ++kind) errors[kind] += turned[kind] + stiffness * scales[kind];
   return errors;

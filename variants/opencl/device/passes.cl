@@ -1,28 +1,7 @@
-/* Kernels. `failed`: [0] the first step that left a number that is not finite, then of each block its own and the row; later
- * passes do nothing, so that the host finds the state of that step. */
-
-/* Whether an own element of the row is not finite: halo elements may be, since the outermost lack links. */
-static bool has_failed(device d, global const row_stage* task) {
-  bool is_failed = false;
-  for (int pack = FIRST_PACK(task); pack < task->packs; pack += PACKS_AT_ONCE) {
-    const uint mask = d.masks[task->masks + pack].own;
-    global const NUMBER* p = d.arena + task->out + (long)pack * (task->fields * W) + LANE;
-    REAL sum = SPLAT(0);
-    for (int f = 0; f < task->fields; ++f, p += W) sum = FMA(LOAD(p), SPLAT(0), sum);
-    KEEP(sum)
-    is_failed = is_failed || !IS_ZERO(sum);
-  }
-  return is_failed;
-}
-
-static void record_failure(global int* failed, const int block, const int step, const int row) {
-  atomic_min(failed, step);
-  RECORD_ROW
-  atomic_min(failed + 1 + 2 * block, step);
-}
+/* The wavefront of CPU devices: a work-item has a block of rows. */
 
 static void publish(device d, global const row_stage* task) {
-  for (int pack = FIRST_PACK(task); pack < task->packs; pack += PACKS_AT_ONCE) {
+  for EACH_PACK(task) {
     const long place = (long)pack * (task->fields * W) + LANE;
     for (int f = 0; f < task->fields; ++f)
       STORE(LOAD(d.arena + task->out + place + f * W), d.arena + task->published + place + f * W);
@@ -44,11 +23,10 @@ static void run_sweeps(device d, global const sweep* own, global const NUMBER* s
       if ((n + 1) % stages == 0) {
         if (!is_finite && has_failed(d, task)) {
           record_failure(failed, block, first_step + n / stages, r);
-          STOP_AT(n) /* only sweeps of earlier steps go on, which may fail as well */
+          count = n; /* only sweeps of earlier steps go on, which may fail as well */
         }
         if (task->published >= 0) publish(d, task);
       }
-      SYNCHRONISE;
     }
 }
 
@@ -77,21 +55,6 @@ kernel void run_passes(TABLES, global const sweep* sweeps, global const int2* ne
     run_sweeps(d, sweeps + (block * 2 + parity) * most_sweeps, signals + step * stages * signal_width, failed, block, step,
                min(steps_a_pass, steps - step) * stages, stages, lag, signal_width);
     mem_fence(CLK_GLOBAL_MEM_FENCE);
-    SYNCHRONISE;
-    if (IS_FIRST_ITEM) atomic_xchg(progress + block, pass + 1);
-    SYNCHRONISE;
-  }
-}
-
-/* Lists of rows, in their order: a stage of all rows, or their rates. `lists`: places of first and last plus one in tasks. */
-kernel void run_rows(TABLES, global const int2* lists, global const NUMBER* signals, global int* failed,
-                     const int first_signal, const int step) {
-  const device d = DEVICE;
-  const int2 list = lists[BLOCK];
-  if (failed[0] < step) return;
-  for (int n = list.x; n < list.y; ++n) {
-    const bool is_finite = run_task(d, tasks + n, signals + first_signal);
-    if (!is_finite && has_failed(d, tasks + n))
-      record_failure(failed, BLOCK, step, tasks[n].row);
+    atomic_xchg(progress + block, pass + 1);
   }
 }

@@ -1,5 +1,16 @@
 /* The rows of CPU devices: a REAL is a pack, a work-item goes along the row (as kernels/stage_row/stage_row.hpp does). */
 
+#define CARRY_SIZE(flags) (has_couples(flags) ? WRENCH_SIZE : VEC_SIZE)
+static inline void NAME(put_carried)(carried c, global NUMBER* p) {
+  put_vec(c.force, p);
+  if (has_couples(FLAGS)) put_spin(c.couple, p + VEC_SIZE * W);
+}
+static inline carried NAME(carried_at)(global const NUMBER* p) {
+  carried c = {vec_at(p), spin_zero()};
+  if (has_couples(FLAGS)) c.couple = spin_at(p + VEC_SIZE * W);
+  return c;
+}
+
 static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, const uint mask, carried* previous) {
   element j = i.e;
   vec lower = i.e.u, upper = i.e.u;
@@ -19,6 +30,27 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, cons
   if (has_couples(FLAGS)) low.couple = spin_from_below(previous->couple, own.couple);
   *previous = own;
   return wrench_of_x(i, up, low, law, FLAGS);
+}
+
+/* Links across y or z; `above`, `below`: masks; `upper` the upper pack, `carry` and `from` this pack's places. */
+static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law, const uint above, const uint below,
+                                      global const NUMBER* upper, global NUMBER* carry, global const NUMBER* from) {
+  if ((above | below) == 0) return sum;
+  face own;
+  vec upper_side = i.e.u;
+  if (FLAGS.is_material) {
+    own.arm = material_arm(i.e, axis, law.material);
+  } else {
+    own = face_across(i.e, i.x, axis, law, FLAGS);
+    upper_side = upper_face(i.pull, own);
+  }
+  exchange up = no_exchange();
+  if (above != 0) up = NAME(masked)(link_across(i.e, upper_side, element_at(upper), axis, law, FLAGS), above);
+  carried low = nothing_carried();
+  if (below != 0) low = NAME(carried_at)(from);
+  sum = wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
+  if (above != 0) NAME(put_carried)(carried_by(up, FLAGS), carry); /* perhaps over what was read */
+  return sum;
 }
 
 /* True if what a last stage left is finite. */
@@ -54,4 +86,42 @@ static inline int NAME(run_row)(device d, global const row_stage* task, global c
     check = NAME(update)(d, task, signals, pack, place, i, sum, check);
   }
   return IS_ZERO(check);
+}
+
+/* Only the links across an axis, for the rows above. */
+static inline void NAME(prime)(device d, global const row_stage* task, const int axis) {
+  const axis_law law = NAME(law_of)(d.bodies + task->body, axis);
+  global const NUMBER* upper = d.arena + (axis == 1 ? task->upper_y : task->upper_z);
+  global NUMBER* carry = d.arena + (axis == 1 ? task->carry_y : task->carry_z);
+  for EACH_PACK(task) {
+    const uint mask = axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
+    if (mask == 0) continue;
+    const long place = (long)pack * (task->fields * W) + LANE;
+    const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
+    const exchange up =
+        NAME(masked)(link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, FLAGS), mask);
+    NAME(put_carried)(carried_by(up, FLAGS), carry + (long)pack * (CARRY_SIZE(FLAGS) * W) + LANE);
+  }
+}
+
+/* What to do with a row, for one combination of terms. False: the last stage of a step left what is not finite. */
+static int NAME(run)(device d, global const row_stage* task, global const NUMBER* signals) {
+  switch (task->action) {
+  case prime_upper:
+    if (task->upper_y >= 0) NAME(prime)(d, task, 1);
+#if AXES > 2
+    if (task->upper_z >= 0) NAME(prime)(d, task, 2);
+#endif
+    return 1;
+  case prime_y:
+    NAME(prime)(d, task, 1);
+    return 1;
+#if AXES > 2
+  case prime_z:
+    NAME(prime)(d, task, 2);
+    return 1;
+#endif
+  default:
+    return NAME(run_row)(d, task, signals);
+  }
 }

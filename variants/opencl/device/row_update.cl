@@ -119,28 +119,31 @@ static inline REAL row_update(device d, global const row_stage* task, const long
     global const NUMBER *y1 = d.arena + task->increment[0] + place, *y2 = d.arena + task->increment[1] + place,
                         *y3 = d.arena + task->increment[2] + place;
     const REAL a1 = SPLAT(task->alpha[0]), a2 = SPLAT(task->alpha[1]), a3 = SPLAT(task->alpha[2]);
-#define COMBINE(c) c = rk_combined(LOAD(y), beta, c, LOAD(y1), LOAD(y2), LOAD(y3), a1, a2, a3), STORE(c, p), \
+#define COMBINE(c) c = rk_combined(LOAD(y), beta, c, LOAD(y1), LOAD(y2), LOAD(y3), a1, a2, a3), STORE_EARLY(c, p), \
                    p += W, y += W, y1 += W, y2 += W, y3 += W;
     EACH_NEXT(COMBINE)
   } else if (HAS(wide_stage) && action == wide_stage) {
     long at = place;
-#define COMBINE_ALL(c) c = wide_sum(d, task, at, LOAD(y), beta, c), STORE(c, p), p += W, y += W, at += W;
+#define COMBINE_ALL(c) c = wide_sum(d, task, at, LOAD(y), beta, c), STORE_EARLY(c, p), p += W, y += W, at += W;
     EACH_NEXT(COMBINE_ALL)
   } else if ((HAS(kept_stage) && action == kept_stage) || (HAS(kept_step) && action == kept_step)) {
     long at = place;
-#define KEEP_SUM(c) c = kept_sum(d, task, at, beta, c), STORE(c, p), p += W, at += W;
+#define KEEP_SUM(c) c = kept_sum(d, task, at, beta, c), STORE_EARLY(c, p), p += W, at += W;
     EACH_NEXT(KEEP_SUM)
   } else if (HAS(error_stage) && action == error_stage) {
     long at = place;
-#define ESTIMATE(c) c = estimate(d, task, at, LOAD(y), beta, c), STORE(c, p), p += W, y += W, at += W;
+#define ESTIMATE(c) c = estimate(d, task, at, LOAD(y), beta, c), STORE_EARLY(c, p), p += W, y += W, at += W;
     EACH_NEXT(ESTIMATE)
   } else if (HAS(kept_error) && action == kept_error) {
     long at = place;
-#define KEPT_ESTIMATE(c) c = kept_increment(d, task, at, beta, c), STORE(c, p), p += W, at += W;
+#define KEPT_ESTIMATE(c) c = kept_increment(d, task, at, beta, c), STORE_EARLY(c, p), p += W, at += W;
     EACH_NEXT(KEPT_ESTIMATE)
   } else {
-#define ADVANCE(c) c = rk_first(LOAD(y), beta, c), STORE(c, p), p += W, y += W;
+#define ADVANCE(c) c = rk_first(LOAD(y), beta, c), STORE_EARLY(c, p), p += W, y += W;
     EACH_NEXT(ADVANCE)
   }
+  p = d.arena + task->out + place;
+#define LATE(c) STORE_LATE(c, p), p += W;
+  EACH_OF_VEC(LATE, next_u) EACH_OF_VEC(LATE, next_v) EACH_OF_ROTOR(LATE, next_q) EACH_OF_SPIN(LATE, next_w)
   return task->is_last ? finite_check(next_v, next_w, check) : check;
 }

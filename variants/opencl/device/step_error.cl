@@ -23,7 +23,7 @@ static void add_maxima(device d, global const row_stage* task, const int first, 
 /* @param maxima  MAXIMA numbers a band  @param items  room for MAXIMA numbers of each work-item of a group */
 kernel void step_maxima(TABLES, global const int2* lists, global NUMBER* maxima, local NUMBER* items) {
   const device d = DEVICE;
-  const int2 list = lists[get_group_id(0)];
+  const int2 list = lists[BLOCK];
   const int item = get_local_id(0), count = get_local_size(0);
   NUMBER most[MAXIMA];
   for (int k = 0; k < MAXIMA; ++k) most[k] = 0;
@@ -37,7 +37,7 @@ kernel void step_maxima(TABLES, global const int2* lists, global NUMBER* maxima,
       const NUMBER one = items[other * MAXIMA + k];
       largest = largest < one ? one : largest;
     }
-    maxima[get_group_id(0) * MAXIMA + k] = largest;
+    maxima[BLOCK * MAXIMA + k] = largest;
   }
 }
 
@@ -48,7 +48,7 @@ kernel void accept_rows(TABLES, global const int2* lists) {
   for (int n = list.x; n < list.y; ++n) {
     global const row_stage* task = tasks + n;
     if (!IS_OF_STATE(task)) continue;
-    for (int pack = FIRST_PACK(task); pack < task->packs; pack += PACKS_AT_ONCE) {
+    for EACH_PACK(task) {
       global NUMBER* state = d.arena + task->base + (long)pack * (task->fields * W) + LANE;
       global const NUMBER* next = d.arena + task->in + (long)pack * (task->fields * W) + LANE;
       for (int f = 0; f < FIELDS; ++f, state += W, next += W) {

@@ -8,7 +8,8 @@ typedef struct {
 /* One row of one stage. */
 typedef struct {
   long in, upper_y, upper_z;
-  long carry_y, carry_z, from_y, from_z;
+  long carry_y, carry_z, from_y, from_z; /* of vectors */
+  long lower_y, lower_z;                 /* of items: input of the lower rows */
   long base, out, increment[6];
   long published; /* where else the new state goes */
   int action, shape, body,

@@ -10,8 +10,8 @@ typedef struct {
   NUMBER step;
 } device;
 #define TABLES                                                                                                         \
-  global NUMBER *arena, global const row_stage *tasks, global const body_constants *bodies,                            \
-      global const pack_masks *masks, global const applied_row *applied, global const pattern *patterns,               \
-      global const ushort *free_lanes, const NUMBER step_length
+  global NUMBER *arena, global const row_stage *restrict tasks, global const body_constants *restrict bodies,          \
+      global const pack_masks *restrict masks, global const applied_row *restrict applied,                             \
+      global const pattern *restrict patterns, global const ushort *restrict free_lanes, const NUMBER step_length
 #define DEVICE                                                                                                         \
   { arena, tasks, bodies, masks, applied, patterns, free_lanes, step_length }

@@ -2,14 +2,13 @@
  * W, REAL, BITS (an integer vector as wide as REAL), and the SHIFTs of this width. */
 #define LOAD(p) (*(global const REAL*)(p))
 #define STORE(v, p) (*(global REAL*)(p) = (v))
+/* Registers are few: what is computed is stored at once. */
+#define STORE_EARLY(v, p) STORE(v, p)
+#define STORE_LATE(v, p) ((void)0)
 #define IS_ZERO(v) all((v) == SPLAT(0))
 #define KEEP(c) c = select(SPLAT(0), c, ((BITS)(mask)&LANE_BITS) != (BITS)(0));
 #define LANE 0
-#define FIRST_PACK(task) 0
-#define PACKS_AT_ONCE 1
+#define EACH_PACK(task) (int pack = 0; pack < (task)->packs; ++pack)
 #define BLOCK get_global_id(0)
-#define SYNCHRONISE
-#define STOP_AT(n) count = n;
-#define IS_FIRST_ITEM true
 #define RECORD_ROW                                                                                                     \
   if (step < failed[1 + 2 * block]) failed[2 + 2 * block] = row; /* the first of the earliest step */

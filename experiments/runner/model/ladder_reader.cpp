@@ -1,0 +1,55 @@
+#include "experiments/runner/keyed_study.hpp"
+#include "experiments/runner/model/ladder_study.hpp"
+#include "experiments/runner/study_sets.hpp"
+#include "solver/nearest_name.hpp"
+
+#include <algorithm>
+
+namespace dss {
+namespace {
+
+Model model_at(const JsonPlace& place) {
+  if (const auto model = find_model(place.text())) return *model;
+  place.fail(fmt::format("unknown model \"{}\"; {}", place.text(), nearest_name(place.text(), model_names_and_auto())));
+}
+
+LadderScene read_ladder_scene(const JsonPlace& place, const std::string& path) {
+  place.require_keys({"scene", "set", "steps", "precision", "auto", "fails"});
+  LadderScene scene;
+  scene.scene = scene_beside(path, place["scene"].text());
+  if (place.has("set")) scene.set = one_set(place["set"]);
+  if (place.has("steps")) scene.steps = place["steps"].count(1);
+  if (place.has("precision")) scene.precision = place["precision"].text();
+  if (!find_precision(scene.precision))
+    place["precision"].fail(fmt::format("unknown precision \"{}\"; {}", scene.precision,
+                                        nearest_name(scene.precision, {"f64", "f32", "f32c"})));
+  scene.ends_with = model_at(place["auto"]);
+  if (place.has("fails"))
+    for (const JsonPlace& item : place["fails"].items()) scene.fails.push_back(model_at(item));
+  try {
+    load_scene(scene.scene, scene.set);
+  } catch (const InputError& error) {
+    place.fail(error.what());
+  }
+  return scene;
+}
+
+} // namespace
+
+std::optional<LadderStudy> load_ladder(const std::string& study, const std::string& scale) {
+  const auto opened = open_study(study, "model_ladder", scale);
+  if (!opened) return {};
+  opened->work.require_keys({"variant", "scenes"});
+  opened->scale.require_keys({"repeat_for", "leave_out"});
+  LadderStudy ladder{opened->name, opened->title, scale, "auto", 0, {}};
+  if (opened->work.has("variant")) ladder.variant = opened->work["variant"].text();
+  if (opened->scale.has("repeat_for")) ladder.repeat_for = opened->scale["repeat_for"].positive();
+  std::vector<std::string> left_out;
+  if (opened->scale.has("leave_out")) left_out = opened->scale["leave_out"].texts();
+  for (const JsonPlace& item : opened->work["scenes"].items())
+    if (std::ranges::find(left_out, item["scene"].text()) == left_out.end())
+      ladder.scenes.push_back(read_ladder_scene(item, opened->path));
+  return ladder;
+}
+
+} // namespace dss

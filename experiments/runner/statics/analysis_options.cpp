@@ -1,0 +1,70 @@
+/// The options of analyses, and which options of `run` make sense with them.
+#include "experiments/runner/statics/analysis.hpp"
+#include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace dss {
+namespace {
+
+const std::vector<std::string> analyses = {"dynamic", "static", "modal"};
+
+/// Options of `run` that mean something to it, besides SCENE, --analysis and --set.
+std::vector<std::string> options_of(const std::string& analysis, const std::string& solver) {
+  if (analysis == "modal") return {"--modes", "--prestressed", "--model", "--output", "--json"};
+  std::vector<std::string> known = {"--solver", "--model", "--output", "--state", "--json"};
+  if (solver == "relaxation")
+    for (const char* more : {"--masses", "--tolerance", "--variant", "--device", "--hybrid", "--threads", "--precision",
+                             "--integrator", "--steps"})
+      known.emplace_back(more);
+  if (solver == "cg" || solver == "newton" || solver == "auto") known.emplace_back("--preconditioner");
+  return known;
+}
+
+} // namespace
+
+void add_analysis_options(CLI::App& command, AnalysisRequest& request) {
+  const auto add = [&](const char* option, auto& value, const char* help) {
+    return command.add_option(option, value, help)->group("Analyses");
+  };
+  add("--analysis", request.analysis,
+      "dynamic, static (at rest under the loads of the run's end), modal (natural frequencies); default: the scene's");
+  add("--solver", request.solver,
+      "Of statics: direct or cg (linear), newton, relaxation (explicit steps with kinetic damping, on any variant), "
+      "auto")
+      ->capture_default_str();
+  add("--preconditioner", request.preconditioner, "Of conjugate gradients: incomplete_cholesky or block_jacobi")
+      ->capture_default_str();
+  add("--tolerance", request.tolerance, "Of relaxation: unbalanced forces against the loads")->capture_default_str();
+  add("--masses", request.masses, "Of relaxation: scaled, so that all degrees of freedom are equally fast, or scene")
+      ->capture_default_str();
+  add("--modes", request.modes, "Of a modal analysis: number of modes with a frequency")->capture_default_str();
+  command
+      .add_flag("--prestressed", request.is_prestressed, "Modes about the equilibrium under the loads, not about rest")
+      ->group("Analyses");
+}
+
+std::string chosen_analysis(const CLI::App& command, const RunRequest& run, const AnalysisRequest& request) {
+  const std::string analysis = request.analysis ? *request.analysis : scene_analysis(run.scene, run.overrides);
+  if (std::ranges::find(analyses, analysis) == analyses.end())
+    throw InputError(fmt::format("--analysis {}: unknown analysis; {}", analysis, nearest_name(analysis, analyses)));
+  const bool is_dynamic = analysis == "dynamic";
+  const std::vector<std::string> own = options_of(analysis, request.solver);
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || option->get_lnames().empty()) continue;
+    const std::string name = "--" + option->get_lnames().front();
+    if (name == "--analysis" || name == "--set") continue;
+    const bool is_foreign = is_dynamic ? option->get_group() == "Analyses" : std::ranges::find(own, name) == own.end();
+    if (!is_foreign) continue;
+    const std::string what = analysis == "static" ? fmt::format("static --solver {}", request.solver) : analysis;
+    throw InputError(
+        is_dynamic ? fmt::format("{}: only with --analysis static or modal", name)
+                   : fmt::format("{}: has no part in --analysis {}, which takes {}", name, what, fmt::join(own, ", ")));
+  }
+  return analysis;
+}
+
+} // namespace dss

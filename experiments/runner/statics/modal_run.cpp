@@ -1,0 +1,57 @@
+#include "experiments/runner/statics/analysis.hpp"
+#include "solver/error.hpp"
+#include "solver/nearest_name.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+constexpr int most_modes = 1000;
+
+Model chosen_model(const RunRequest& run, const Scene& scene) {
+  const std::string text = run.model.value_or(scene.model);
+  const std::optional<Model> model = find_model(text);
+  if (!model)
+    throw InputError(fmt::format("--model {}: unknown model; {}", text, nearest_name(text, names_of_models())));
+  if (const std::string why = why_not_planar(scene.problem); *model == Model::planar && !why.empty())
+    throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", scene.name, why));
+  return *model;
+}
+
+} // namespace
+
+AnalysisResult solve_modal(const RunRequest& run, const AnalysisRequest& request) {
+  if (request.modes < 1 || request.modes > most_modes)
+    throw InputError(fmt::format("--modes {}: give 1 to {}", request.modes, most_modes));
+  const Scene scene = load_scene(run.scene, run.overrides);
+  const Model model = chosen_model(run, scene);
+  if (request.is_prestressed && is_linear(model))
+    throw InputError(fmt::format("--prestressed: loads do not change the stiffness of the model {}; give --model "
+                                 "spatial, or leave it out",
+                                 name(model)));
+  const auto start = std::chrono::steady_clock::now();
+  StaticSystem system(scene.problem, rotation_of(model), dofs_of(model));
+  const StaticSystem::State state = [&] {
+    if (!request.is_prestressed) return system.rest();
+    const Equilibrium found = find_equilibrium(system);
+    if (!found.is_found) throw InputError(fmt::format("--prestressed: {}: {}", scene.name, found.reason));
+    return found.state;
+  }();
+  AnalysisResult result;
+  result.modal = find_modes(system, request.modes, state, !request.is_prestressed);
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.analysis = "modal";
+  result.scene = scene.name;
+  result.model = name(model);
+  result.elements = scene.problem.lattice.element_count;
+  result.links = scene.problem.link_count();
+  result.unknowns = long(system.size());
+  if (result.modal.modes.size() < std::size_t(request.modes))
+    result.note = fmt::format("there are {} modes with a frequency in all", result.modal.modes.size());
+  return result;
+}
+
+} // namespace dss

@@ -1,0 +1,203 @@
+#include "experiments/runner/run_plan.hpp"
+#include "experiments/runner/statics/analysis.hpp"
+#include "experiments/runner/statics/relaxation.hpp"
+#include "solver/error.hpp"
+#include "solver/model/energy.hpp"
+#include "solver/nearest_name.hpp"
+#include "solver/numerics/denormals.hpp"
+#include "solver/numerics/stability.hpp"
+#include "solver/statics/held.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr double step_share = 0.95;     ///< of the largest stable step
+constexpr int most_tries = 4;           ///< each with half the step
+constexpr double foreign_forces = 1e-6; ///< left on what a model holds, against the loads
+
+/// Of the scene, the option, or the solver: direct and cg solve linear equations.
+Model chosen_model(const RunRequest& run, const Scene& scene, const std::string& solver) {
+  const bool is_linear_solver = solver == "direct" || solver == "cg";
+  const std::string name = run.model.value_or(is_linear_solver ? "linear" : scene.model);
+  const std::optional<Model> model = find_model(name);
+  if (!model)
+    throw InputError(fmt::format("--model {}: unknown model; {}", name, nearest_name(name, names_of_models())));
+  if (is_linear_solver && !is_linear(*model))
+    throw InputError(
+        fmt::format("--solver {}: solves linear equations; give --model linear, or --solver newton", solver));
+  if (solver == "newton" && is_linear(*model))
+    throw InputError(
+        fmt::format("--solver newton: equations of the model {} are linear; give --solver direct or cg", name));
+  if (const std::string why = why_not_planar(scene.problem); *model == Model::planar && !why.empty())
+    throw InputError(fmt::format("--model planar: {}: {}; use --model spatial", scene.name, why));
+  return *model;
+}
+
+std::string chosen_solver(const std::string& solver) {
+  const std::vector<std::string> known = {"auto", "direct", "cg", "newton", "relaxation"};
+  for (const std::string& one : known)
+    if (one == solver) return solver;
+  throw InputError(fmt::format("--solver {}: unknown solver; {}", solver, nearest_name(solver, known)));
+}
+
+Preconditioner chosen_preconditioner(const std::string& name) {
+  if (name == "incomplete_cholesky") return Preconditioner::incomplete_cholesky;
+  if (name == "block_jacobi") return Preconditioner::block_jacobi;
+  throw InputError(fmt::format("--preconditioner {}: unknown; {}", name,
+                               nearest_name(name, {"incomplete_cholesky", "block_jacobi"})));
+}
+
+/// Where nothing leaves the plane only what moves in it is unknown.
+std::uint8_t unknowns_of(Model model, const Problem& problem) {
+  const std::uint8_t dofs = dofs_of(model);
+  return dofs == dof_all && why_not_planar(problem).empty() ? dofs_of(Model::planar) : dofs;
+}
+
+/// A model of fewer degrees of freedom holds if the others feel no forces in its state.
+void require_no_foreign_forces(const Problem& problem, Model model, double loads, const std::vector<double>& state) {
+  if (dofs_of(model) == dof_all) return;
+  StaticSystem whole(problem, rotation_of(model), dof_all, loads);
+  const double all = whole.load_norm(), left = whole.norm(whole.unbalanced(whole.inside(state)));
+  if (left > foreign_forces * all)
+    throw InputError(fmt::format("--model {}: {}: {:.3g} of the loads are on degrees of freedom that the model lacks; "
+                                 "give --model {}",
+                                 name(model), problem.name, left / all, is_linear(model) ? "linear" : "spatial"));
+}
+
+/// What a state in its plane would do if anything pushed it out; empty where it would come back.
+std::string out_of_plane(const Problem& problem, double loads, const StaticSystem::State& state) {
+  try {
+    const StaticSystem across(problem, Rotation::quaternion, dofs_of(Model::bending), loads);
+    const SparseMatrix tangent = across.tangent(state);
+    Factors factors;
+    factors.compute(tangent);
+    if (factors.info() != Eigen::Success || factors.zero_pivot(tangent))
+      return "out of its plane, into which nothing pushes it, some motion takes no force";
+    if (factors.negative_pivots() > 0) return "out of its plane, into which nothing pushes it, it is not stable";
+  } catch (const InputError&) { // everything is clamped there
+  }
+  return {};
+}
+
+void describe(const Problem& problem, Model model, double loads, AnalysisResult& result) {
+  StaticSystem system(problem, rotation_of(model), unknowns_of(model, problem), loads);
+  const double all = system.load_norm(), left = system.norm(system.unbalanced(system.inside(result.state)));
+  result.residual = all > 0 ? left / all : left;
+  result.energy_j = total_energy(problem, result.state, rotation_of(model));
+  for (std::size_t e = 0; e < result.elements; ++e) {
+    const double* f = &result.state[e * field_count];
+    result.max_displacement_m =
+        std::max(result.max_displacement_m, std::sqrt(f[ux] * f[ux] + f[uy] * f[uy] + f[uz] * f[uz]));
+  }
+}
+
+void solve_equations(const Problem& problem, Model model, const std::string& solver, const AnalysisRequest& request,
+                     AnalysisResult& result) {
+  EquilibriumOptions options;
+  options.preconditioner = chosen_preconditioner(request.preconditioner);
+  if (solver == "direct") options.solver = SolverKind::direct;
+  if (solver == "cg") options.solver = SolverKind::cg;
+  const auto start = Clock::now();
+  StaticSystem system(problem, rotation_of(model), unknowns_of(model, problem), request.loads);
+  const Equilibrium found = find_equilibrium(system, options);
+  result.state = system.fields(found.state);
+  result.wall_s = seconds_since(start);
+  result.linear_solver = found.solver;
+  result.solver = !is_linear(model) ? "newton" : found.solver == "direct" ? "direct" : "cg";
+  result.unknowns = long(system.size());
+  result.iterations = found.iterations;
+  result.matrices = found.matrices;
+  result.cg_iterations = found.cg_iterations;
+  if (!found.is_found) result.status = "not converged", result.reason = found.reason;
+  result.note = found.note;
+  require_no_foreign_forces(problem, model, request.loads, result.state);
+  if (dofs_of(model) == dof_all && !is_linear(model) && system.moving() != dof_all && found.solver == "direct")
+    result.note = out_of_plane(problem, request.loads, found.state);
+}
+
+/// The variant, the method and so on are those of a run; the step is the largest stable one.
+void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& request, AnalysisResult& result) {
+  RunRequest asked = run;
+  asked.model = name(model);
+  asked.integrator = run.integrator.value_or("velocity_verlet");
+  asked.is_forced = true; // the scene's step is not taken
+  asked.steps = 1;
+  asked.output.clear(), asked.state_csv.clear();
+  const RunPlan plan = plan_run(asked);
+  if (plan.method->is_implicit() || plan.plugin->is_distributed)
+    throw InputError(
+        fmt::format("--solver relaxation: runs an explicit method on one process; {}",
+                    plan.method->is_implicit() ? "give --integrator velocity_verlet" : "leave --ranks out"));
+  const Problem& problem = plan.scene.problem;
+  if (const std::string why = why_not_held(problem, dofs_of(model)); !why.empty())
+    throw InputError(fmt::format("{}: {}", problem.name, why));
+  const Problem relaxed = relaxed_problem(problem, request.masses == "scaled", request.loads);
+  const double loads = StaticSystem(problem, rotation_of(model), dofs_of(model), request.loads).load_norm();
+  const Method method = fitted(relaxed, require_method(*asked.integrator), plan.dt);
+  RelaxationSettings settings{request.tolerance, run.steps.value_or(RelaxationSettings{}.most_steps),
+                              step_share * stable_step(relaxed, method).dt};
+  flush_denormals();
+  const auto start = Clock::now();
+  Relaxation found;
+  for (int tried = 0; tried < most_tries;
+       ++tried, settings.dt /= 2) { // stretched bodies may vibrate faster than at rest
+    const auto executor = plan.plugin->create({relaxed, method, plan.model, plan.precision, settings.dt, run.threads,
+                                               nullptr, &plan.distribution, run.device, run.hybrid, plan.rotation});
+    found = relax(*executor, relaxed, method, plan.precision, loads, settings);
+    result.steps += found.steps;
+    if (found.is_finite) break;
+  }
+  result.wall_s = seconds_since(start);
+  result.state = found.state;
+  result.dt_s = settings.dt;
+  result.solver = "relaxation";
+  result.variant = plan.plugin->name;
+  result.isa = plan.plugin->isa;
+  result.precision = name(plan.precision);
+  result.integrator = method.name;
+  result.threads = run.threads;
+  result.iterations = found.peaks;
+  result.unknowns = long(free_dofs(problem, dofs_of(model)).size());
+  if (!found.is_settled) result.status = "not converged", result.reason = found.reason;
+  if (found.is_settled) result.note = found.reason;
+}
+
+} // namespace
+
+std::vector<std::string> names_of_models() {
+  std::vector<std::string> names;
+  for (const Model model : models) names.emplace_back(name(model));
+  return names;
+}
+
+AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& request) {
+  const std::string solver = chosen_solver(request.solver);
+  if (request.masses != "scaled" && request.masses != "scene")
+    throw InputError(
+        fmt::format("--masses {}: unknown; {}", request.masses, nearest_name(request.masses, {"scaled", "scene"})));
+  if (!(request.tolerance > 0))
+    throw InputError(fmt::format("--tolerance {:g}: give a positive number", request.tolerance));
+  const Scene scene = load_scene(run.scene, run.overrides);
+  const Model model = chosen_model(run, scene, solver);
+  AnalysisResult result;
+  result.analysis = "static";
+  result.scene = scene.name;
+  result.model = name(model);
+  result.elements = scene.problem.lattice.element_count;
+  result.links = scene.problem.link_count();
+  if (solver == "relaxation")
+    relax_to_rest(run, model, request, result);
+  else
+    solve_equations(scene.problem, model, solver, request, result);
+  describe(scene.problem, model, request.loads, result);
+  return result;
+}
+
+} // namespace dss
