@@ -29,7 +29,7 @@ reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(BUILD)/dssbench verify --quiet --device none
 	@$(BUILD)/dssbench verify --quiet plate_paper --variant scalar,opencl,opencl-rhs
-	@for study in table1_host table1 table2 table3 error_budget work_precision stability failures model_ladder continuum statics balance cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
+	@for study in table1_host table1 table2 table3 error_budget work_precision advise stability failures model_ladder continuum statics balance cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 --output $(OUT)/fields/plate_paper.vtu >/dev/null
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)

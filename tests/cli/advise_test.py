@@ -7,6 +7,18 @@ from program import ProgramTest, dssbench
 
 BEAM = ("advise", "cantilever_beam", "--set", "n=6", "--end", 0.02, "--saved-times", 4)
 
+PENDULUM = {  # a chain of elements without bending stiffness that falls from level
+    "scene": "pendulum",
+    "title": "A pendulum of four parts",
+    "bodies": [{"name": "chain", "geometry": {"box": [4, 1, 1]}, "element": 0.1,
+                "constants": {"law": "paper", "k": 1e4, "d": 0, "kt": 0, "dt": 0, "mass": 1, "inertia": 0.01}}],
+    "clamps": [{"select": {"elements": [[0, 0, 0]]}}],
+    "gravity": [0, 0, -9.81],
+    "run": {"dt": 2e-3, "steps": 1000},
+    "verify": {"steps": 10},
+    "tolerance": {"f64": {"evaluation": 1e-13, "run": 1e-3}, "f32": {"evaluation": 1e-5, "run": 1e-3}},
+}
+
 
 class Advise(ProgramTest):
     def test_what_is_advised_can_be_run_as_printed(self):
@@ -47,6 +59,32 @@ class Advise(ProgramTest):
         result = dssbench(*BEAM, "--tolerance", "1e-8", "--budget", "1e-9")
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("--budget", result.stderr)
+
+    def test_chaos_is_said_and_not_guessed_at(self):
+        scene = self.write("pendulum.json", json.dumps(PENDULUM))
+        result = dssbench("advise", scene, "--end", 1, "--tolerance", "1e-4")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = dssbench("advise", scene, "--end", 40, "--tolerance", "1e-4")
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn("amplifies", result.stderr)
+        self.assertNotIn("dssbench run", result.stdout)
+
+    def test_a_grid_is_chosen_where_a_parameter_refines_it(self):
+        beam = ("advise", "cantilever_beam", "--set", "n=12", "--end", 0.1, "--saved-times", 4, "--vary")
+        result = dssbench(*beam, "n", "--tolerance", "0.2", "--json", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        advice = json.loads(result.stdout)
+        grid = advice["grid"]
+        self.assertLessEqual(grid["error"], 0.1)
+        self.assertGreater(grid["observed_order"], 0.5)
+        self.assertEqual(advice["elements"], grid["value"])
+        self.assertIn(f"--set n={grid['value']}", advice["chosen"]["command"])
+        self.assertLessEqual(grid["error"] + advice["chosen"]["error_estimate"], 0.2)
+        coarser = [run for run in grid["grids"] if run["value"] < grid["value"]]
+        self.assertTrue(all(run["error"] > 0.1 for run in coarser), grid)
+        self.assert_refused(2, ["--vary m", "no such parameter"], *beam, "m", "--tolerance", "1e-2")
+        self.assert_refused(2, ["--vary E", "number of elements"], *beam, "E", "--tolerance", "1e-2")
+        self.assert_refused(2, ["stress"], *beam, "n", "--tolerance", "1e-2", "--quantity", "stress")
 
     def test_bad_input_is_refused_in_one_line(self):
         self.assert_refused(2, ["--tolerance -1"], *BEAM, "--tolerance", "-1")

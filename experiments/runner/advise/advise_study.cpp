@@ -113,6 +113,7 @@ private:
     row["status"] = is_within ? "ok" : "failed";
     if (!is_within) row["reason"] = fmt::format("the true error {:.3g} is above the tolerance", error);
     std::vector<DuelEntry> entries = contenders(tolerance);
+    std::erase_if(entries, [&](const DuelEntry& entry) { return entry.configuration == chosen; });
     entries.insert(entries.begin(), {chosen, error, {}});
     duel(entries);
     const DuelEntry& cheapest =

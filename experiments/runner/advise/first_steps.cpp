@@ -7,16 +7,25 @@
 namespace dss {
 namespace {
 
-constexpr std::size_t sharp_limit_elements = 3000; ///< a sharp step limit of more takes longer than it may save
+constexpr std::size_t sharp_limit_elements = 32; ///< a sharp limit of a hundred takes some seconds
 
-/// The largest step, halved from the interval, for which 200 stages suffice.
-double fitting_rkc2_step(const Problem& problem, const Method& rkc2, double dt) {
-  for (int halvings = 0; halvings < 40; ++halvings, dt /= 2)
-    if (stable_step(problem, fitted(problem, rkc2, dt)).dt >= dt) return dt;
+/// The largest step, halved from the interval, for which some number of stages is stable by the bound.
+double fitting_rkc2_step(const Problem& problem, double dt) {
+  for (int halvings = 0; halvings < 40 && !has_stages(problem, dt); ++halvings) dt /= 2;
   return dt;
 }
 
 } // namespace
+
+bool has_stages(const Problem& problem, double dt) {
+  constexpr int most_stages = 200, tried = 12; // as in fitted
+  const double damping = stable_step(problem, rkc2(2)).damping;
+  int least = 2;
+  while (least <= most_stages && rkc2(least).real_limit < dt * damping) ++least;
+  for (int stages = least; stages < least + tried && stages <= most_stages; ++stages)
+    if (stable_step(problem, rkc2(stages)).dt >= dt) return true;
+  return false;
+}
 
 std::map<std::string_view, long> first_steps(const Problem& problem, const SavedTimes& times) {
   std::vector<const Method*> all;
@@ -29,7 +38,7 @@ std::map<std::string_view, long> first_steps(const Problem& problem, const Saved
   std::map<std::string_view, long> steps;
   for (std::size_t m = 0; m < all.size(); ++m) {
     if (!(limits[m].dt > 0)) continue;
-    const double dt = all[m]->name == "rkc2" ? fitting_rkc2_step(problem, *all[m], times.interval())
+    const double dt = all[m]->name == "rkc2" ? fitting_rkc2_step(problem, times.interval())
                                              : std::min(limits[m].dt, times.interval());
     steps[all[m]->name] = times.steps_between(dt);
   }

@@ -56,23 +56,22 @@ private:
     reference_.error = stalls_ > 0 ? std::max(change, before) : change * believed / (1 - believed);
   }
 
-  /// Twice in a row changes did not shrink: halving will not help any more.
+  /// Changes did not shrink twice in a row and are of rounding, or four times and are not: halving will not help any more.
   bool has_stalled() {
-    if (stalls_ < 2) return false;
-    if (reference_.error <= reference_bar * tolerance_) return true;
     const bool is_rounding = reference_.error < of_rounding;
+    if (stalls_ < (is_rounding ? 2 : 4)) return false;
+    if (reference_.error <= reference_bar * tolerance_) return true;
     if (is_rounding) reference_.least_tolerance = reference_.error / reference_bar;
     reference_.failure =
         is_rounding
-            ? fmt::format(
-                  "rounding of f64 leaves {:.1e}, whatever the step; the least tolerance that can be judged here "
-                  "is {:.1e}",
-                  reference_.error, reference_.least_tolerance)
-            : fmt::format(
-                  "halving the step three times over still changes the {} by {:.1e}: the motion amplifies what "
-                  "differs (chaos, buckling, a step far too long), so no error can be estimated; take a shorter "
-                  "--end",
-                  name(bench_.quantity()), reference_.error);
+            ? fmt::format("rounding of f64 leaves {:.1e}, whatever the step; the least tolerance that can be judged "
+                          "here is {:.1e}",
+                          reference_.error, reference_.least_tolerance)
+            : fmt::format("{} steps instead of {} still change the {} by {:.1e}: the motion amplifies what differs "
+                          "(chaos, buckling), so no error can be estimated; take a shorter --end",
+                          reference_.levels.back().steps_between * bench_.times().count,
+                          reference_.levels[reference_.levels.size() - 2].steps_between * bench_.times().count,
+                          name(bench_.quantity()), reference_.error);
     return true;
   }
 

@@ -46,6 +46,7 @@ StepCosts::StepCosts(const Workbench& bench, const Configuration& base, const st
     for (int threads = 2; threads <= most_threads;
          threads = threads < most_threads ? std::min(2 * threads, most_threads) : threads + 1) {
       tried.threads = threads;
+      if (bench_.workers(tried) < threads) break; // too few rows
       const double threaded_s = evaluation_time(tried);
       if (threaded_s > thread_gain * before_s) break;
       before_s = threaded_s;
@@ -61,6 +62,7 @@ double StepCosts::evaluation_time(const Configuration& configuration) {
   if (known != evaluation_s_.end()) return known->second;
   Configuration fixed = configuration;
   fixed.rtol.reset();
+  if (bench_.stages(fixed) == 0) return std::numeric_limits<double>::infinity();
   const double time_s = bench_.step_time(fixed, step_timing_s) / bench_.stages(fixed);
   return evaluation_s_[key] = time_s;
 }
@@ -90,6 +92,7 @@ Configuration StepCosts::placed(Configuration configuration) {
 }
 
 double StepCosts::run_time(const Configuration& configuration) {
+  if (bench_.stages(configuration) == 0) return std::numeric_limits<double>::infinity();
   return evaluation_time(configuration) * bench_.stages(configuration) * double(bench_.steps(configuration));
 }
 

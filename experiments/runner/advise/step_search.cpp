@@ -12,6 +12,14 @@ constexpr double longest_leap = 4;                ///< from steps that fail to t
 constexpr double stalls_from = 1.5, stalls = 0.8; ///< of steps; of the error
 constexpr int most_runs = 14;
 
+/// Numbers of steps are multiples of this, so that loads whose kinks are at halves, quarters, thirds of the time between saved times have them at the end of
+/// a step: otherwise errors jump from each number to the next.
+long unit_of(long steps) { return steps < 8 ? 1 : steps < 40 ? 2 : steps < 160 ? 4 : 12; }
+long rounded_up(long steps) {
+  const long unit = unit_of(steps);
+  return (steps + unit - 1) / unit * unit;
+}
+
 class StepSearch {
 public:
   explicit StepSearch(const StepTask& task) : task_(task), order_(task.order), failing_(task.first - 1) {}
@@ -55,7 +63,8 @@ private:
   }
 
   bool is_open() const {
-    return passing_ == 0 || (passing_ > failing_ + 1 && double(passing_) > fine_enough * double(failing_));
+    return passing_ == 0 ||
+           (passing_ > failing_ + unit_of(passing_) && double(passing_) > fine_enough * double(failing_));
   }
 
   long next() const {
@@ -66,16 +75,16 @@ private:
         const double predicted = few * std::pow(failing_error_ / task_.most_error, 1 / order_) * margin;
         if (predicted < 0.98 * double(passing_)) guess = predicted;
       }
-      return std::clamp(long(std::ceil(guess)), failing_ + 1, passing_ - 1);
+      return std::clamp(rounded_up(long(std::ceil(guess))), failing_ + 1, passing_ - unit_of(passing_));
     }
-    if (!std::isfinite(failing_error_)) return 2 * failing_;
+    if (!std::isfinite(failing_error_)) return rounded_up(2 * failing_);
     const double predicted = few * std::pow(failing_error_ / task_.most_error, 1 / order_) * margin;
     // Near the stability limit errors may fall faster than the order says: one more look before the prediction is believed.
     const bool is_dear = task_.cost(long(std::min(predicted, 1e15))) > task_.most_cost;
     const double steps = is_dear && !knows_order_ ? 2 * few
                          : is_dear                ? predicted
                                                   : std::min(predicted, longest_leap * few);
-    return std::max(failing_ + 1, long(std::ceil(std::min(steps, 1e15))));
+    return rounded_up(std::max(failing_ + 1, long(std::ceil(std::min(steps, 1e15)))));
   }
 
   const StepTask& task_;

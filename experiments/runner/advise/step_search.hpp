@@ -21,7 +21,7 @@ struct StepResult {
   int runs = 0;
 };
 
-/// Searches by the method's order, later by the order that its errors show, until the number of steps that meets the tolerance is within 7 % of one that does
+/// Searches by the method's order, later by the order that its errors show, until the number of steps that meets the tolerance is within 7 % (or the unit that numbers of steps are rounded to) of one that does
 /// not. `costs_more`: the errors so far promise none at the most cost. `stalls`: half as many steps again do not lower the error by a fifth.
 StepResult fewest_steps(const StepTask& task);
 

@@ -1,5 +1,6 @@
 #include "experiments/runner/advise/workbench.hpp"
 #include "experiments/runner/adaptive_steps.hpp"
+#include "experiments/runner/advise/first_steps.hpp"
 #include "experiments/runner/breakdown.hpp"
 #include "solver/numerics/denormals.hpp"
 #include "solver/numerics/signal_rows.hpp"
@@ -18,7 +19,7 @@ class Workbench::Process {
 public:
   Process(const Workbench& bench, const Configuration& configuration)
       : bench_(bench), configuration_(configuration), dt_(bench.dt(configuration)),
-        method_(configuration.rtol ? dopri5_adaptive() : fitted(bench.problem_, *configuration.method, dt_)),
+        method_(bench.method_of(configuration)),
         executor_(load_variant(configuration.variant)
                       .create({bench.problem_, method_, configuration.model, configuration.precision, dt_,
                                configuration.threads, nullptr, nullptr, "", "", Rotation::quaternion})) {}
@@ -53,6 +54,8 @@ public:
   }
 
   void restart() { write_initial_state(*executor_, bench_.problem_); }
+
+  int workers() const { return executor_->workers(); }
 
   double wall_s = 0;
   long steps = 0;
@@ -91,12 +94,25 @@ private:
 };
 
 int Workbench::stages(const Configuration& of) const {
-  return of.rtol ? dopri5_adaptive().stages : fitted(problem_, *of.method, dt(of)).stages;
+  if (of.rtol) return dopri5_adaptive().stages;
+  if (of.method->name != "rkc2") return of.method->stages;
+  const auto [place, is_new] = rkc2_stages_.try_emplace(of.steps_between, 0);
+  if (is_new && has_stages(problem_, dt(of))) place->second = fitted(problem_, *of.method, dt(of)).stages;
+  return place->second;
+}
+
+Method Workbench::method_of(const Configuration& of) const {
+  if (of.rtol) return dopri5_adaptive();
+  return of.method->name == "rkc2" ? rkc2(stages(of)) : *of.method;
 }
 
 Observation Workbench::run(const Configuration& configuration) const {
   const FlushDenormals flush;
   Observation observation;
+  if (stages(configuration) == 0) {
+    observation.failure = "no number of stages is stable with that step";
+    return observation;
+  }
   Process process(*this, configuration);
   process.run(&observation.observed);
   observation.wall_s = process.wall_s;
@@ -104,6 +120,8 @@ Observation Workbench::run(const Configuration& configuration) const {
   observation.failure = process.failure;
   return observation;
 }
+
+int Workbench::workers(const Configuration& configuration) const { return Process(*this, configuration).workers(); }
 
 double Workbench::step_time(const Configuration& configuration, double least_s) const {
   const FlushDenormals flush;

@@ -5,6 +5,7 @@
 #include "solver/numerics/method.hpp"
 #include "variants/api.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,8 @@ struct Configuration {
   std::optional<double> rtol; ///< of adaptive steps
   std::string variant;
   int threads = 1;
+
+  bool operator==(const Configuration&) const = default;
 };
 
 /// What a run came to.
@@ -40,13 +43,15 @@ public:
   Quantity quantity() const { return quantity_; }
   double dt(const Configuration& of) const { return times_.interval() / double(of.steps_between); }
   long steps(const Configuration& of) const { return of.steps_between * times_.count; }
-  /// Force evaluations of a step: of rkc2 they follow from the step.
+  /// Force evaluations of a step: of rkc2 they follow from the step. 0: it has no number of stages for that
   int stages(const Configuration& of) const;
 
   Observation run(const Configuration& configuration) const;
   double error(const Observed& expected, const Observed& actual) const {
     return observed_error(problem_, quantity_, expected, actual);
   }
+  /// Threads that would compute.
+  int workers(const Configuration& configuration) const;
   /// Time of a step [s], the best of three short timings, each of `least_s` [s] or one step.
   double step_time(const Configuration& configuration, double least_s) const;
   /// Mean time of whole runs [s], so many that `least_s` [s] are measured.
@@ -54,9 +59,11 @@ public:
 
 private:
   class Process;
+  Method method_of(const Configuration& of) const;
   const Problem& problem_;
   const SavedTimes times_;
   const Quantity quantity_;
+  mutable std::map<long, int> rkc2_stages_; ///< by steps between saved times
 };
 
 } // namespace dss
