@@ -8,6 +8,7 @@ import argparse
 import pathlib
 import sys
 
+import advice
 import balance_lines
 import cluster_lines
 import continuum
@@ -43,7 +44,7 @@ def main():
             continue
         if table.stem.startswith("work_precision_"):  # what the chart shows already, in words
             continue
-        if any(kind.draw(table, output) is None for kind in (balance_lines, failure_atlas, continuum, statics, work_precision, error_budget, model_ladder)):
+        if any(kind.draw(table, output) is None for kind in (advice, balance_lines, failure_atlas, continuum, statics, work_precision, error_budget, model_ladder)):
             print(output)
             continue
         print(speedup_bars.draw(table, None, output) or output)

@@ -1,4 +1,5 @@
-"""Advice: what the command says, as text and JSON, and its errors."""
+"""Advice: what the command says, as text and JSON, its errors, and the study that judges it."""
+import csv
 import json
 import shlex
 import unittest
@@ -85,6 +86,33 @@ class Advise(ProgramTest):
         self.assert_refused(2, ["--vary m", "no such parameter"], *beam, "m", "--tolerance", "1e-2")
         self.assert_refused(2, ["--vary E", "number of elements"], *beam, "E", "--tolerance", "1e-2")
         self.assert_refused(2, ["stress"], *beam, "n", "--tolerance", "1e-2", "--quantity", "stress")
+
+    def study(self, **changes):
+        work = {"solution": {"tolerance": 1e-9}, "tolerances": [1e-2, 1e-5],
+                "scenes": [{"scene": "chain", "set": {"n": 6}, "end_time": 2e-4, "saved_times": 4}]}
+        whole = {"experiment": "judged", "title": "Judged", "advise": {**work, **changes}, "scales": {"smoke": {}}}
+        return self.write("judged.json", json.dumps(whole))
+
+    def test_a_study_holds_advice_against_the_oracle_and_everything(self):
+        result = dssbench("experiment", self.study(), "--scale", "smoke", "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("out/tables/judged.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([float(row["tolerance"]) for row in rows], [1e-2, 1e-5])
+        for row in rows:
+            self.assertEqual(row["status"], "ok")
+            self.assertIn(row["verdict"], ("ok", "slower"))
+            self.assertLessEqual(float(row["true_error"]), float(row["tolerance"]))
+            self.assertLessEqual(float(row["cheapest_true_error"]), float(row["tolerance"]))
+            self.assertGreater(int(row["brute_force_runs"]), 10)
+            self.assertGreaterEqual(float(row["time_over_cheapest"]), 0.5)
+
+    def test_a_study_that_is_wrong_is_refused(self):
+        for change, words in (({"tolerances": [0]}, ["/advise/tolerances", "positive"]),
+                              ({"tolerances": []}, ["/advise/tolerances", "at least one"]),
+                              ({"scenes": [{"scene": "chian", "end_time": 1, "saved_times": 4}]}, ["/advise/scenes/0", "chain"]),
+                              ({"scenes": [{"scene": "chain", "end_time": 1, "saved_times": 4, "quantity": "strain"}]}, ["quantity", "stress"])):
+            self.assert_refused(2, words, "experiment", self.study(**change), "--scale", "smoke", "--out", self.path("out"))
 
     def test_bad_input_is_refused_in_one_line(self):
         self.assert_refused(2, ["--tolerance -1"], *BEAM, "--tolerance", "-1")
