@@ -14,6 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
+from matplotlib.ticker import NullFormatter  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
 
 # Okabe and Ito's colours, from the least work to the most.
@@ -50,6 +51,7 @@ def draw_panel(axes, rows):
     start, end = axes.get_xlim()
     axes.set_xlim(start / 3, end)
     promoted = f", {int(chosen['promotions'])} promoted" if chosen["promotions"] > 0 else ""
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_title(f"{chosen['scene']} {chosen['precision']}: {chosen['ends_with']}{promoted}", fontsize=8.5, loc="left")
     axes.tick_params(labelsize=7)
     axes.grid(alpha=0.25)
@@ -71,8 +73,8 @@ def draw(path, output):
         axes.set_axis_off()
     entries = [Line2D([], [], color=colour, marker="o", linestyle="none", label=model) for model, colour in COLOURS.items()]
     entries.append(Line2D([], [], color="#000000", marker="o", markersize=11, markerfacecolor="none", linestyle="none", label="auto"))
+    figure.suptitle(" ", fontsize=14)  # room for the legend
     figure.legend(handles=entries, loc="upper right", ncol=len(entries), fontsize=9, frameon=False).set_in_layout(False)
-    figure.suptitle("", fontsize=14)
     figure.supxlabel("time of a run [s]", fontsize=9)
     figure.supylabel("relative error against the spatial oracle", fontsize=9)
     output.parent.mkdir(parents=True, exist_ok=True)
