@@ -6,15 +6,16 @@
 
 namespace dss {
 
-void write_state(const std::string& path, const Problem& problem, const std::vector<double>& state) {
-  write_state_csv(path, problem, state, element_stress(problem, state));
+void write_state(const std::string& path, const Problem& problem, const std::vector<double>& state,
+                 Rotation equations) {
+  write_state_csv(path, problem, state, element_stress(problem, state, equations));
 }
 
-void FrameSeries::add(const Problem& problem, const std::vector<double>& state, double time) {
+void FrameSeries::add(const Problem& problem, const std::vector<double>& state, Rotation equations, double time) {
   if (output_.empty()) return;
   std::filesystem::path path(output_);
   if (is_series_) path.replace_filename(fmt::format("{}_{:04}.vtu", path.stem().string(), frames_.size()));
-  write_vtu(path.string(), problem, state, element_stress(problem, state));
+  write_vtu(path.string(), problem, state, element_stress(problem, state, equations));
   frames_.push_back({path.filename().string(), time});
 }
 

@@ -132,8 +132,8 @@ private:
                                           : advance_to(step, stop, result_);
       if (!has_arrived || !is_finite_after(stop)) return false;
       step = stop;
-      if (step == plan_.steps && monitor_ && !monitor_->holds_at_end()) {
-        if (promote(step, 0, Model::spatial)) begin_anew(); // nothing between is known to be good
+      if (step == plan_.steps && !holds_at_end()) {
+        if (!monitor_ || promote(step, 0, Model::spatial, "of what the end has itself")) begin_anew();
         return false;
       }
       look(step);
@@ -154,22 +154,30 @@ private:
         result_.model_report = monitor_->report();
         continue;
       }
+      if (!is_finite && request_.on_bound == "stop") {
+        result_ = std::move(tried); // unstable, whatever the model
+        return false;
+      }
       step = monitor_->good_step();
-      if (!promote(next, step, monitor_->promoted())) return false;
+      if (!promote(next, step, monitor_->promoted(), "")) return false;
     }
     return true;
   }
 
   /// @param step  at which the bound was exceeded  @param resumed  from whose state the run goes on; the last good one, or 0 for the start
+  /// @param relative_to  in words, where it is not the largest motion so far
   /// @return false if the run is to stop instead
-  bool promote(long step, long resumed, Model to) {
+  bool promote(long step, long resumed, Model to, const std::string& relative_to) {
     const Promotion promotion{step, resumed, model_, to, monitor_->estimate()};
     if (request_.on_bound == "stop") {
       result_.status = "bound";
-      result_.reason = fmt::format("after step {} (t = {:g} s) the error of model {} may be {:.3g}, above {:g} of the "
-                                   "tolerance {:g}; take --model {}, or --on-bound promote",
-                                   step, double(step) * plan_.dt, name(model_), promotion.estimate, bounded_share,
-                                   monitor_->tolerance(), name(to));
+      const std::string error = relative_to.empty()
+                                    ? fmt::format("{:.3g}, above {:g} of the tolerance {:g}", promotion.estimate,
+                                                  bounded_share, monitor_->tolerance())
+                                    : fmt::format("above the tolerance {:g} {}", monitor_->tolerance(), relative_to);
+      result_.reason = fmt::format("after step {} (t = {:g} s) the error of model {} may be {}; take --model {}, or "
+                                   "--on-bound promote",
+                                   step, double(step) * plan_.dt, name(model_), error, name(to));
       result_.steps = step;
       series_.discard();
       return false;
@@ -180,14 +188,25 @@ private:
     executor_ = created(to);
     executor_->write(0, monitor_->good_state());
     if (to == Model::spatial)
-      monitor_.reset();
+      left_out_ = {monitor_->left_out(), monitor_->tolerance()}, monitor_.reset();
     else
       monitor_->go_on_with(to);
     return true;
   }
 
+  /// Whether what smaller models left out is within the tolerance of the end: a motion may end where it passes its rest.
+  bool holds_at_end() {
+    if (monitor_) return monitor_->holds_at_end();
+    if (!left_out_) return true;
+    const KindValues end = largest_of_kinds(whole_state(*executor_, problem_.lattice.element_count));
+    return relative_error(problem_, left_out_->errors, end) <= left_out_->tolerance;
+  }
+
+  /// Nothing between is known to be good.
   void begin_anew() {
+    left_out_.reset();
     write_initial_state(*executor_, problem_);
+    series_.discard();
     series_ = new_series();
     if (meter_) meter_.emplace(problem_, plan_.reference->states);
     result_.check = {};
@@ -326,7 +345,7 @@ private:
     if (std::binary_search(plan_.frame_steps.begin(), plan_.frame_steps.end(), step)) {
       const std::vector<double> state = whole_state(*executor_, count);
       const WorkAlone alone(*executor_, is_root_);
-      series_.add(problem_, state, double(step) * plan_.dt);
+      series_.add(problem_, state, equations(), double(step) * plan_.dt);
     }
   }
 
@@ -351,6 +370,12 @@ private:
   FrameSeries series_;
   bool is_root_;
   std::optional<AdaptiveSteps> adaptive_;
+  /// By models before the spatial one, which has no bound to keep.
+  struct LeftOut {
+    KindBounds errors;
+    double tolerance;
+  };
+  std::optional<LeftOut> left_out_;
   std::vector<double> tail_state_;
   std::optional<AccuracyMeter> meter_;
   std::optional<ModelMonitor> monitor_; ///< while the model is one of small rotations that auto chose
@@ -419,7 +444,7 @@ RunResult run_scene(const RunRequest& request) {
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), count);
     const WorkAlone alone(timed.executor(), request.is_root);
-    if (request.is_root) write_state(request.state_csv, problem, state);
+    if (request.is_root) write_state(request.state_csv, problem, state, timed.equations());
     result.files.push_back(request.state_csv);
   }
   result.wall_s += result.model_report.look_s;

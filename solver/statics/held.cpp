@@ -43,8 +43,8 @@ Matrix6 rigid_motions(const Eigen::Vector3d& place, double length) {
 /// move, a tie, or a closed chain of links that does not fit together.
 class Group {
 public:
-  Group(const Problem& problem, const Linearised& system, std::uint8_t dofs, std::vector<Eigen::Vector3d>& place)
-      : problem_(problem), system_(system), dofs_(dofs), place_(place) {}
+  Group(const Linearised& system, std::uint8_t dofs, std::vector<Eigen::Vector3d>& place)
+      : system_(system), dofs_(dofs), place_(place) {}
 
   void collect(std::size_t first, const std::vector<std::vector<Joint>>& joints, std::vector<bool>& is_taken) {
     members_ = {first};
@@ -88,7 +88,6 @@ public:
   }
 
 private:
-  const Problem& problem_;
   const Linearised& system_;
   std::uint8_t dofs_;
   std::vector<Eigen::Vector3d>& place_;
@@ -106,7 +105,7 @@ std::string why_not_held(const Problem& problem, std::uint8_t dofs) {
   std::vector<Eigen::Vector3d> place(system.body.size());
   for (std::size_t e = 0; e < is_taken.size(); ++e) {
     if (is_taken[e]) continue;
-    Group group(problem, system, dofs, place);
+    Group group(system, dofs, place);
     group.collect(e, joints, is_taken);
     if (const std::string motion = group.free_motion(); !motion.empty())
       return fmt::format("body \"{}\" is free to {}; clamp it, or tie it to the frame by \"stabilization\"",

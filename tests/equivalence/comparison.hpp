@@ -1,11 +1,11 @@
 #pragma once
 /// Runs a problem on a variant and compares states: by tolerance with the oracle, to the last bit among variants with
 /// FMA.
+#include "solver/model/rotation_vector.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
 #include "tests/fixtures/schemes.hpp"
 #include "variants/engine/layout.hpp"
-#include "variants/engine/rotation_vector.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>

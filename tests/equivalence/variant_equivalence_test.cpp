@@ -57,7 +57,7 @@ protected:
   std::vector<Model> tested_models(const Case& c) const {
     std::vector<Model> tested;
     for (const Model model : models)
-      if (c.has(model) && (is_common(model) || c.is_bar || !(is_composed(plugin) || c.name.starts_with("row_of"))))
+      if (c.has(model) && (is_common(model) || !(is_composed(plugin) || c.name.starts_with("row_of"))))
         tested.push_back(model);
     return tested;
   }

@@ -1,7 +1,7 @@
 #include "variants/engine/state_rows.hpp"
 
+#include "solver/model/rotation_vector.hpp"
 #include "variants/engine/packs.hpp"
-#include "variants/engine/rotation_vector.hpp"
 
 #include <algorithm>
 #include <array>

@@ -30,7 +30,8 @@ public:
   GridAdvice result() {
     long middle = checked_value();
     for (int triple = 0; triple < most_triples; ++triple) {
-      const long wanted = wanted_from({middle / 2, middle, 2 * middle});
+      const long coarse = middle / 2; // of an odd number: all three in the ratio 2
+      const long wanted = wanted_from({coarse, 2 * coarse, 4 * coarse});
       if (!advice_.failure.empty() || choose(wanted)) return std::move(advice_);
       middle = wanted;
     }

@@ -21,7 +21,8 @@ void observe(const Problem& problem, Quantity quantity, Model model, std::span<c
       values.insert(values.end(), {state[at + ux], state[at + uy], state[at + uz]});
     break;
   case Quantity::stress:
-    for (const ElementStress& stress : element_stress(problem, state)) values.push_back(stress.back());
+    for (const ElementStress& stress : element_stress(problem, state, rotation_of(model)))
+      values.push_back(stress.back());
     break;
   case Quantity::energy:
     values.push_back(total_energy(problem, state, rotation_of(model)));

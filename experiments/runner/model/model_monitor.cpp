@@ -11,7 +11,31 @@ namespace {
 constexpr long looks_of_a_run = 64; ///< at least
 constexpr long most_looks = 1024;   ///< near the bound
 
+constexpr double looks_of_a_period = 8;
+
 using MonitorClock = std::chrono::steady_clock;
+
+/// Calls visit(signal) for all that moves the problem.
+template <class Visit>
+void each_signal(const Problem& problem, Visit&& visit) {
+  for (const Load& load : problem.loads) visit(load.signal);
+  for (const Signal& signal : problem.frame_acceleration) visit(signal);
+}
+
+/// Steps at which a ramp ends or a table has a point.
+std::vector<long> breaks_of(const Problem& problem, double dt) {
+  std::vector<long> steps;
+  const auto add = [&](double t) {
+    if (t > 0 && t / dt < 1e18) steps.push_back(long(std::ceil(t / dt)));
+  };
+  each_signal(problem, [&](const Signal& signal) {
+    if (signal.kind == Signal::Kind::ramp) add(signal.duration);
+    if (signal.kind == Signal::Kind::table) std::ranges::for_each(signal.times, add);
+  });
+  std::ranges::sort(steps);
+  steps.erase(std::ranges::unique(steps).begin(), steps.end());
+  return steps;
+}
 
 } // namespace
 
@@ -25,7 +49,13 @@ double relative_error(const Problem& problem, const KindBounds& errors, const Ki
 ModelMonitor::ModelMonitor(const Problem& problem, Model model, double tolerance, long steps, double dt)
     : problem_(problem), model_(model), limit_(bounded_share * tolerance), tolerance_(tolerance), dt_(dt),
       longest_interval_(std::max(1L, steps / looks_of_a_run)), shortest_interval_(std::max(1L, steps / most_looks)),
-      good_state_(initial_state(problem)) {
+      breaks_(breaks_of(problem, dt)), good_state_(initial_state(problem)) {
+  each_signal(problem, [&](const Signal& signal) {
+    if (signal.kind != Signal::Kind::harmonic || signal.frequency == 0) return;
+    const double period = 1 / std::abs(signal.frequency) / dt;
+    if (period < looks_of_a_period * double(longest_interval_))
+      longest_interval_ = std::max(1L, long(period / looks_of_a_period));
+  });
   largest_ = largest_of_kinds(good_state_);
   begin();
 }
@@ -36,6 +66,17 @@ void ModelMonitor::begin() {
   bound_->look(good_state_, double(good_step_) * dt_);
   good_errors_ = bound_->errors();
   interval_ = 1;
+}
+
+long ModelMonitor::next_look(long step, long stop) const {
+  const auto after = std::ranges::upper_bound(breaks_, step);
+  return std::min({step + interval_, stop, after == breaks_.end() ? stop : *after});
+}
+
+KindBounds ModelMonitor::left_out() const {
+  KindBounds errors = good_errors_;
+  for (std::size_t kind = 0; kind < errors.size(); ++kind) errors[kind] += carried_[kind];
+  return errors;
 }
 
 double ModelMonitor::estimate_of(const ModelErrorBound& bound, double ahead) const {
@@ -52,6 +93,7 @@ bool ModelMonitor::look(Executor& executor, long step) {
   for (std::size_t kind = 0; kind < now.size(); ++kind) largest_[kind] = std::max(largest_[kind], now[kind]);
   estimate_ = estimate_of(*bound_, 0);
   ++report_.looks;
+  if (std::ranges::binary_search(breaks_, step)) interval_ = 1; // what comes is not what was: it grows from here
   if (estimate_ <= limit_) adapt_interval();
   const bool is_good = estimate_ <= limit_; // false for what is no number
   if (!is_good) {
@@ -79,9 +121,7 @@ void ModelMonitor::adapt_interval() {
 }
 
 bool ModelMonitor::holds_at_end() const {
-  KindBounds errors = good_errors_;
-  for (std::size_t kind = 0; kind < errors.size(); ++kind) errors[kind] += carried_[kind];
-  return relative_error(problem_, errors, largest_of_kinds(good_state_)) <= tolerance_;
+  return relative_error(problem_, left_out(), largest_of_kinds(good_state_)) <= tolerance_;
 }
 
 Model ModelMonitor::promoted() const {

@@ -39,7 +39,7 @@ public:
 
   double tolerance() const { return tolerance_; }
   /// The step at which to look next, at most `stop`.
-  long next_look(long step, long stop) const { return std::min(step + interval_, stop); }
+  long next_look(long step, long stop) const;
   /// Looks at the executor's state after `step` steps. @return whether the model's error is within its bound, also if rotations go on as they do until the
   /// next look; if so, that state is the last good one
   bool look(Executor& executor, long step);
@@ -49,6 +49,9 @@ public:
   Model promoted() const;
   /// Goes on from the last good state with another model; what the first one may have left out stays in the account.
   void go_on_with(Model model);
+
+  /// Errors that this model and those before it may have left in the last good state.
+  KindBounds left_out() const;
 
   double estimate() const { return estimate_; } ///< at the last look
   long good_step() const { return good_step_; }
@@ -64,7 +67,9 @@ private:
   const Problem& problem_;
   Model model_;
   const double limit_, tolerance_, dt_;
-  const long longest_interval_, shortest_interval_;
+  long longest_interval_;
+  const long shortest_interval_;
+  std::vector<long> breaks_; ///< steps at which a signal changes its course, ascending
   long interval_ = 1;
   std::optional<ModelErrorBound> bound_;
   KindBounds carried_{}; ///< errors of earlier models

@@ -89,7 +89,7 @@ void write_shapes(const Problem& problem, const RunRequest& run, AnalysisResult&
       largest = std::max(largest, std::abs(shape[k]) * (system.dofs().dof[std::size_t(k)] % 6 < 3 ? 1 : edge / 2));
     StaticSystem::State state = system.rest();
     system.move(state, size / largest * shape);
-    series.add(problem, system.fields(state), double(n + 1));
+    series.add(problem, system.fields(state), Rotation::linearised, double(n + 1));
   }
   result.files.push_back(series.finish());
 }
@@ -98,11 +98,12 @@ void write_files(const RunRequest& run, AnalysisResult& result) {
   if (run.output.empty() && run.state_csv.empty()) return;
   const Problem problem = load_scene(run.scene, run.overrides).problem;
   if (result.analysis == "modal") return write_shapes(problem, run, result);
+  const Rotation equations = rotation_of(*find_model(result.model));
   FrameSeries frame(run.output, false);
-  frame.add(problem, result.state, 0);
+  frame.add(problem, result.state, equations, 0);
   if (const std::string written = frame.finish(); !written.empty()) result.files.push_back(written);
   if (run.state_csv.empty()) return;
-  write_state(run.state_csv, problem, result.state);
+  write_state(run.state_csv, problem, result.state, equations);
   result.files.push_back(run.state_csv);
 }
 

@@ -74,7 +74,11 @@ void look_at_connections(const Problem& problem, BoundStructure& structure) {
     structure.is_held = pieces.root(e) == pieces.root(first_held);
 }
 
+/// No way through a body is longer than the sum of its box's edges where the body fills its box; where it may wind about, than all its elements in a
+/// line.
 double longest_way(const Problem& problem) {
+  std::vector<long> elements(problem.bodies.size());
+  problem.lattice.for_each_element([&](std::size_t, const Row& row, int) { ++elements[std::size_t(row.body)]; });
   std::vector<std::array<int, 6>> extents(problem.bodies.size(), {1 << 30, -1, 1 << 30, -1, 1 << 30, -1});
   for (const Row& row : problem.lattice.rows) {
     auto& extent = extents[std::size_t(row.body)];
@@ -87,7 +91,13 @@ double longest_way(const Problem& problem) {
   double longest = 0, sum = 0;
   for (std::size_t b = 0; b < extents.size(); ++b) {
     double way = 0;
-    for (std::size_t a = 0; a < 3; ++a) way += problem.bodies[b].edge[a] * (extents[b][2 * a + 1] - extents[b][2 * a]);
+    long cells = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int extent = extents[b][2 * a + 1] - extents[b][2 * a];
+      way += problem.bodies[b].edge[a] * extent;
+      cells *= extent;
+    }
+    if (cells != elements[b]) way = double(elements[b]) * *std::ranges::max_element(problem.bodies[b].edge);
     longest = std::max(longest, way);
     sum += way;
   }
