@@ -144,6 +144,17 @@ TEST_F(AutoRun, BeginsAnewIfTheEndIsSmallAgainstWhatWentBefore) {
   EXPECT_LE(result.check.error, 1e-11);
 }
 
+TEST_F(AutoRun, LooksWhereASignalChangesItsCourseHoweverLongAllWasStill) {
+  std::ifstream stream(ladder_scene("strip.json"));
+  nlohmann::json scene = nlohmann::json::parse(stream);
+  scene["loads"][0]["signal"] = {{"table", {{0, 0}, {0.2, 0}, {0.201, 1}, {0.203, 1}, {0.204, 0}}}};
+  std::ofstream(file("late.json")) << scene;
+  const RunResult result = run(file("late.json"), {{"n", "4"}, {"width", "1"}, {"force", "100"}}, 2000);
+  ASSERT_FALSE(result.model_report.promotions.empty());
+  EXPECT_GT(result.model_report.promotions[0].step, 1000); // 0.2 s
+  EXPECT_LE(result.model_report.promotions[0].step, 1016) << "looks were 31 steps apart before";
+}
+
 TEST_F(AutoRun, OfAnotherRotationOrOnRanksOrAdaptiveTakesWhatIsProven) {
   request.rotation = "tait_bryan";
   EXPECT_EQ(run(ladder_scene("strip.json"), {{"n", "4"}}, 20).model, "spatial");
