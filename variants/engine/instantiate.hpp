@@ -16,7 +16,7 @@ struct RowKernels {
   static constexpr int leapfrog_fields = P::fields + half_velocities;
 
   // The actions of the most used methods have a function each: the branch a pack and the distance of packs that a function for
-  // all must look up cost 4 to 10 % (measured: AVX-512, n = 100). The rest share one, which would else be as many times the code.
+  // all must look up cost 4 to 10 % (measured: AVX-512, n = 100). The rest, and all of rare models in single precision, share one, which would else be as many times the code.
   static constexpr int in_place = half_velocities > 0 ? predicted_step : leapfrog_step;
   template <int action, int fields>
   DSS_FLATTEN static bool run_stage(const RowTask<T>& task) {
@@ -26,21 +26,23 @@ struct RowKernels {
     return update.check.passed();
   }
   static bool stage(const RowTask<T>& task) {
-    switch (task.action) {
-    case plain_stage:
-      return run_stage<plain_stage, P::fields>(task);
-    case combined_stage:
-      return run_stage<combined_stage, P::fields>(task);
-    case in_place:
-      return run_stage<in_place, leapfrog_fields>(task);
-    case kept_stage:
-      if constexpr (P::is_common && sizeof(T) == sizeof(float)) return run_stage<kept_stage, 2 * P::fields>(task);
-      break;
-    case kept_step:
-      if constexpr (P::is_common && sizeof(T) == sizeof(float)) return run_stage<kept_step, 2 * P::fields>(task);
-      break;
-    default:
-      break;
+    if constexpr (P::is_common || sizeof(T) == sizeof(double)) {
+      switch (task.action) {
+      case plain_stage:
+        return run_stage<plain_stage, P::fields>(task);
+      case combined_stage:
+        return run_stage<combined_stage, P::fields>(task);
+      case in_place:
+        return run_stage<in_place, leapfrog_fields>(task);
+      case kept_stage:
+        if constexpr (sizeof(T) == sizeof(float)) return run_stage<kept_stage, 2 * P::fields>(task);
+        break;
+      case kept_step:
+        if constexpr (sizeof(T) == sizeof(float)) return run_stage<kept_step, 2 * P::fields>(task);
+        break;
+      default:
+        break;
+      }
     }
     return run_stage<any_action, any_fields>(task);
   }

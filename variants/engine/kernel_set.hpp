@@ -59,7 +59,11 @@ struct KernelSet {
 };
 
 /// The kernels for a model and the terms of a shape. One definition a (model, precision): variants/engine/kernels_*.cpp.
+#ifdef DSS_COMMON_MODELS_ONLY
+#define DSS_EACH_MODEL(act) act(spatial) act(planar)
+#else
 #define DSS_EACH_MODEL(act) act(spatial) act(small) act(linear) act(bending) act(planar) act(axial)
+#endif
 #define DSS_DECLARE(model)                                                                                             \
   const KernelSet<double>& model##_f64_kernels(const Terms& terms);                                                    \
   const KernelSet<float>& model##_f32_kernels(const Terms& terms);
@@ -77,8 +81,12 @@ const KernelSet<T>& find_kernels(Model model, const Terms& terms) {
       return name##_f32_kernels(terms);
     DSS_EACH_MODEL(DSS_FIND)
 #undef DSS_FIND
+#ifdef DSS_COMMON_MODELS_ONLY
+  default:
+    break;
+#endif
   }
-  throw std::logic_error("kernel_set.hpp: no such model");
+  throw std::logic_error("kernel_set.hpp: this model is not compiled");
 }
 #undef DSS_EACH_MODEL
 
