@@ -42,7 +42,7 @@ inline std::vector<NamedProblem> problems_of_all_terms() {
           {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::material, 3), true},
           {"block", fixture::make_block(5, 4, 3, LinkLaw::material, 0)},
           {"damped_joint", fixture::make_damped_joint()},
-          {"bar", fixture::make_block(37, 1, 1, LinkLaw::material, 0), false, true}};
+          {"bars", fixture::make_bars(4, 37, LinkLaw::material), false, true}};
 }
 
 /// Models with programs of their own for a problem: those that most runs take, and the others once each, one of them in both families of methods.
