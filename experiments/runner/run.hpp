@@ -109,6 +109,9 @@ struct RunResult {
 /// not forced
 RunResult run_scene(const RunRequest& request);
 
+/// How every record begins: the context, the scene and its overrides.
+nlohmann::ordered_json record_of(const std::string& scene, const std::vector<Override>& overrides);
+
 /// The keys of DESIGN.md section 7 and those of the record; with the context in Google Benchmark's layout.
 nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result);
 

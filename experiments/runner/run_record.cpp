@@ -77,12 +77,17 @@ void add_reference(const std::optional<ReferenceResult>& reference, Json& json) 
 
 } // namespace
 
-nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result) {
+nlohmann::ordered_json record_of(const std::string& scene, const std::vector<Override>& overrides) {
   Json json;
   json["context"] = measurement_context();
-  json["scene"] = result.scene;
+  json["scene"] = scene;
   json["set"] = Json::object();
-  for (const Override& item : request.overrides) json["set"][item.key] = item.value;
+  for (const Override& item : overrides) json["set"][item.key] = item.value;
+  return json;
+}
+
+nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result) {
+  Json json = record_of(result.scene, request.overrides);
   json["variant"] = result.variant;
   json["isa"] = result.isa;
   json["has_fma"] = result.has_fma;

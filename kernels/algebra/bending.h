@@ -53,12 +53,9 @@ static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
   vec r = {axis == 0 ? -(edge * q.y) : edge * q.x};
   return r;
 }
-typedef REAL lever;
-static inline lever lever_of(vec turn, const int axis, REAL half_edge) {
-  (void)turn;
-  (void)axis;
-  return half_edge;
-}
+
+#include "kernels/algebra/fixed_lever.h"
+
 static inline vec lever_rate(spin w, lever a, const int axis, vec t) {
   vec r = {axis == 0 ? FMA(-w.y, a, t.z) : FMA(w.x, a, t.z)};
   return r;

@@ -2,13 +2,8 @@
  * Includers define LINEAR, which makes the material law linear too (kernels/link_force/link_force.h). */
 #include "kernels/algebra/rotation_vector.h"
 
-/* Arms lie along their axis: a lever is a length. */
-typedef REAL lever;
-static inline lever lever_of(vec turn, const int axis, REAL half_edge) {
-  (void)turn;
-  (void)axis;
-  return half_edge;
-}
+#include "kernels/algebra/fixed_lever.h"
+
 static inline vec lever_rate(spin w, lever a, const int axis, vec t) {
   if (axis == 0) {
     vec r = {t.x, FMA(w.z, a, t.y), FMA(-w.y, a, t.z)};

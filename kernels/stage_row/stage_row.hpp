@@ -118,18 +118,10 @@ struct StageRow {
   void add_across(const prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper,
                   T* carry, const T* from, int pack, std::ptrdiff_t stride, wrench& sum) const {
     if (!is_plain && (above | below) == 0) return;
-    typename P::face own;
-    vec upper_face;
-    if constexpr (terms.is_material) {
-      own.arm = P::material_arm(i.e, axis, material(axis));
-      upper_face = i.e.u;
-    } else {
-      own = P::face_across(i.e, i.x, axis, law(axis), flags);
-      upper_face = P::upper_face(i.pull, own);
-    }
+    const typename P::side own = P::side_across(i, axis, law(axis), flags);
     exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
-      up = P::link_across(i.e, upper_face, load_element(upper + std::ptrdiff_t(pack) * stride), axis, law(axis), flags);
+      up = P::link_across(i.e, own.upper, load_element(upper + std::ptrdiff_t(pack) * stride), axis, law(axis), flags);
       mask_links<is_plain>(above, up);
     }
     carried low{zero<vec>(), zero<spin>()};

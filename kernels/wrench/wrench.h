@@ -102,6 +102,23 @@ static inline exchange link_exchange(element i, vec upper, element j, vec lower,
   return x;
 }
 
+/* An element's side to its upper neighbour across axis 1 or 2. */
+typedef struct {
+  lever arm;
+  vec upper; /* what link_across takes of i */
+} side;
+static inline side side_across(prepared i, const int axis, axis_law law, const term_flags terms) {
+  side s;
+  if (terms.is_material) {
+    s.arm = material_arm(i.e, axis, law.material);
+    s.upper = i.e.u;
+  } else {
+    face own = face_across(i.e, i.x, axis, law, terms);
+    s.arm = own.arm;
+    s.upper = upper_face(i.pull, own);
+  }
+  return s;
+}
 /* Upper face of an element by itself on axis 1 or 2, where its x face is not at hand. */
 static inline vec upper_across(element i, const int axis, axis_law law, const term_flags terms) {
   if (terms.is_material) return i.u;

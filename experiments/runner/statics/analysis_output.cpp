@@ -1,7 +1,6 @@
 /// What an analysis prints and writes.
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
-#include "experiments/runner/context.hpp"
 #include "experiments/runner/output.hpp"
 #include "experiments/runner/statics/analysis.hpp"
 #include "experiments/runner/text_table.hpp"
@@ -110,11 +109,7 @@ void write_files(const RunRequest& run, AnalysisResult& result) {
 } // namespace
 
 Json analysis_json(const RunRequest& run, const AnalysisResult& result) {
-  Json json;
-  json["context"] = measurement_context();
-  json["scene"] = result.scene;
-  json["set"] = Json::object();
-  for (const Override& item : run.overrides) json["set"][item.key] = item.value;
+  Json json = record_of(result.scene, run.overrides);
   json["analysis"] = result.analysis;
   json["model"] = result.model;
   json["elements"] = result.elements;

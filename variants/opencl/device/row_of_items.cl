@@ -10,16 +10,9 @@ static inline exchange NAME(exchange_x)(prepared i, prepared j, axis_law law) {
 static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law, const uint above, const uint below,
                                       global const NUMBER* upper, global const NUMBER* lower) {
   if ((above | below) == 0) return sum;
-  face own;
-  vec upper_side = i.e.u;
-  if (FLAGS.is_material) {
-    own.arm = material_arm(i.e, axis, law.material);
-  } else {
-    own = face_across(i.e, i.x, axis, law, FLAGS);
-    upper_side = upper_face(i.pull, own);
-  }
+  const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
-  if (above >> LANE & 1) up = link_across(i.e, upper_side, element_at(upper), axis, law, FLAGS);
+  if (above >> LANE & 1) up = link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS);
   carried low = nothing_carried();
   if (below >> LANE & 1) {
     const element j = element_at(lower);

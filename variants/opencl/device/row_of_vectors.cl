@@ -36,16 +36,9 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, cons
 static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law, const uint above, const uint below,
                                       global const NUMBER* upper, global NUMBER* carry, global const NUMBER* from) {
   if ((above | below) == 0) return sum;
-  face own;
-  vec upper_side = i.e.u;
-  if (FLAGS.is_material) {
-    own.arm = material_arm(i.e, axis, law.material);
-  } else {
-    own = face_across(i.e, i.x, axis, law, FLAGS);
-    upper_side = upper_face(i.pull, own);
-  }
+  const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
-  if (above != 0) up = NAME(masked)(link_across(i.e, upper_side, element_at(upper), axis, law, FLAGS), above);
+  if (above != 0) up = NAME(masked)(link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS), above);
   carried low = nothing_carried();
   if (below != 0) low = NAME(carried_at)(from);
   sum = wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
