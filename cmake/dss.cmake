@@ -29,14 +29,19 @@ function(dss_add_variant name)
     set(arg_VECTOR_BITS 0)
   endif()
   set(engine ${PROJECT_SOURCE_DIR}/variants/engine)
+  set(is_engine FALSE)
   if(NOT arg_SOURCES)
+    set(is_engine TRUE)
     file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${engine}/*.cpp)
-    if(DSS_COMMON_MODELS_ONLY)
-      list(FILTER arg_SOURCES EXCLUDE REGEX "kernels_(small|linear|bending|axial)_")
+    if(DSS_FEWER_MODELS)
+      list(FILTER arg_SOURCES EXCLUDE REGEX "kernels_(small|linear)_")
     endif()
   endif()
   string(REPLACE "-" "_" target dss_variant_${name})
   add_library(${target} MODULE ${arg_SOURCES})
+  if(is_engine) # what its files include, parsed once
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/stage_row/stage_row.hpp ${PROJECT_SOURCE_DIR}/variants/api.hpp)
+  endif()
   target_link_libraries(${target} PRIVATE dss_options dss_solver OpenMP::OpenMP_CXX)
   target_compile_options(${target} PRIVATE -march=${arg_MARCH} ${arg_OPTIONS})
   set(isa ${arg_MARCH})
@@ -47,7 +52,7 @@ function(dss_add_variant name)
     endif()
   endif()
   target_compile_definitions(${target} PRIVATE DSS_VARIANT="${name}" DSS_ISA="${isa}" DSS_VECTOR_BITS=${arg_VECTOR_BITS}
-    $<$<BOOL:${DSS_COMMON_MODELS_ONLY}>:DSS_COMMON_MODELS_ONLY>)
+    $<$<BOOL:${DSS_FEWER_MODELS}>:DSS_FEWER_MODELS>)
   # Weak symbols of templates stay inside: otherwise link order decides which instruction set runs.
   target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/variants/exports.map)
   set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/variants
@@ -106,12 +111,16 @@ if(DSS_SANITIZE MATCHES "thread")
   set(dss_test_environment "OMP_TOOL_LIBRARIES=${DSS_ARCHER}")
 endif()
 
+set(dss_test_options $<$<CONFIG:Release>:-O1>) # what is tested has its own
+
 # dss_test(name [TEAMS filter] source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself, labelled with
 # its folder. Tests that TEAMS names, as --gtest_filter does, have threads that wait for each other: beside other tests they would take ten times as long.
 function(dss_test name)
   cmake_parse_arguments(arg "" "TEAMS" "" ${ARGN})
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>) # what is tested has its own
+  target_compile_options(${name} PRIVATE ${dss_test_options})
+  target_compile_definitions(${name} PRIVATE $<$<BOOL:${DSS_FEWER_MODELS}>:DSS_FEWER_MODELS>)
+  target_precompile_headers(${name} REUSE_FROM dss_test_headers)
   target_link_libraries(${name} PRIVATE dss_options dss_solver dss_variants GTest::gtest_main)
   add_dependencies(${name} dss_all_variants)
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)

@@ -66,7 +66,7 @@ int explain(const ExplainArguments& arguments) {
   const auto precision = require_precision_name(arguments.precision);
   const double tolerance = require_model_tolerance(
       arguments.model_tolerance.value_or((is_single(precision) ? problem.tolerance_f32 : problem.tolerance_f64).run));
-  const ModelChoice choice = choose_model(problem, tolerance);
+  const ModelChoice choice = choose_model(problem, tolerance, why_no_watch(require_method(problem.integrator)));
   const std::vector<Need> dofs = degrees_of_freedom(problem, choice.chosen),
                           needed_terms = terms(problem, choice.chosen), rotations{rotations_of(choice)};
   if (!arguments.json.empty()) {

@@ -103,7 +103,6 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   RunRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.set);
   const std::string analysis = chosen_analysis(command, request, arguments.analysis);
-  if (analysis != "dynamic" && request.model == "auto") request.model.reset(); // solvers have models of their own
   if (analysis != "dynamic") return run_analysis(analysis, request, arguments.analysis);
   if (job_rank().ranks > 1 && request.ranks == 1) request.ranks = job_rank().ranks; // started by mpirun itself
   if (request.ranks > 1 && !job_rank().is_started) {

@@ -158,12 +158,11 @@ void read_reference(const RunRequest& request, RunPlan& plan) {
     refuse(fmt::format("ends at {:.6g} s: give --steps {}, or none", plan.reference->times.end, plan.steps));
 }
 
-std::string why_no_watch(const RunRequest& request, const RunPlan& plan) {
+std::string why_run_has_no_watch(const RunRequest& request, const RunPlan& plan) {
   if (request.ranks > 1) return "it is one on several ranks";
   if (!request.hybrid.empty()) return "it is one of a hybrid";
   if (plan.adaptive) return "its steps are adaptive";
-  if (plan.method->is_implicit()) return "its method is implicit";
-  return {};
+  return why_no_watch(*plan.method);
 }
 
 ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
@@ -176,7 +175,7 @@ ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
   if (asked == "auto" && plan.rotation != Rotation::quaternion)
     return {asked, Model::spatial, fmt::format("--rotation {} is one of it", name(plan.rotation)),
             {},    tolerance,      false};
-  if (asked == "auto") return choose_model(problem, tolerance, why_no_watch(request, plan));
+  if (asked == "auto") return choose_model(problem, tolerance, why_run_has_no_watch(request, plan));
   const auto model = find_model(asked);
   if (!model)
     throw InputError(fmt::format("--model {}: unknown model; {}", asked, nearest_name(asked, model_names_and_auto())));

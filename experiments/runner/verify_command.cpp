@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 
 namespace dss {
@@ -99,6 +100,20 @@ void print_rows(const std::vector<VerifyRow>& rows) {
   fmt::print("{}",
              text_table({"scene", "model", "precision", "variant", "check", "error", "tolerance", "verdict", "reason"},
                         cells));
+}
+
+/// Rows that passed left out, and those that were skipped for the same reason told as one.
+std::vector<VerifyRow> brief(const std::vector<VerifyRow>& rows) {
+  std::vector<VerifyRow> shown;
+  std::map<std::string, std::size_t> times;
+  for (const VerifyRow& row : rows) {
+    const bool is_skipped = row.verdict == VerifyRow::Verdict::skipped;
+    if (row.verdict != VerifyRow::Verdict::passed && (!is_skipped || ++times[row.reason] == 1)) shown.push_back(row);
+  }
+  for (VerifyRow& row : shown)
+    if (const std::size_t count = times[row.reason]; row.verdict == VerifyRow::Verdict::skipped && count > 1)
+      row.reason += fmt::format(" (and {} more)", count - 1);
+  return shown;
 }
 
 /// Calls visit(name with overrides, scene, steps) for every small version of these scenes.
@@ -200,10 +215,7 @@ int verify(VerifyArguments arguments) {
   const auto failed = count(VerifyRow::Verdict::failed), passed = count(VerifyRow::Verdict::passed);
   if (!arguments.json.empty() && job_rank().is_root()) write_json(arguments.json, rows_json(rows));
   if (arguments.json != "-") {
-    std::vector<VerifyRow> shown = rows;
-    if (arguments.is_quiet)
-      std::erase_if(shown, [](const VerifyRow& row) { return row.verdict == VerifyRow::Verdict::passed; });
-    print_rows(shown);
+    print_rows(arguments.is_quiet ? brief(rows) : rows);
     fmt::print("{} checks passed, {} failed, {} skipped\n", passed, failed, count(VerifyRow::Verdict::skipped));
   }
   if (failed == 0 && passed == 0)
@@ -231,7 +243,8 @@ void add_verify_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--device", arguments->device,
                       "For variants on devices, as for `dssbench run` (default: their first); none: leave them out");
   command->add_option("--json", arguments->json, "File for the table, or - for standard output");
-  command->add_flag("--quiet", arguments->is_quiet, "Print only what failed or was skipped");
+  command->add_flag("--quiet", arguments->is_quiet,
+                    "Print only what failed, and one row for each reason why something was skipped");
   command->footer("Example: dssbench verify plate_paper tumbling_box --variant avx2,avx512\n"
                   "         dssbench verify plate_paper --ranks 1,2,3\nExit code 1 if anything failed.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return verify(*arguments); }; });

@@ -4,6 +4,8 @@
 #include "kernels/physics.hpp"
 #include "kernels/stage_row/row.hpp"
 
+#include <limits>
+
 DSS_INLINE_BEGIN
 namespace dss {
 
@@ -20,9 +22,11 @@ struct FiniteCheck {
 };
 
 inline constexpr int any_action = -1;
+inline constexpr int rare_action =
+    -2; ///< any but those that most runs take, which are not compiled then and fail the run
 
 /// The action of a task on one pack after the other, as rk_update.h computes it. W: numbers from a component of a pack to the next.
-/// fixed_action: the one action of all tasks, which saves a branch a pack; or any.
+/// fixed_action: the one action of all tasks, which saves a branch a pack; or one of several, as the task says.
 template <class P, class T, int W = simd::lanes<T>, int fixed_action = any_action>
 class RowUpdate {
 public:
@@ -33,19 +37,23 @@ public:
   using element = typename P::element;
 
   explicit RowUpdate(const RowTask<T>& task, T scale_of_turn)
-      : task_(task), action_(fixed_action == any_action ? task.action : row_action(fixed_action)),
-        is_last_(task.is_last), base_(task.base), increment_{task.increment[0], task.increment[1], task.increment[2]},
-        out_(task.out), low_(task.low), alpha_{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])},
-        beta_u_(task.beta), beta_v_(task.beta * task.body->inverse_mass), beta_q_(task.beta * T(0.5)),
-        beta_w_(task.beta * scale_of_turn), inverse_mass_(task.body->inverse_mass), turn_scale_(scale_of_turn) {}
+      : task_(task), action_(is_fixed ? row_action(fixed_action) : task.action), is_last_(task.is_last),
+        base_(task.base), increment_{task.increment[0], task.increment[1], task.increment[2]}, out_(task.out),
+        low_(task.low), alpha_{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, beta_u_(task.beta),
+        beta_v_(task.beta * task.body->inverse_mass), beta_q_(task.beta * T(0.5)), beta_w_(task.beta * scale_of_turn),
+        inverse_mass_(task.body->inverse_mass), turn_scale_(scale_of_turn) {}
 
   void operator()(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
-    switch (fixed_action == any_action ? action_ : row_action(fixed_action)) {
+    switch (is_fixed ? row_action(fixed_action) : action_) {
     case combined_stage:
-      return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
-        return P::rk_combined(load(base_ + n), beta, rate, load(increment_[0] + n), load(increment_[1] + n),
-                              load(increment_[2] + n), alpha_[0], alpha_[1], alpha_[2]);
-      });
+      if constexpr (fixed_action != rare_action)
+        runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
+          return P::rk_combined(load(base_ + n), beta, rate, load(increment_[0] + n), load(increment_[1] + n),
+                                load(increment_[2] + n), alpha_[0], alpha_[1], alpha_[2]);
+        });
+      else
+        fail();
+      return;
     case wide_stage:
       return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return wide(n, beta, rate); });
     case error_stage:
@@ -63,24 +71,35 @@ public:
       return leapfrog(at, e, v_half, w_half, force, turn, true);
     }
     case kept_stage:
-      if constexpr (is_compensated) kept_runge_kutta<false>(at, e, force, turn);
+      if constexpr (is_compensated && fixed_action != rare_action)
+        kept_runge_kutta<false>(at, e, force, turn);
+      else
+        fail();
       return;
     case kept_step:
-      if constexpr (is_compensated) kept_runge_kutta<true>(at, e, force, turn);
+      if constexpr (is_compensated && fixed_action != rare_action)
+        kept_runge_kutta<true>(at, e, force, turn);
+      else
+        fail();
       return;
     case kept_leapfrog:
     case kept_predicted:
       if constexpr (is_compensated) kept_in_place(at, e, force, turn);
       return;
     default:
-      return runge_kutta(at, e, force, turn,
-                         [&](std::ptrdiff_t n, R beta, R rate) { return P::rk_first(load(base_ + n), beta, rate); });
+      if constexpr (fixed_action != rare_action)
+        runge_kutta(at, e, force, turn,
+                    [&](std::ptrdiff_t n, R beta, R rate) { return P::rk_first(load(base_ + n), beta, rate); });
+      else
+        fail();
     }
   }
   FiniteCheck<R, T> check{};
 
 private:
-  static constexpr bool is_compensated = sizeof(T) <= sizeof(float); ///< double precision needs no low parts
+  static constexpr bool is_fixed = fixed_action >= 0;
+  static constexpr bool is_compensated = sizeof(T) <= sizeof(float);     ///< double precision needs no low parts
+  void fail() { check.add_one(R(std::numeric_limits<T>::quiet_NaN())); } ///< what is not compiled must not pass
   static R load(const T* p) { return simd::load(p); }
   template <class Tuple>
   static Tuple load_all(const T*& p) {

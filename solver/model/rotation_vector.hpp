@@ -18,9 +18,16 @@ inline void to_rotation_vector(std::span<double> fields) {
 
 /// And back.
 inline void to_quaternion(std::span<double> fields) {
-  const double angle = std::hypot(fields[qx], fields[qy], fields[qz]);
-  const double half_sine = std::sin(angle / 2), scale = angle == 0 ? 1 : std::sin(angle) / angle;
-  fields[qs] = -2 * half_sine * half_sine;
+  const double a2 = fields[qx] * fields[qx] + fields[qy] * fields[qy] + fields[qz] * fields[qz];
+  double scale;
+  if (a2 < 1e-4) { // sin a / a and cos a - 1 as series, below half a unit in the last place
+    scale = 1 - a2 / 6 * (1 - a2 / 20 * (1 - a2 / 42));
+    fields[qs] = -a2 / 2 * (1 - a2 / 12 * (1 - a2 / 30 * (1 - a2 / 56)));
+  } else {
+    const double angle = std::sqrt(a2), half_sine = std::sin(angle / 2);
+    scale = std::sin(angle) / angle;
+    fields[qs] = -2 * half_sine * half_sine;
+  }
   for (const Field f : {qx, qy, qz}) fields[f] *= scale;
 }
 

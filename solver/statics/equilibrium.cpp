@@ -163,8 +163,7 @@ private:
     found_.solver = solver_.name();
     found_.cg_iterations = solver_.iterations();
     found_.is_found = found_.reason.empty();
-    const double loads = system_.load_norm(), left = system_.norm(system_.unbalanced(found_.state));
-    found_.residual = loads > 0 ? left / loads : left;
+    found_.residual = system_.residual(found_.state);
     if (!found_.is_found || system_.is_linear() || !solver_.is_direct() || !options_.must_be_stable) return;
     const SparseMatrix tangent = system_.tangent(found_.state);
     prepare(tangent);

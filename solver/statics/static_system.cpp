@@ -139,6 +139,11 @@ double StaticSystem::norm(const Vector& forces) const {
   return double(std::sqrt(sum));
 }
 
+double StaticSystem::residual(const State& state) {
+  const double loads = load_norm(), left = norm(unbalanced(state));
+  return loads > 0 ? left / loads : left;
+}
+
 double StaticSystem::load_norm() const {
   std::vector<Real> all(6 * body_.size(), 0);
   for (std::size_t e = 0; e < body_.size(); ++e)

@@ -73,6 +73,8 @@ public:
   double norm(const Vector& forces) const;
   /// That of all loads and of the frame's acceleration on the free degrees of freedom [N].
   double load_norm() const;
+  /// Unbalanced forces of a state against the loads, by their norms; where nothing is loaded the forces themselves [N].
+  double residual(const State& state);
 
 private:
   using Link = reference::Dynamics<Real>::Link;

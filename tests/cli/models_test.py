@@ -82,6 +82,12 @@ class Models(ProgramTest):
             explained = json.loads(dssbench("explain", scene, "--json", "-").stdout)
             self.assertEqual(explained["model"], self.run_json(scene, "--steps", "2")["model_choice"]["chosen"])
 
+    def test_explain_knows_that_implicit_methods_cannot_be_watched(self):
+        implicit = ("--set", "run.integrator=implicit_midpoint", "--json", "-")
+        explained = json.loads(dssbench("explain", LADDER / "strip.json", *implicit).stdout)
+        self.assertEqual((explained["model"], explained["is_proven"]), ("spatial", True))
+        self.assertIn("implicit", explained["smaller"]["bending"])
+
     def ladder(self, name, *scenes):
         study = {"experiment": name, "title": "t", "model_ladder": {"scenes": list(scenes)}, "scales": {"host": {}}}
         result = dssbench("experiment", self.write(f"{name}.json", json.dumps(study)), "--scale", "host", "--out", self.directory)
@@ -96,7 +102,7 @@ class Models(ProgramTest):
         self.assertEqual(verdicts["planar"], ("insufficient", "no"))
         self.assertEqual(verdicts["bending"], ("sufficient", "bounded"))
         self.assertEqual(verdicts["spatial"], ("sufficient", "proven"))
-        self.assertEqual(rows[-1]["ends_with"], "bending")
+        self.assertEqual((rows[-1]["ends_with"], rows[-1]["sufficient_smaller"]), ("bending", ""))
 
     def test_the_ladder_fails_in_both_directions(self):
         strip = {"scene": str(LADDER / "strip.json"), "set": {"n": 4, "width": 1}, "steps": 50}

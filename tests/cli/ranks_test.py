@@ -90,6 +90,8 @@ class Bits(ProgramTest):
         passed, failed = (int(result.stdout.splitlines()[-1].split()[place]) for place in (0, 3))
         self.assertGreater(passed, 100)
         self.assertEqual(failed, 0)
+        reasons = [line.split(" (and ")[0].split("skipped  ")[-1] for line in result.stdout.splitlines() if "skipped  " in line]
+        self.assertEqual(len(reasons), len(set(reasons)))  # one row a reason
 
     def test_deep_sends_a_quarter_of_the_messages_and_the_same_bytes(self):
         every_stage, once = (record(*PLATE, "--ranks", "2", "--halo", halo) for halo in ("sendrecv", "deep"))

@@ -28,6 +28,20 @@ class Statics(ProgramTest):
         self.assertAlmostEqual(deflections["direct"], deflections["cg"], delta=1e-12)
         self.assertAlmostEqual(deflections["newton"], deflections["relaxation"], delta=1e-10)
 
+    def test_auto_takes_the_plane_where_that_is_proven_and_looks_out_of_it(self):
+        plate = ("run", "plate_paper", "--set", "n=8", "--analysis", "static")
+        chosen, whole = self.record(*plate), self.record(*plate, "--model", "spatial")
+        self.assertEqual((chosen["model"], whole["model"]), ("planar", "spatial"))
+        self.assertIn("proven", chosen["model_why"])
+        self.assertAlmostEqual(chosen["max_displacement_m"] / whole["max_displacement_m"], 1, delta=1e-12)
+        self.assertIn("out of its plane", chosen["note"])  # the paper's links do not resist bending
+        self.assertEqual(self.record(*STATIC)["model"], "spatial")
+        for linear in (("--solver", "cg"), ("--solver", "direct", "--set", "run.model=planar")):
+            self.assertEqual(self.record(*plate, *linear)["model"], "linear")
+        relaxed = self.record(*plate, "--solver", "relaxation")
+        self.assertEqual(relaxed["model"], "planar")
+        self.assertIn("out of its plane is not known", relaxed["note"])
+
     def test_the_state_and_the_picture_are_of_the_state_of_rest(self):
         result = dssbench(*STATIC, "--state", self.path("rest.csv"), "--output", self.path("rest.vtu"))
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -5,6 +5,7 @@
 #include "variants/engine/layout.hpp"
 #include "variants/opencl/queue.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 
@@ -13,7 +14,7 @@ namespace {
 
 /// A file of the tree, with the shared headers that it includes in their place.
 std::string shared_header(const std::string& path) {
-  std::ifstream file(std::string(DSS_SOURCE_DIR) + "/" + path);
+  std::ifstream file(std::filesystem::path(DSS_SOURCE_DIR) / path);
   EXPECT_TRUE(file) << path;
   std::string text;
   for (std::string line; std::getline(file, line);)

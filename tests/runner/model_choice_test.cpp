@@ -76,7 +76,7 @@ TEST_F(AutoRun, StaysWithSmallRotationsWhereTheBoundHolds) {
   const RunResult result = run(ladder_scene("strip.json"), {{"n", "8"}, {"width", "3"}}, 1000);
   EXPECT_EQ(result.model, "bending");
   EXPECT_TRUE(result.model_report.promotions.empty());
-  EXPECT_GE(result.model_report.looks, 50);
+  EXPECT_GE(result.model_report.looks, 12); // of a short run
   EXPECT_LE(result.check.error, 2 * result.model_report.estimate);
   EXPECT_GT(result.check.error, 1e-9) << "exact after all: the scene shows nothing";
 }
@@ -152,7 +152,7 @@ TEST_F(AutoRun, LooksWhereASignalChangesItsCourseHoweverLongAllWasStill) {
   const RunResult result = run(file("late.json"), {{"n", "4"}, {"width", "1"}, {"force", "100"}}, 2000);
   ASSERT_FALSE(result.model_report.promotions.empty());
   EXPECT_GT(result.model_report.promotions[0].step, 1000); // 0.2 s
-  EXPECT_LE(result.model_report.promotions[0].step, 1016) << "looks were 31 steps apart before";
+  EXPECT_LE(result.model_report.promotions[0].step, 1016) << "looks were 160 steps apart before";
 }
 
 TEST_F(AutoRun, OfAnotherRotationOrOnRanksOrAdaptiveTakesWhatIsProven) {

@@ -14,9 +14,10 @@ struct RowKernels {
   static constexpr int half_velocities =
       terms.is_velocity_dependent() ? component_count<typename P::vec>() + component_count<typename P::spin>() : 0;
   static constexpr int leapfrog_fields = P::fields + half_velocities;
+  static constexpr bool has_packs = simd::lanes<T> != 1;
 
   // The actions of the most used methods have a function each: the branch a pack and the distance of packs that a function for
-  // all must look up cost 4 to 10 % (measured: AVX-512, n = 100). The rest, and all of rare models in single precision, share one, which would else be as many times the code.
+  // all must look up cost 4 to 10 % (measured: AVX-512, n = 100). The rest, and all of rare models in single precision or without packs, share one, which would else be as many times the code.
   static constexpr int in_place = half_velocities > 0 ? predicted_step : leapfrog_step;
   template <int action, int fields>
   DSS_FLATTEN static bool run_stage(const RowTask<T>& task) {
@@ -26,7 +27,7 @@ struct RowKernels {
     return update.check.passed();
   }
   static bool stage(const RowTask<T>& task) {
-    if constexpr (P::is_common || sizeof(T) == sizeof(double)) {
+    if constexpr (P::is_common || (sizeof(T) == sizeof(double) && has_packs)) {
       switch (task.action) {
       case plain_stage:
         return run_stage<plain_stage, P::fields>(task);
@@ -43,6 +44,7 @@ struct RowKernels {
       default:
         break;
       }
+      return run_stage<rare_action, any_fields>(task);
     }
     return run_stage<any_action, any_fields>(task);
   }

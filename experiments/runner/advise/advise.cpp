@@ -139,16 +139,24 @@ private:
     return candidate.error;
   }
 
-  /// Error of a model of small rotations whatever its step, found once: by a run as fine as the second of the reference.
-  double model_error(Model model) {
-    if (is_exact(model)) return 0;
-    if (const auto known = model_errors_.find(model); known != model_errors_.end()) return known->second;
+  /// A run with a model of small rotations that shows the model's error whatever its step: as fine as the second of the reference.
+  Configuration fine_run(Model model) {
     Configuration fine = advice_.reference.configuration;
     fine.model = model;
     fine.steps_between =
         advice_.reference.levels[std::min<std::size_t>(1, advice_.reference.levels.size() - 1)].steps_between;
+    return costs_->placed(fine);
+  }
+  /// Error of a model whatever its step, found once.
+  double model_error(Model model) {
+    if (is_exact(model)) return 0;
+    if (const auto known = model_errors_.find(model); known != model_errors_.end()) return known->second;
     Candidate of_model;
-    return model_errors_[model] = error_of(costs_->placed(fine), of_model);
+    return model_errors_[model] = error_of(fine_run(model), of_model);
+  }
+  /// What it takes to find it, expected.
+  double model_error_s(Model model) {
+    return is_exact(model) || model_errors_.contains(model) ? 0 : costs_->run_time(fine_run(model));
   }
 
   void search(Candidate& candidate) {
@@ -157,7 +165,7 @@ private:
       candidate.reason = "even its largest stable step costs more";
       return;
     }
-    if (left_s() < candidate.time_s) return leave_out(candidate);
+    if (left_s() < std::max(candidate.time_s, model_error_s(configuration.model))) return leave_out(candidate);
     if (const double error = model_error(configuration.model); error > most_error_) {
       candidate.status = Candidate::Status::no_model;
       candidate.error = error;
@@ -219,6 +227,11 @@ private:
     Candidate candidate;
     candidate.configuration = {model, find_method("dopri5"), precision, first_steps_.at("dopri5"), 1.0, "", 1};
     candidate.configuration = costs_->placed(candidate.configuration);
+    if (model_error_s(model) > left_s()) {
+      leave_out(candidate);
+      advice_.candidates.push_back(candidate);
+      return;
+    }
     if (model_error(model) > most_error_) return;
     std::optional<Candidate> found;
     double rtol = std::clamp(request_.tolerance, least, 0.1);

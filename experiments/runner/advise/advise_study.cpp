@@ -113,6 +113,7 @@ private:
     row["status"] = is_within ? "ok" : "failed";
     if (!is_within) row["reason"] = fmt::format("the true error {:.3g} is above the tolerance", error);
     std::vector<DuelEntry> entries = contenders(tolerance);
+    const bool has_contenders = !entries.empty(); // else the search met the tolerance nowhere
     std::erase_if(entries, [&](const DuelEntry& entry) { return entry.configuration == chosen; });
     entries.insert(entries.begin(), {chosen, error, {}});
     duel(entries);
@@ -122,12 +123,14 @@ private:
     for (std::size_t round = 0; round < cheapest.times_s.size(); ++round)
       ratios.push_back(entries.front().times_s[round] / cheapest.times_s[round]);
     const double ratio = median(ratios);
-    describe_in(cheapest.configuration, "cheapest_", row);
-    row["cheapest_true_error"] = number_text(cheapest.error);
     row["measured_wall_s"] = number_text(median(entries.front().times_s));
-    row["cheapest_measured_wall_s"] = number_text(median(cheapest.times_s));
-    row["time_over_cheapest"] = number_text(ratio);
-    row["verdict"] = ratio <= study_.bar ? "ok" : "slower";
+    row["verdict"] = !has_contenders ? "not judged" : ratio <= study_.bar ? "ok" : "slower";
+    if (has_contenders) {
+      describe_in(cheapest.configuration, "cheapest_", row);
+      row["cheapest_true_error"] = number_text(cheapest.error);
+      row["cheapest_measured_wall_s"] = number_text(median(cheapest.times_s));
+      row["time_over_cheapest"] = number_text(ratio);
+    }
     row["speedup_over_paper"] = number_text(advice.paper.time_s / median(entries.front().times_s));
   }
 
@@ -235,6 +238,7 @@ Table advise_table(const AdviseStudy& study, const std::string& oracle,
 std::string advise_study_text(const AdviseStudy& study, const Table& table) {
   std::vector<std::vector<std::string>> rows;
   double worst = 0;
+  std::size_t slower = 0, judged = 0;
   for (const Record& row : table.rows) {
     const auto choice = [&](const std::string& prefix) {
       return fmt::format("{} {} {} {}{} x {}", text_in(row, prefix + "model"), text_in(row, prefix + "integrator"),
@@ -248,14 +252,18 @@ std::string advise_study_text(const AdviseStudy& study, const Table& table) {
                     shown(row, "cheapest_measured_wall_s", "{:.4g}", 1e3), shown(row, "time_over_cheapest", "{:.2f}"),
                     shown(row, "speedup_over_paper", "{:.3g}"), shown(row, "advise_s", "{:.2f}"),
                     text_in(row, "verdict"), text_in(row, "status"), text_in(row, "reason")});
-    if (!text_in(row, "time_over_cheapest").empty()) worst = std::max(worst, number_in(row, "time_over_cheapest"));
+    if (text_in(row, "time_over_cheapest").empty()) continue;
+    ++judged;
+    slower += text_in(row, "verdict") == "slower";
+    worst = std::max(worst, number_in(row, "time_over_cheapest"));
   }
-  return fmt::format("{} ({}, scale {})\n{}At most {:.2f} times the cheapest configuration found; the bar is {:g}.\n",
-                     study.title, study.name, study.scale,
-                     text_table({"scene", "tolerance", "advised", "estimate", "true", "[ms]", "cheapest", "[ms]",
-                                 "ratio", "over paper", "advise [s]", "verdict", "status", "reason"},
-                                rows),
-                     worst, study.bar);
+  return fmt::format(
+      "{} ({}, scale {})\n{}At most {:.2f} times the cheapest configuration found; above the bar of {:g}: {} of {}.\n",
+      study.title, study.name, study.scale,
+      text_table({"scene", "tolerance", "advised", "estimate", "true", "[ms]", "cheapest", "[ms]", "ratio",
+                  "over paper", "advise [s]", "verdict", "status", "reason"},
+                 rows),
+      worst, study.bar, slower, judged);
 }
 
 } // namespace dss

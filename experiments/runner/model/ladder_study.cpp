@@ -16,10 +16,28 @@
 namespace dss {
 namespace {
 
-const std::vector<std::string> ladder_columns = {
-    "experiment", "scene",     "set",        "precision", "variant",   "elements", "steps",
-    "model",      "wall_s",    "runs",       "error",     "tolerance", "verdict",  "provable",
-    "why_not",    "ends_with", "promotions", "monitor",   "rotation",  "status",   "reason"};
+const std::vector<std::string> ladder_columns = {"experiment",
+                                                 "scene",
+                                                 "set",
+                                                 "precision",
+                                                 "variant",
+                                                 "elements",
+                                                 "steps",
+                                                 "model",
+                                                 "wall_s",
+                                                 "runs",
+                                                 "error",
+                                                 "tolerance",
+                                                 "verdict",
+                                                 "provable",
+                                                 "why_not",
+                                                 "ends_with",
+                                                 "sufficient_smaller",
+                                                 "promotions",
+                                                 "monitor",
+                                                 "rotation",
+                                                 "status",
+                                                 "reason"};
 
 bool is_smaller(Model a, Model b) { return std::ranges::find(models, a) < std::ranges::find(models, b); }
 
@@ -39,8 +57,12 @@ public:
 
   std::vector<Record> rows() {
     std::vector<Record> rows;
-    for (const Model model : models) rows.push_back(row_of(model));
-    rows.push_back(row_of_auto());
+    std::vector<Model> sufficient;
+    for (const Model model : models) {
+      rows.push_back(row_of(model));
+      if (rows.back()["verdict"] == "sufficient") sufficient.push_back(model);
+    }
+    rows.push_back(row_of_auto(sufficient));
     return rows;
   }
 
@@ -114,7 +136,8 @@ private:
     return row;
   }
 
-  Record row_of_auto() const {
+  /// @param sufficient  the models whose runs met the tolerance, provable or not
+  Record row_of_auto(const std::vector<Model>& sufficient) const {
     Record row = base("auto");
     const RunResult result = run("auto");
     add_times(result, row);
@@ -131,6 +154,9 @@ private:
     if (!result.check.is_passed() || !result.check.is_done) fail(row, "auto misses the tolerance: " + result.reason);
     if (result.model != name(place_.ends_with))
       fail(row, fmt::format("auto ends with {}, expected {}", result.model, name(place_.ends_with)));
+    for (const Model model : sufficient)
+      if (is_smaller(model, *find_model(result.model)))
+        row["sufficient_smaller"] += fmt::format("{}{}", row["sufficient_smaller"].empty() ? "" : " ", name(model));
     explain_smaller(result, row);
     return row;
   }
@@ -188,11 +214,11 @@ std::string ladder_text(const LadderStudy& study, const Table& table) {
   for (const Record& row : table.rows)
     cells.push_back({text_in(row, "scene"), text_in(row, "precision"), text_in(row, "model"), text_in(row, "wall_s"),
                      text_in(row, "error"), text_in(row, "tolerance"), text_in(row, "verdict"),
-                     text_in(row, "provable"), text_in(row, "ends_with"), text_in(row, "status"),
-                     text_in(row, "reason")});
+                     text_in(row, "provable"), text_in(row, "ends_with"), text_in(row, "sufficient_smaller"),
+                     text_in(row, "status"), text_in(row, "reason")});
   return fmt::format("{}\n{}", study.title,
                      text_table({"scene", "precision", "model", "wall [s]", "error", "tolerance", "verdict", "provable",
-                                 "ends with", "status", "reason"},
+                                 "ends with", "smaller would do", "status", "reason"},
                                 cells));
 }
 

@@ -17,14 +17,14 @@ std::optional<Model> smallest_exact(const Problem& problem) {
 }
 
 /// Why a model of small rotations is no candidate, or empty.
-std::string why_not_bounded(const Problem& problem, Model model, double tolerance, const std::string& why_no_watch) {
+std::string why_not_bounded(const Problem& problem, Model model, double tolerance, const std::string& no_watch) {
   if (std::string reason = why_not(model, problem); !reason.empty()) return reason;
   if (!has_rotation_vectors(model)) return why_not_exact(model, problem);
   if (tolerance < least_bounded_tolerance)
     return fmt::format("small rotations are assumed, and a tolerance of {:g} is below {:g}, where only proof helps",
                        tolerance, least_bounded_tolerance);
-  if (!why_no_watch.empty())
-    return fmt::format("small rotations are assumed, and this run cannot be watched: {}", why_no_watch);
+  if (!no_watch.empty())
+    return fmt::format("small rotations are assumed, and this run cannot be watched: {}", no_watch);
   if (const double error = error_at_start(problem, model); !(error <= bounded_share * tolerance))
     return fmt::format("small rotations are assumed, and at the start their error may be {:.3g}, above {:g} of the "
                        "tolerance {:g}",
@@ -33,6 +33,10 @@ std::string why_not_bounded(const Problem& problem, Model model, double toleranc
 }
 
 } // namespace
+
+std::string why_no_watch(const Method& method) {
+  return method.is_implicit() ? "its method is implicit" : ""; // the oracle's, which is not asked between its steps
+}
 
 std::string why_exact(Model model) {
   switch (model) {
@@ -58,14 +62,13 @@ double error_at_start(const Problem& problem, Model model) {
   return relative_error(problem, bound.errors(), largest_of_kinds(state));
 }
 
-ModelChoice choose_model(const Problem& problem, double tolerance, const std::string& why_no_watch) {
+ModelChoice choose_model(const Problem& problem, double tolerance, const std::string& no_watch) {
   ModelChoice choice{"auto", Model::spatial, "", {}, tolerance, false};
   const std::optional<Model> exact = smallest_exact(problem);
   for (const Model model : models) {
     choice.chosen = model;
     if (model == exact || model == Model::spatial) break;
-    std::string reason =
-        exact ? why_not_exact(model, problem) : why_not_bounded(problem, model, tolerance, why_no_watch);
+    std::string reason = exact ? why_not_exact(model, problem) : why_not_bounded(problem, model, tolerance, no_watch);
     if (reason.empty()) {
       choice.is_bounded = true;
       break;

@@ -2,6 +2,7 @@
 /// `--model auto`: the smallest model whose sufficiency follows from the scene, by proof, or by a bound that is watched while the run goes.
 #include "solver/model/model.hpp"
 #include "solver/model/problem.hpp"
+#include "solver/numerics/method.hpp"
 
 #include <string>
 #include <utility>
@@ -24,8 +25,11 @@ struct ModelChoice {
 };
 
 /// @param tolerance     of the model's error: relative, as state_error
-/// @param why_no_watch  empty, or why this run cannot be watched, so that it takes what is proven: "steps are adaptive"
-ModelChoice choose_model(const Problem& problem, double tolerance, const std::string& why_no_watch = {});
+/// @param no_watch      empty, or why this run cannot be watched, so that it takes what is proven: "steps are adaptive"
+ModelChoice choose_model(const Problem& problem, double tolerance, const std::string& no_watch = {});
+
+/// Empty, or why runs of the method cannot be watched.
+std::string why_no_watch(const Method& method);
 
 /// Why the problem has a proof for the model, one line; `why_not_exact` must be empty.
 std::string why_exact(Model model);

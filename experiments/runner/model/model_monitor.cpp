@@ -8,8 +8,10 @@
 namespace dss {
 namespace {
 
-constexpr long looks_of_a_run = 64; ///< at least
-constexpr long most_looks = 1024;   ///< near the bound
+constexpr long looks_of_a_run = 32;   ///< at least; fewer in short runs, where a look costs as much as some steps,
+constexpr long long_interval = 160;   ///< but no further apart than this,
+constexpr long looks_of_a_short = 12; ///< and at least so many
+constexpr long most_looks = 1024;     ///< near the bound
 
 constexpr double looks_of_a_period = 8;
 
@@ -46,9 +48,13 @@ double relative_error(const Problem& problem, const KindBounds& errors, const Ki
   return most;
 }
 
+long longest_look_interval(long steps) {
+  return std::max({1L, steps / looks_of_a_run, std::min(long_interval, steps / looks_of_a_short)});
+}
+
 ModelMonitor::ModelMonitor(const Problem& problem, Model model, double tolerance, long steps, double dt)
     : problem_(problem), model_(model), limit_(bounded_share * tolerance), tolerance_(tolerance), dt_(dt),
-      longest_interval_(std::max(1L, steps / looks_of_a_run)), shortest_interval_(std::max(1L, steps / most_looks)),
+      longest_interval_(longest_look_interval(steps)), shortest_interval_(std::max(1L, steps / most_looks)),
       breaks_(breaks_of(problem, dt)), good_state_(initial_state(problem)) {
   each_signal(problem, [&](const Signal& signal) {
     if (signal.kind != Signal::Kind::harmonic || signal.frequency == 0) return;
@@ -87,9 +93,10 @@ double ModelMonitor::estimate_of(const ModelErrorBound& bound, double ahead) con
 
 bool ModelMonitor::look(Executor& executor, long step) {
   const auto start = MonitorClock::now();
-  std::vector<double> state = whole_state(executor, problem_.lattice.element_count);
-  bound_->look(state, double(step) * dt_);
-  const KindValues now = largest_of_kinds(state);
+  looked_at_.resize(good_state_.size());
+  executor.read(0, looked_at_);
+  bound_->look(looked_at_, double(step) * dt_);
+  const KindValues now = largest_of_kinds(looked_at_);
   for (std::size_t kind = 0; kind < now.size(); ++kind) largest_[kind] = std::max(largest_[kind], now[kind]);
   estimate_ = estimate_of(*bound_, 0);
   ++report_.looks;
@@ -98,10 +105,10 @@ bool ModelMonitor::look(Executor& executor, long step) {
   const bool is_good = estimate_ <= limit_; // false for what is no number
   if (!is_good) {
     failed_step_ = step;
-    failed_state_ = std::move(state);
+    failed_state_ = looked_at_;
   } else {
     good_step_ = step;
-    good_state_ = std::move(state);
+    good_state_.swap(looked_at_);
     good_errors_ = bound_->errors();
     report_.estimate = std::max(report_.estimate, estimate_);
     report_.largest_rotation = std::max(report_.largest_rotation, bound_->largest_rotation());

@@ -15,6 +15,9 @@ namespace dss {
 /// The largest of the errors over what each kind is measured against (error_scales); infinite where that is zero.
 double relative_error(const Problem& problem, const KindBounds& errors, const KindValues& largest);
 
+/// Most steps between two looks at a run of so many.
+long longest_look_interval(long steps);
+
 /// A run continued with a larger model.
 struct Promotion {
   long step = 0;         ///< at which the bound was exceeded
@@ -76,7 +79,7 @@ private:
   KindValues largest_{}; ///< of the run
   double estimate_ = 0;
   long good_step_ = 0;
-  std::vector<double> good_state_;
+  std::vector<double> good_state_, looked_at_; ///< the second is kept so that a look allocates nothing
   KindBounds good_errors_{};
   long failed_step_ = 0;
   std::vector<double> failed_state_; ///< that a look refused, and not a number that was not finite

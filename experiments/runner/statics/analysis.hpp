@@ -25,6 +25,7 @@ struct AnalysisRequest {
 
 struct AnalysisResult {
   std::string analysis, scene, model;
+  std::string model_why;                           ///< of statics: who chose it, or why it is enough
   std::string solver;                              ///< direct, cg, newton, relaxation
   std::string linear_solver;                       ///< of direct, cg and newton
   std::string variant, isa, precision, integrator; ///< of relaxation

@@ -1,8 +1,10 @@
 #include "experiments/runner/statics/analysis_model.hpp"
+#include "experiments/runner/model/model_choice.hpp"
 #include "solver/error.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace dss {
@@ -20,25 +22,30 @@ void require_sufficient(Model model, const Problem& problem) {
                                  is_linear(model) ? "linear" : "spatial"));
 }
 
-/// The smallest that will do; the last of `models` is spatial.
-Model smallest_model(const Problem& problem, bool wants_linear) {
-  for (const Model model : models) {
-    const bool is_enough =
-        wants_linear ? is_linear(model) && why_not(model, problem).empty() : why_not_exact(model, problem).empty();
-    if (is_enough) return model;
-  }
-  return Model::spatial;
+/// The last of `models` is spatial, which every problem has the degrees of freedom for, and `linear` comes before it.
+Model smallest_linear(const Problem& problem) {
+  return *std::ranges::find_if(models,
+                               [&](Model model) { return is_linear(model) && why_not(model, problem).empty(); });
+}
+
+/// Smaller linear models have proofs too, but their equations do not tell a stable equilibrium from another.
+AnalysisModel smallest_model(const Problem& problem) {
+  const std::string reason = why_not_exact(Model::planar, problem);
+  if (reason.empty()) return {Model::planar, why_exact(Model::planar), true};
+  return {Model::spatial, fmt::format("nothing proves that all stays in a plane: {}", reason), true};
 }
 
 } // namespace
 
-Model static_model(const RunRequest& run, const Scene& scene, const std::string& solver) {
+AnalysisModel static_model(const RunRequest& run, const Scene& scene, const std::string& solver) {
   const bool wants_linear = solver == "direct" || solver == "cg";
-  const std::string text = run.model.value_or(wants_linear ? "linear" : scene.model);
-  if (text == "auto") {
-    const Model smallest = smallest_model(scene.problem, wants_linear);
-    return solver == "newton" && is_linear(smallest) ? Model::spatial : smallest;
-  }
+  const std::string text = run.model.value_or(scene.asked_model);
+  const bool is_of_scene = !run.model && text != "auto";
+  // Who asks for a linear solver wants another model than that of the scene's runs.
+  if (wants_linear && (text == "auto" || (is_of_scene && !is_linear(known_model(text)))))
+    return {smallest_linear(scene.problem),
+            fmt::format("the smallest linear model that has the degrees of freedom; {} solves no other", solver), true};
+  if (text == "auto") return smallest_model(scene.problem);
   const Model model = known_model(text);
   if (wants_linear && !is_linear(model))
     throw InputError(
@@ -47,11 +54,11 @@ Model static_model(const RunRequest& run, const Scene& scene, const std::string&
     throw InputError(
         fmt::format("--solver newton: equations of the model {} are linear; give --solver direct or cg", text));
   require_sufficient(model, scene.problem);
-  return model;
+  return {model, is_of_scene ? "named by the scene" : "asked for"};
 }
 
 Model modal_model(const RunRequest& run, const Scene& scene) {
-  const std::string text = run.model.value_or(scene.model);
+  const std::string text = run.model.value_or(scene.asked_model);
   if (text == "auto") return Model::spatial;
   const Model model = known_model(text);
   require_sufficient(model, scene.problem);

@@ -123,6 +123,7 @@ Json analysis_json(const RunRequest& run, const AnalysisResult& result) {
   } else {
     const bool is_stepped = result.solver == "relaxation";
     const auto if_stepped = [&](const auto& value) { return is_stepped ? Json(value) : Json(); };
+    json["model_why"] = result.model_why;
     json["solver"] = result.solver;
     json["linear_solver"] = is_stepped ? Json() : Json(result.linear_solver);
     json["iterations"] = result.iterations;

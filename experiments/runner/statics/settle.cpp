@@ -55,7 +55,10 @@ AnalysisResult settle(const RunRequest& run, const AnalysisRequest& request) {
   problem.initial_motions.clear();
   AnalysisResult result;
   const auto start = std::chrono::steady_clock::now();
-  const double omega = find_modes(system, 1, system.rest(), true).modes.at(0).omega;
+  const std::vector<NaturalMode> modes = find_modes(system, 1, system.rest(), true).modes;
+  if (modes.empty())
+    throw InputError(fmt::format("{}: has no mode with a frequency, by which it could be damped", plan.scene.name));
+  const double omega = modes.front().omega;
   damp(problem, omega);
   const Method method = fitted(problem, *plan.method, plan.dt);
   result.dt_s = 0.95 * stable_step(problem, method).dt;
@@ -64,13 +67,12 @@ AnalysisResult settle(const RunRequest& run, const AnalysisRequest& request) {
                                              nullptr, &plan.distribution, run.device, run.hybrid, plan.rotation});
   write_initial_state(*executor, problem);
   const long steps = std::max(1L, std::lround(times_between / (omega * result.dt_s)));
-  const double loads = system.load_norm();
   double last = std::numeric_limits<double>::infinity();
   for (bool is_settled = false; !is_settled && result.iterations < most_looks; ++result.iterations) {
     advance(*executor, problem, method, result.dt_s, result.steps, steps);
     result.steps += steps;
     result.state = whole_state(*executor, problem.lattice.element_count);
-    result.residual = system.norm(system.unbalanced(system.inside(result.state))) / loads;
+    result.residual = system.residual(system.inside(result.state));
     const bool is_held_by_rounding = result.residual <= accepted && result.residual > 0.5 * last;
     is_settled = result.residual <= request.tolerance || is_held_by_rounding;
     last = result.residual;

@@ -46,11 +46,11 @@ std::uint8_t unknowns_of(Model model, const Problem& problem) {
   return why_not_planar(problem).empty() ? dofs_of(Model::planar) : std::uint8_t(dof_all);
 }
 
-/// What a state in its plane would do if anything pushed it out; empty where it would come back.
-std::string out_of_plane(const Problem& problem, double loads, const StaticSystem::State& state) {
+/// What a state in its plane would do if anything pushed it out; empty where it would come back. `fields`: 13 numbers an element.
+std::string out_of_plane(const Problem& problem, double loads, const std::vector<double>& fields) {
   try {
-    const StaticSystem across(problem, Rotation::quaternion, dofs_of(Model::bending), loads);
-    const SparseMatrix tangent = across.tangent(state);
+    StaticSystem across(problem, Rotation::quaternion, dofs_of(Model::bending), loads);
+    const SparseMatrix tangent = across.tangent(across.inside(fields));
     Factors factors;
     factors.compute(tangent);
     if (factors.info() != Eigen::Success || factors.zero_pivot(tangent))
@@ -61,10 +61,20 @@ std::string out_of_plane(const Problem& problem, double loads, const StaticSyste
   return {};
 }
 
+/// A model that has no motion out of the plane because nobody named another, or that was kept in it since nothing pushes it out: whether it would stay
+/// there. Empty where it would, or where the model asked for knows no such motion.
+std::string stability_note(const Problem& problem, const AnalysisModel& of, double loads,
+                           const AnalysisResult& result) {
+  const bool is_whole = of.is_auto || dofs_of(of.model) == dof_all;
+  if (result.status != "ok" || !is_whole || is_linear(of.model) || unknowns_of(of.model, problem) == dof_all) return {};
+  if (result.linear_solver == "direct") return out_of_plane(problem, loads, result.state);
+  return fmt::format("whether it is stable out of its plane is not known: {} not say",
+                     result.solver == "relaxation" ? "relaxation in the plane does" : "conjugate gradients do");
+}
+
 void describe(const Problem& problem, Model model, double loads, AnalysisResult& result) {
   StaticSystem system(problem, rotation_of(model), unknowns_of(model, problem), loads);
-  const double all = system.load_norm(), left = system.norm(system.unbalanced(system.inside(result.state)));
-  result.residual = all > 0 ? left / all : left;
+  result.residual = system.residual(system.inside(result.state));
   result.energy_j = total_energy(problem, result.state, rotation_of(model));
   for (std::size_t e = 0; e < result.elements; ++e) {
     const double* f = &result.state[e * field_count];
@@ -92,8 +102,6 @@ void solve_equations(const Problem& problem, Model model, const std::string& sol
   result.cg_iterations = found.cg_iterations;
   if (!found.is_found) result.status = "not converged", result.reason = found.reason;
   result.note = found.note;
-  if (dofs_of(model) == dof_all && !is_linear(model) && system.moving() != dof_all && found.solver == "direct")
-    result.note = out_of_plane(problem, request.loads, found.state);
 }
 
 /// The variant, the method and so on are those of a run; the step is the largest stable one.
@@ -153,11 +161,13 @@ AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& reques
   if (!(request.tolerance > 0))
     throw InputError(fmt::format("--tolerance {:g}: give a positive number", request.tolerance));
   const Scene scene = load_scene(run.scene, run.overrides);
-  const Model model = static_model(run, scene, solver);
+  const AnalysisModel of = static_model(run, scene, solver);
+  const Model model = of.model;
   AnalysisResult result;
   result.analysis = "static";
   result.scene = scene.name;
   result.model = name(model);
+  result.model_why = of.why;
   result.elements = scene.problem.lattice.element_count;
   result.links = scene.problem.link_count();
   if (solver == "relaxation")
@@ -165,6 +175,8 @@ AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& reques
   else
     solve_equations(scene.problem, model, solver, request, result);
   describe(scene.problem, model, request.loads, result);
+  if (const std::string note = stability_note(scene.problem, of, request.loads, result); !note.empty())
+    result.note += (result.note.empty() ? "" : "; ") + note;
   return result;
 }
 

@@ -9,15 +9,18 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-double length_of(const double* v) { return std::hypot(v[0], v[1], v[2]); }
+double squared(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-/// Rotation vector's length [rad].
-double angle_of(const double* fields) { return 2 * std::atan2(length_of(fields + qx), 1 + fields[qs]); }
+/// Square of the tangent of half the angle, which grows with it; of angles of 180 degrees and more infinite.
+double tangent_squared(const double* fields) {
+  const double cosine = 1 + fields[qs];
+  return cosine > 0 ? squared(fields + qx) / (cosine * cosine) : unbounded;
+}
 
-/// Gap and rotation of a link by the linear law, and its constants.
+/// A link by the linear law.
 struct LinearLink {
-  double force = 0, energy = 0; ///< [N], twice the elastic energy [J]
-  double gap = 0, rate = 0;     ///< [m], [m/s]
+  double force2 = 0, energy = 0; ///< [N^2], twice the elastic energy [J]
+  double gap2 = 0, rate2 = 0;    ///< [m^2], [m^2/s^2]
 };
 
 /// Lengths of the opening of a link of axis `axis`: of displacements and small rotations, or of velocities and spins.
@@ -34,10 +37,11 @@ LinearLink linear_link(const double* i, const double* j, int axis, LinkLaw law, 
   const auto [along, b, d] = opening(i + ux, i + qx, j + ux, j + qx, axis, 2 * arm_i, 2 * arm_j); // theta = 2 q
   const auto rates = opening(i + vx, i + wx, j + vx, j + wx, axis, arm_i, arm_j);
   LinearLink link;
-  link.gap = std::hypot(along, b, d);
-  link.rate = length_of(rates.data());
-  link.force = std::hypot(c.k_normal * along, c.k_shear * b, c.k_shear * d);
-  link.energy = c.k_normal * along * along + c.k_shear * (b * b + d * d);
+  const double across2 = b * b + d * d;
+  link.gap2 = along * along + across2;
+  link.rate2 = squared(rates.data());
+  link.force2 = c.k_normal * c.k_normal * along * along + c.k_shear * c.k_shear * across2;
+  link.energy = c.k_normal * along * along + c.k_shear * across2;
   for (int m = 0; m < 3; ++m) {
     const double turn = 2 * (j[qx + m] - i[qx + m]);
     link.energy += c.k_rot[law == LinkLaw::paper ? 0 : std::size_t(m)] * turn * turn;
@@ -56,16 +60,16 @@ ModelErrorBound::ModelErrorBound(const Problem& problem, Model model)
 
 void ModelErrorBound::look(std::span<const double> state, double time) {
   KindBounds now{};
-  double rotation = 0;
+  double tangent2 = 0;
   for (std::size_t e = 0; e < state.size(); e += field_count) {
     const double* fields = state.data() + e;
-    const KindBounds own{length_of(fields + ux), length_of(fields + qx), length_of(fields + vx),
-                         length_of(fields + wx)};
+    const KindBounds own{squared(fields + ux), squared(fields + qx), squared(fields + vx), squared(fields + wx)};
     for (std::size_t kind = 0; kind < now.size(); ++kind) now[kind] = std::max(now[kind], own[kind]);
-    rotation = std::max(rotation, angle_of(fields));
+    tangent2 = std::max(tangent2, tangent_squared(fields));
   }
+  for (double& of_kind : now) of_kind = std::sqrt(of_kind);
   for (std::size_t kind = 0; kind < now.size(); ++kind) largest_[kind] = std::max(largest_[kind], now[kind]);
-  rotation_ = std::max(rotation_, rotation);
+  rotation_ = std::max(rotation_, tangent2 < unbounded ? 2 * std::atan(std::sqrt(tangent2)) : 2 * M_PI);
   spin_ = now[3];
   if (!has_begun_) start_ = time_ = time;
   has_begun_ = true;
@@ -78,19 +82,19 @@ void ModelErrorBound::look(std::span<const double> state, double time) {
 }
 
 void ModelErrorBound::look_at_links(std::span<const double> state) {
-  double strain_energy = 0, arms_energy = 0;
+  double force2 = 0, gap2 = 0, rate2 = 0, strain_energy = 0, arms_energy = 0;
   const auto add = [&](std::size_t e, std::size_t f, int axis, LinkLaw law, const AxisConstants& c) {
     const double *i = state.data() + e * field_count, *j = state.data() + f * field_count;
     const auto a = std::size_t(axis);
     const double arm_i = problem_.bodies[std::size_t(body_of_[e])].edge[a] / 2,
                  arm_j = problem_.bodies[std::size_t(body_of_[f])].edge[a] / 2;
     const LinearLink link = linear_link(i, j, axis, law, c, arm_i, arm_j);
-    force_ = std::max(force_, link.force);
-    gap_ = std::max(gap_, link.gap);
-    rate_ = std::max(rate_, link.rate);
+    force2 = std::max(force2, link.force2);
+    gap2 = std::max(gap2, link.gap2);
+    rate2 = std::max(rate2, link.rate2);
     strain_energy += link.energy;
-    const double theta_i = angle_of(i), theta_j = angle_of(j);
-    const double longer = (arm_i * theta_i * theta_i + arm_j * theta_j * theta_j) / 2;
+    // An angle t makes an arm too long by t^2 / 2 of itself; t <= 2 tan(t / 2).
+    const double longer = 2 * (arm_i * tangent_squared(i) + arm_j * tangent_squared(j));
     arms_energy += c.k_normal * longer * longer;
   };
   problem_.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
@@ -98,6 +102,9 @@ void ModelErrorBound::look_at_links(std::span<const double> state) {
     add(i, j, axis, body.law, body.axis[std::size_t(axis)]);
   });
   for (const ExtraLink& link : problem_.extra_links) add(link.i, link.j, link.axis, link.law, link.constants);
+  force_ = std::max(force_, std::sqrt(force2));
+  gap_ = std::max(gap_, std::sqrt(gap2));
+  rate_ = std::max(rate_, std::sqrt(rate2));
   strain_energy_ = std::max(strain_energy_, strain_energy);
   arms_energy_ = std::max(arms_energy_, arms_energy);
 }
