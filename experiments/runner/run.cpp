@@ -76,7 +76,7 @@ RunResult run_scene(const RunRequest& request) {
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), count);
     const WorkAlone alone(timed.executor(), request.is_root);
-    if (request.is_root) write_state(request.state_csv, problem, state, timed.equations());
+    if (request.is_root) write_state(request.state_csv, problem, state, rotation);
     result.files.push_back(request.state_csv);
   }
   result.wall_s += result.model_report.look_s;
