@@ -1,6 +1,6 @@
 #pragma once
 /// Where the threads of a team meet once a step.
-#include <atomic>
+#include "variants/wake.hpp"
 
 namespace dss {
 
@@ -14,8 +14,7 @@ public:
     const unsigned round = round_.load(std::memory_order_acquire);
     if (waiting_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads_) {
       waiting_.store(0, std::memory_order_relaxed);
-      round_.store(round + 1, std::memory_order_release);
-      round_.notify_all();
+      store_and_wake(round_, round + 1);
       return;
     }
     for (int spins = 0; spins < most_spins; ++spins) {

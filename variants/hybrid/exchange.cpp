@@ -1,6 +1,7 @@
 #include "variants/hybrid/exchange.hpp"
 
 #include "variants/hybrid/clock.hpp"
+#include "variants/wake.hpp"
 
 #include <sched.h>
 
@@ -14,11 +15,6 @@ Channel& Exchange::channel(int from, int to) {
   std::unique_ptr<Channel>& found = channels_[{from, to}];
   if (found == nullptr) found = std::make_unique<Channel>();
   return *found;
-}
-
-void Exchange::fill(Channel::Slot& slot, std::uint32_t number) {
-  slot.filled.store(number, std::memory_order_release);
-  slot.filled.notify_one();
 }
 
 void Exchange::await(const Channel::Slot& slot, std::uint32_t number) const {
@@ -37,7 +33,7 @@ void Exchange::await(const Channel::Slot& slot, std::uint32_t number) const {
 void Exchange::stop() {
   is_stopped_.store(true, std::memory_order_seq_cst);
   for (const auto& [ends, channel] : channels_)
-    for (Channel::Slot& slot : channel->slots) fill(slot, stopped);
+    for (Channel::Slot& slot : channel->slots) store_and_wake(slot.filled, stopped);
 }
 
 MemberHalo::MemberHalo(const Part& part, Exchange& exchange) : exchange_(exchange) {
@@ -79,7 +75,7 @@ void MemberHalo::send(Side side, int copy) {
     if (face.side != side) continue;
     Channel::Slot& slot = face.out->slots[face.sent & 1];
     gather(face.send[std::size_t(copy)], slot.message.data());
-    exchange_.fill(slot, ++face.sent);
+    store_and_wake(slot.filled, ++face.sent);
   }
 }
 

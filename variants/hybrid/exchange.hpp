@@ -31,7 +31,6 @@ public:
   explicit Exchange(bool is_crowded) : is_crowded_(is_crowded) {}
   /// Made for whoever asks first.
   Channel& channel(int from, int to);
-  void fill(Channel::Slot& slot, std::uint32_t number);
   /// Returns when this message is here, or at once when it can no longer come.
   void await(const Channel::Slot& slot, std::uint32_t number) const;
   /// No more messages from now on: receivers leave their halo as it is, and end.
