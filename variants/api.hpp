@@ -123,7 +123,7 @@ struct Plugin {
   bool has_all = false; ///< implicit methods and every Rotation too; others have the explicit methods, and quaternions
 };
 
-constexpr int plugin_abi = 6;
+constexpr int plugin_abi = 7;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

@@ -1,3 +1,4 @@
+#include "experiments/microbenchmarks/micro_study.hpp"
 #include "experiments/runner/advise/advise_study.hpp"
 #include "experiments/runner/atlas/continuum_study.hpp"
 #include "experiments/runner/atlas/failure_study.hpp"
@@ -152,6 +153,15 @@ int judge_advice(const AdviseStudy& study, const ExperimentArguments& arguments)
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
 
+int time_kernels(const MicroStudy& study, const ExperimentArguments& arguments) {
+  if (arguments.is_dry) {
+    fmt::print("{}: {} sets of microbenchmarks, {} repetitions, {} steps to attribute\n", study.name, study.sets.size(),
+               study.rules.repetitions, study.attribution.size());
+    return exit_success;
+  }
+  return run_micro_study(study, arguments.out, arguments.resumes) ? exit_success : exit_check_failed;
+}
+
 int experiment(const ExperimentArguments& arguments) {
   if (const auto advice = load_advise(arguments.file, arguments.scale)) return judge_advice(*advice, arguments);
   if (const auto failures = load_failures(arguments.file, arguments.scale))
@@ -163,6 +173,7 @@ int experiment(const ExperimentArguments& arguments) {
     return check(*statics, arguments, statics->cases.size(), statics_table, statics_text);
   if (const auto budget = load_error_budget(arguments.file, arguments.scale)) return account(*budget, arguments);
   if (const auto balance = load_balance(arguments.file, arguments.scale)) return model(*balance, arguments);
+  if (const auto micro = load_micro_study(arguments.file, arguments.scale)) return time_kernels(*micro, arguments);
   if (const auto limits = load_stability(arguments.file, arguments.scale)) return find_limits(*limits, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
   const std::string simulated_only = name_if_simulated_only(arguments.file);

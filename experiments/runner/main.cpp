@@ -76,6 +76,7 @@ int run_program(int argc, char** argv) {
   add_compare_command(app, chosen);
   add_decompose_command(app, chosen);
   add_simulate_command(app, chosen);
+  add_bench_command(app, chosen);
   require_known_command(argc, argv, app);
   try {
     app.parse(argc, argv);

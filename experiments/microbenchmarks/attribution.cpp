@@ -1,0 +1,266 @@
+#include "experiments/microbenchmarks/attribution.hpp"
+#include "experiments/microbenchmarks/executed_mix.hpp"
+#include "experiments/microbenchmarks/micro_case.hpp"
+#include "experiments/runner/statistics.hpp"
+#include "solver/error.hpp"
+#include "variants/loader.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <memory>
+#include <string_view>
+
+namespace dss {
+namespace {
+
+/// Something that is timed in each round; ns is of an element and pass.
+struct Timed {
+  std::function<void()> pass;
+  double elements; ///< a pass
+  long passes = 1;
+  std::vector<double> ns{};
+};
+
+double seconds(Timed& timed) {
+  const auto start = std::chrono::steady_clock::now();
+  for (long pass = 0; pass < timed.passes; ++pass) timed.pass();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A row kernel, and the bounds of its time.
+struct RowPart {
+  std::string name;
+  int count; ///< a step
+  const CompiledKernel* kernel;
+  InstructionMix mix;
+  std::string mix_missing; ///< why there is none
+  std::unique_ptr<MicroWork> in_level, in_l1;
+  std::unique_ptr<GeneratedMix> as_executed, without_stack;
+  double bytes = 0; ///< an element
+};
+
+const char* ceiling_isa(const CompiledKernel& kernel) {
+  const int bytes = kernel.lanes * (kernel.precision == Precision::f64 ? 8 : 4);
+  return bytes == 64 ? "avx512" : bytes == 32 ? "avx2" : "scalar";
+}
+
+const CompiledKernel& row_kernel(const Plugin& plugin, const AttributionCase& one, bool is_last) {
+  if (plugin.kernels != nullptr)
+    for (const CompiledKernel& kernel : plugin.kernels())
+      if (kernel.is_row && kernel.is_last == is_last && kernel.model == one.model && kernel.precision == one.precision)
+        return kernel;
+  throw InputError(fmt::format("attribution: variant {} has no rows of model {}", plugin.name, name(one.model)));
+}
+
+RowPart row_part(const Plugin& plugin, const AttributionCase& one, bool is_last, const std::string& level) {
+  const CompiledKernel& kernel = row_kernel(plugin, one, is_last);
+  RowPart part{kernel.name, is_last ? 1 : 3, &kernel, {}, {}, {}, {}, {}, {}, 0};
+  const MicroCase in_level = kernel_case(plugin, kernel, level, 1);
+  part.in_level = in_level.make();
+  part.in_l1 = kernel_case(plugin, kernel, "L1", 1).make();
+  part.bytes = in_level.bytes;
+  const std::string isa = ceiling_isa(kernel), precision{name(one.precision)};
+  try {
+    part.mix = executed_mix(kernel);
+    part.as_executed = std::make_unique<GeneratedMix>(part.mix, isa, precision);
+    InstructionMix lean = part.mix;
+    lean.loads -= lean.stack_loads, lean.stores -= lean.stack_stores;
+    part.without_stack = std::make_unique<GeneratedMix>(lean, isa, precision);
+  } catch (const InputError& error) {
+    part.mix_missing = error.what();
+  }
+  return part;
+}
+
+/// All that is timed, by name.
+using TimedParts = std::map<std::string, Timed>;
+
+void time_rounds(TimedParts& parts, int rounds, double sample_s) {
+  for (auto& [name, timed] : parts)
+    for (double time = seconds(timed); time < sample_s; time = seconds(timed))
+      timed.passes = std::max(timed.passes + 1, long(double(timed.passes) * std::min(8.0, 1.1 * sample_s / time)));
+  for (int round = 0; round < rounds; ++round)
+    for (auto& [name, timed] : parts)
+      timed.ns.push_back(1e9 * seconds(timed) / (timed.elements * double(timed.passes)));
+}
+
+/// Median over the rounds of a figure made from the times of a round.
+double over_rounds(const TimedParts& parts,
+                   const std::function<double(const std::function<double(const std::string&)>&)>& figure) {
+  std::vector<double> values;
+  for (std::size_t round = 0; round < parts.begin()->second.ns.size(); ++round)
+    values.push_back(figure([&](const std::string& name) {
+      const auto found = parts.find(name);
+      return found == parts.end() ? std::nan("") : found->second.ns[round];
+    }));
+  return std::isnan(values.front()) ? values.front() : median(values);
+}
+
+struct Bound {
+  double ns = 0;
+  std::string limiter;
+};
+
+/// The bound that is nearest to a row's time.
+Bound largest_bound(const TimedParts& parts, const RowPart& part, double peak_ns, double traffic_ns,
+                    const std::string& level) {
+  Bound most{peak_ns, "arithmetic: fused multiply-adds alone"};
+  if (traffic_ns > most.ns) most = {traffic_ns, fmt::format("{} bandwidth", level)};
+  const double mix_ns = over_rounds(parts, [&](auto&& of) { return of(part.name + " mix"); });
+  if (!(mix_ns > most.ns)) return most;
+  const double lean_ns = over_rounds(parts, [&](auto&& of) { return of(part.name + " lean"); });
+  const double spilled = 1 - lean_ns / mix_ns;
+  most = {mix_ns, "instructions: not all are fused, and operands are in memory"};
+  if (spilled > 0.03)
+    most.limiter += fmt::format("; {:.0f} % of the bound are registers spilled to the stack", 100 * spilled);
+  return most;
+}
+
+Record head_row(const AttributionCase& one, const std::string& part) {
+  return {{"variant", one.variant},
+          {"model", std::string(name(one.model))},
+          {"precision", std::string(name(one.precision))},
+          {"scene", "plate_paper"},
+          {"n", fmt::format("{}", one.n)},
+          {"threads", "1"},
+          {"part", part},
+          {"status", "ok"}};
+}
+
+void put_mix(const RowPart& part, const TimedParts& parts, Record& row) {
+  const InstructionMix& m = part.mix;
+  row["reason"] = part.mix_missing;
+  if (part.as_executed == nullptr) return;
+  for (const auto& [column, value] : std::initializer_list<std::pair<const char*, double>>{
+           {"fma", m.fma},
+           {"other_arithmetic", m.other},
+           {"shuffles", m.shuffles},
+           {"loads", m.loads},
+           {"stores", m.stores},
+           {"stack_loads", m.stack_loads},
+           {"stack_stores", m.stack_stores},
+           {"mix_bound_ns", part.count * over_rounds(parts, [&](auto&& of) { return of(part.name + " mix"); })},
+           {"mix_without_stack_bound_ns",
+            part.count * over_rounds(parts, [&](auto&& of) { return of(part.name + " lean"); })}})
+    row[column] = number_text(value);
+}
+
+} // namespace
+
+const std::vector<std::string>& attribution_columns() {
+  static const std::vector<std::string> columns = {"variant",
+                                                   "model",
+                                                   "precision",
+                                                   "scene",
+                                                   "n",
+                                                   "threads",
+                                                   "part",
+                                                   "count_per_step",
+                                                   "measured_ns_per_element_step",
+                                                   "share_of_step",
+                                                   "measured_in_l1_ns",
+                                                   "flops_per_element_step",
+                                                   "share_of_peak",
+                                                   "peak_bound_ns",
+                                                   "mix_bound_ns",
+                                                   "mix_without_stack_bound_ns",
+                                                   "traffic_bound_ns",
+                                                   "share_of_ceiling",
+                                                   "share_of_ceiling_in_l1",
+                                                   "limiter",
+                                                   "sum_over_step",
+                                                   "fma",
+                                                   "other_arithmetic",
+                                                   "shuffles",
+                                                   "loads",
+                                                   "stores",
+                                                   "stack_loads",
+                                                   "stack_stores",
+                                                   "status",
+                                                   "reason"};
+  return columns;
+}
+
+std::vector<Record> attribute_step(const AttributionCase& one, int rounds, double sample_s,
+                                   const std::vector<Ceiling>& ceilings) {
+  const Plugin& plugin = load_variant(one.variant);
+  const MicroCase step = step_case(plugin, one.model, one.precision, one.n, 1);
+  const auto steps = step.make();
+  std::vector<RowPart> rows;
+  for (const bool is_last : {false, true}) rows.push_back(row_part(plugin, one, is_last, step.level));
+  const CompiledKernel& kernel = *rows.front().kernel;
+  const std::string isa = ceiling_isa(kernel), precision{name(one.precision)};
+  InstructionMix fused;
+  (isa == "scalar" ? fused.other : fused.fma) = 240;
+  const GeneratedMix peak(fused, isa, precision);
+  const double lanes = kernel.lanes, peak_flops_a_pass = 240 * lanes * (isa == "scalar" ? 1 : 2);
+
+  TimedParts parts;
+  parts.try_emplace("step", Timed{[&] { steps->pass(); }, step.elements});
+  parts.try_emplace("peak", Timed{[&] { peak.run(100); }, 100 * peak_flops_a_pass}); // ns a flop
+  for (const RowPart& part : rows) {
+    const double l1_elements = kernel_case(plugin, *part.kernel, "L1", 1).elements;
+    parts.try_emplace(part.name, Timed{[&part] { part.in_level->pass(); },
+                                       kernel_case(plugin, *part.kernel, step.level, 1).elements});
+    parts.try_emplace(part.name + " L1", Timed{[&part] { part.in_l1->pass(); }, l1_elements});
+    if (part.as_executed == nullptr) continue;
+    parts.try_emplace(part.name + " mix", Timed{[&part] { part.as_executed->run(100); }, 100 * lanes});
+    parts.try_emplace(part.name + " lean", Timed{[&part] { part.without_stack->run(100); }, 100 * lanes});
+  }
+  time_rounds(parts, rounds, sample_s);
+
+  const double step_ns = over_rounds(parts, [](auto&& of) { return of("step"); });
+  const double sum_over_step =
+      over_rounds(parts, [](auto&& of) { return (3 * of("stage_row") + of("stage_row_last")) / of("step"); });
+  const double bandwidth_here = bandwidth(ceilings, step.level, 1);
+  std::vector<Record> records;
+  double bound_ns = 0;
+  for (const RowPart& part : rows) {
+    Record row = head_row(one, part.name);
+    const double ns = over_rounds(parts, [&](auto&&of) { return of(part.name); }),
+                 in_l1 = over_rounds(parts, [&](auto&&of) { return of(part.name + " L1"); });
+    const double peak_ns = over_rounds(parts, [&](auto&& of) { return part.kernel->flops * of("peak"); });
+    const double traffic_ns = 1e9 * part.bytes / bandwidth_here;
+    const Bound bound = largest_bound(parts, part, peak_ns, traffic_ns, step.level);
+    const Bound in_l1_bound = largest_bound(parts, part, peak_ns, 0, "L1");
+    bound_ns += part.count * bound.ns;
+    row["count_per_step"] = fmt::format("{}", part.count);
+    row["measured_ns_per_element_step"] = number_text(part.count * ns);
+    row["measured_in_l1_ns"] = number_text(part.count * in_l1);
+    row["share_of_step"] =
+        number_text(over_rounds(parts, [&](auto&& of) { return part.count * of(part.name) / of("step"); }));
+    row["flops_per_element_step"] = number_text(part.count * part.kernel->flops);
+    row["share_of_peak"] = number_text(peak_ns / ns);
+    row["peak_bound_ns"] = number_text(part.count * peak_ns);
+    row["traffic_bound_ns"] = number_text(part.count * traffic_ns);
+    row["share_of_ceiling"] = number_text(bound.ns / ns);
+    row["share_of_ceiling_in_l1"] = number_text(in_l1_bound.ns / in_l1);
+    row["limiter"] = bound.limiter;
+    put_mix(part, parts, row);
+    records.push_back(row);
+  }
+  Record rest = head_row(one, "rest");
+  rest["count_per_step"] = "1";
+  rest["measured_ns_per_element_step"] = number_text(step_ns * (1 - sum_over_step));
+  rest["share_of_step"] = number_text(1 - sum_over_step);
+  rest["limiter"] =
+      "what the rows by themselves do not explain; below zero: the step finds more in nearer caches than they do";
+  records.push_back(rest);
+  Record whole = head_row(one, "step");
+  whole["count_per_step"] = "1";
+  whole["measured_ns_per_element_step"] = number_text(step_ns);
+  whole["share_of_step"] = "1";
+  whole["flops_per_element_step"] = number_text(step.flops);
+  whole["share_of_peak"] =
+      number_text(over_rounds(parts, [&](auto&& of) { return step.flops * of("peak") / of("step"); }));
+  whole["share_of_ceiling"] = number_text(bound_ns / step_ns);
+  whole["sum_over_step"] = number_text(sum_over_step);
+  whole["limiter"] = records.front().at("limiter");
+  records.push_back(whole);
+  return records;
+}
+
+} // namespace dss

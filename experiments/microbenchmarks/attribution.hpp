@@ -1,0 +1,28 @@
+#pragma once
+/// Where the time of a step goes: its row kernels by themselves, beside what the processor gives for their arithmetic, their mix of instructions and their traffic,
+/// all timed in turn, since the clock of a shared machine changes from second to second.
+#include "experiments/microbenchmarks/ceilings.hpp"
+#include "solver/model/model.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dss {
+
+struct AttributionCase {
+  std::string variant;
+  Model model;
+  Precision precision;
+  int n; ///< elements a side of plate_paper
+};
+
+/// Rows of tables/attribution.csv for one case: stage_row (three a step), stage_row_last (one), the rest, and the step.
+/// Times are medians over the rounds, in ns of an element and step; shares are medians of ratios within a round.
+/// @throws InputError if the variant has no kernels or cannot run here
+std::vector<Record> attribute_step(const AttributionCase& one, int rounds, double sample_s,
+                                   const std::vector<Ceiling>& ceilings);
+
+const std::vector<std::string>& attribution_columns();
+
+} // namespace dss

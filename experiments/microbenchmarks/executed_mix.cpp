@@ -1,0 +1,141 @@
+#include "experiments/microbenchmarks/executed_mix.hpp"
+#include "experiments/microbenchmarks/kernel_work.hpp"
+#include "experiments/runner/child.hpp"
+#include "solver/error.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <csignal>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <map>
+#include <sstream>
+#include <sys/ptrace.h>
+#include <sys/user.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace dss {
+namespace {
+
+constexpr double objdump_limit_s = 120;
+constexpr std::size_t short_row = 8, long_row = 24; ///< packs: their difference is free of what a row begins with
+
+using Executions = std::map<std::uint64_t, long>; ///< by address in the module
+
+/// What the traced process does: a stop before and after each of two rows.
+[[noreturn]] void run_stops(KernelWork& first, KernelWork& second) {
+  ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+  for (KernelWork* work : {&first, &second}) {
+    work->pass(); // what is done once, as binding symbols, is done
+    ::raise(SIGSTOP);
+    work->pass();
+    ::raise(SIGSTOP);
+  }
+  ::_exit(0);
+}
+
+/// Steps until the next stop; adds sign to the executions of each address from `base` on.
+void step_to_stop(pid_t child, std::uint64_t base, std::uint64_t size, long sign, Executions& executions) {
+  for (int status = 0;;) {
+    if (::ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr) != 0 || ::waitpid(child, &status, 0) != child ||
+        !WIFSTOPPED(status))
+      throw InputError("instruction mix: the traced process ended");
+    if (WSTOPSIG(status) == SIGSTOP) return;
+    user_regs_struct registers{};
+    ::ptrace(PTRACE_GETREGS, child, nullptr, &registers);
+    if (registers.rip - base < size) executions[registers.rip - base] += sign;
+  }
+}
+
+void continue_to_stop(pid_t child) {
+  int status = 0;
+  if (::ptrace(PTRACE_CONT, child, nullptr, nullptr) != 0 || ::waitpid(child, &status, 0) != child ||
+      !WIFSTOPPED(status))
+    throw InputError("instruction mix: the traced process ended");
+}
+
+Executions trace(const CompiledKernel& kernel, std::uint64_t base, std::uint64_t size) {
+  const std::size_t lanes = std::size_t(kernel.lanes);
+  KernelWork first(kernel, {short_row * lanes, short_row * lanes}),
+      second(kernel, {long_row * lanes, long_row * lanes});
+  const pid_t child = ::fork();
+  if (child < 0) throw InputError("instruction mix: cannot start a process");
+  if (child == 0) run_stops(first, second);
+  Executions executions;
+  int status = 0;
+  try {
+    if (::waitpid(child, &status, 0) != child || !WIFSTOPPED(status))
+      throw InputError("instruction mix: this system does not let a process be traced");
+    step_to_stop(child, base, size, -1, executions);
+    continue_to_stop(child);
+    step_to_stop(child, base, size, 1, executions);
+  } catch (...) {
+    ::kill(child, SIGKILL);
+    ::waitpid(child, &status, 0);
+    throw;
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, &status, 0);
+  return executions;
+}
+
+bool begins_with_any(const std::string& text, std::initializer_list<const char*> heads) {
+  return std::ranges::any_of(heads, [&](const char* head) { return text.starts_with(head); });
+}
+
+/// One line of the disassembly, "vaddpd 0x40(%rsp),%zmm1,%zmm2".
+void count_instruction(const std::string& text, double count, InstructionMix& mix) {
+  std::istringstream words(text);
+  std::string operation, operands;
+  words >> operation >> operands;
+  const std::string name = operation.starts_with('v') ? operation.substr(1) : operation;
+  const bool is_floating = name.ends_with("pd") || name.ends_with("ps") || name.ends_with("sd") || name.ends_with("ss");
+  if (begins_with_any(name, {"fmadd", "fmsub", "fnmadd", "fnmsub"}))
+    mix.fma += count;
+  else if (is_floating && begins_with_any(name, {"add", "sub", "mul", "div", "sqrt", "max", "min"}))
+    mix.other += count;
+  else if (begins_with_any(name, {"align", "perm", "shuf", "unpck", "palignr", "insertf", "extractf", "movddup"}))
+    mix.shuffles += count;
+  else
+    mix.rest += count;
+  const bool is_memory =
+      operands.find('(') != std::string::npos && !begins_with_any(operation, {"lea", "nop", "prefetch"});
+  if (!is_memory) return;
+  const bool is_stack = operands.find("(%rsp") != std::string::npos;
+  const bool is_store = operands.ends_with(')') && !begins_with_any(operation, {"cmp", "test", "ucomi", "comi"});
+  const bool is_load = !is_store || !begins_with_any(name, {"mov", "kmov"});
+  if (is_load) mix.loads += count, mix.stack_loads += is_stack ? count : 0;
+  if (is_store) mix.stores += count, mix.stack_stores += is_stack ? count : 0;
+}
+
+InstructionMix looked_up(const std::string& module, const Executions& executions, double packs) {
+  const ChildResult child =
+      run_child("/usr/bin/env", {"env", "objdump", "-d", "--no-show-raw-insn", module}, objdump_limit_s);
+  if (child.exit_code != 0) throw InputError(fmt::format("objdump (binutils): {}", child.failure(objdump_limit_s)));
+  InstructionMix mix;
+  std::istringstream lines(child.output);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(":\t");
+    if (colon == std::string::npos) continue;
+    const auto found = executions.find(std::strtoull(line.c_str(), nullptr, 16));
+    if (found != executions.end()) count_instruction(line.substr(colon + 2), double(found->second) / packs, mix);
+  }
+  return mix;
+}
+
+} // namespace
+
+InstructionMix executed_mix(const CompiledKernel& kernel) {
+  Dl_info module{};
+  if (::dladdr(reinterpret_cast<const void*>(kernel.run), &module) == 0)
+    throw InputError("instruction mix: the kernel's module is not known");
+  constexpr std::uint64_t most_text = 64u << 20;
+  const Executions executions = trace(kernel, reinterpret_cast<std::uint64_t>(module.dli_fbase), most_text);
+  const InstructionMix mix = looked_up(module.dli_fname, executions, double(long_row - short_row));
+  if (mix.fma + mix.other == 0) throw InputError("instruction mix: the disassembly does not show what ran");
+  return mix;
+}
+
+} // namespace dss

@@ -1,0 +1,186 @@
+#include "experiments/microbenchmarks/micro_case.hpp"
+#include "experiments/microbenchmarks/kernel_work.hpp"
+#include "kernels/stage_row/cost.hpp"
+#include "solver/error.hpp"
+#include "solver/model/fields.hpp"
+#include "solver/nearest_name.hpp"
+#include "solver/numerics/signal_rows.hpp"
+#include "solver/scene/scene.hpp"
+#include "variants/engine/layout.hpp"
+#include "variants/loader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace dss {
+namespace {
+
+constexpr const char* step_kernel = "rk4_step";
+
+std::size_t precision_bytes(Precision precision) { return precision == Precision::f64 ? 8 : 4; }
+
+/// RK4 steps of a plate, one a pass.
+class PlateSteps : public MicroWork {
+public:
+  PlateSteps(const Plugin& plugin, Model model, Precision precision, int n, int threads)
+      : scene_(load_scene("plate_paper", {{"n", std::to_string(n)}})), method_(*find_method("rk4")),
+        executor_(plugin.create({scene_.problem, method_, model, precision, scene_.problem.dt, threads})),
+        signals_(signal_rows(scene_.problem, method_, scene_.problem.dt, 0, steps_a_call)) {}
+  void pass() override {
+    if (!executor_->advance(steps_a_call, signals_).is_finite)
+      throw std::logic_error("micro_case.cpp: plate_paper became unstable");
+  }
+  static constexpr long steps_a_call = 10;
+
+private:
+  const Scene scene_;
+  const Method& method_;
+  std::unique_ptr<Executor> executor_;
+  std::vector<double> signals_;
+};
+
+/// Fields after a few steps from rest, in global order of elements.
+std::vector<double> fields_after(const Plugin& plugin, Model model, Precision precision, const Scene& scene,
+                                 long steps) {
+  const Method& method = *find_method("rk4");
+  const auto executor = plugin.create({scene.problem, method, model, precision, scene.problem.dt, 1});
+  executor->advance(steps, signal_rows(scene.problem, method, scene.problem.dt, 0, steps));
+  std::vector<double> fields(scene.problem.lattice.element_count * field_count);
+  executor->read(0, fields);
+  return fields;
+}
+
+/// Largest difference of displacements from the reference variant's after two steps, over the largest displacement.
+double step_error(const Plugin& plugin, Model model, Precision precision, int n) {
+  constexpr long steps = 2;
+  const Scene scene = load_scene("plate_paper", {{"n", std::to_string(n)}});
+  static std::map<int, std::vector<double>> right; // of all variants: computed once a size
+  auto& expected = right[n];
+  if (expected.empty())
+    expected = fields_after(load_variant("reference"), Model::spatial, Precision::f64, scene, steps);
+  const std::vector<double> fields = fields_after(plugin, model, precision, scene, steps);
+  double difference = 0, largest = 0;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (k % field_count > uz) continue;
+    const double error = std::abs(fields[k] - expected[k]);
+    difference = std::isnan(error) ? error : std::max(difference, error);
+    largest = std::max(largest, std::abs(expected[k]));
+  }
+  return difference / largest;
+}
+
+bool has_name(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::any_of(names, [&](const std::string& one) { return one == "*" || one == name; });
+}
+
+void require_known(const std::vector<std::string>& names, const std::string& what, std::vector<std::string> known) {
+  for (const std::string& name : names)
+    if (name != "*" && std::ranges::find(known, name) == known.end())
+      throw InputError(fmt::format("{} \"{}\" does not exist; {}", what, name, nearest_name(name, known)));
+}
+
+std::vector<std::string> kernel_names(const std::vector<const Plugin*>& plugins) {
+  std::set<std::string> names{step_kernel};
+  for (const Plugin* plugin : plugins)
+    if (plugin->kernels != nullptr)
+      for (const CompiledKernel& kernel : plugin->kernels()) names.insert(kernel.name);
+  return {names.begin(), names.end()};
+}
+
+void require_known_names(const MicroSet& set, const std::vector<const Plugin*>& plugins) {
+  std::vector<std::string> model_list, variant_list;
+  for (const Model model : models) model_list.emplace_back(name(model));
+  for (const VariantStatus& variant : variants()) variant_list.push_back(variant.name);
+  require_known(set.kernels, "kernel", kernel_names(plugins));
+  require_known(set.models, "model", model_list);
+  require_known(set.precisions, "precision", {"f64", "f32"});
+  require_known(set.variants, "variant", variant_list);
+  require_known(set.levels, "level", memory_levels);
+}
+
+void add_kernels(const MicroSet& set, const Plugin& plugin, std::vector<MicroCase>& cases) {
+  if (plugin.kernels == nullptr) return;
+  for (const CompiledKernel& kernel : plugin.kernels())
+    if (has_name(set.kernels, kernel.name) && has_name(set.models, name(kernel.model)) &&
+        has_name(set.precisions, name(kernel.precision)))
+      for (const std::string& level : memory_levels)
+        for (const int threads : set.threads)
+          if (has_name(set.levels, level)) cases.push_back(kernel_case(plugin, kernel, level, threads));
+}
+
+void add_steps(const MicroSet& set, const Plugin& plugin, std::vector<MicroCase>& cases) {
+  if (!has_name(set.kernels, step_kernel) || plugin.is_distributed) return;
+  for (const Model model : models)
+    for (const Precision precision : {Precision::f64, Precision::f32})
+      for (const int n : set.sizes)
+        for (const int threads : set.threads)
+          if (has_name(set.models, name(model)) && has_name(set.precisions, name(precision)))
+            cases.push_back(step_case(plugin, model, precision, n, threads));
+}
+
+} // namespace
+
+std::string MicroCase::cell() const {
+  return fmt::format("{}{}/{}/{}/{}/{}/{}", kernel, n > 0 ? fmt::format("_{}", n) : "", name(model), name(precision),
+                     variant, level, threads);
+}
+
+MicroCase kernel_case(const Plugin& plugin, const CompiledKernel& kernel, const std::string& level, int threads) {
+  const WorkingSet wanted = working_set(level, threads);
+  const KernelShape shape = kernel_shape(kernel, wanted.bytes);
+  const std::size_t numbers = std::size_t(kernel.inputs + kernel.outputs);
+  MicroCase one;
+  one.kernel = kernel.name, one.model = kernel.model, one.precision = kernel.precision;
+  one.variant = plugin.name, one.isa = plugin.isa, one.level = level, one.threads = threads;
+  one.flops = kernel.flops, one.bytes = double(numbers * precision_bytes(kernel.precision));
+  one.working_set_bytes = shape.elements * std::size_t(one.bytes);
+  one.elements = double(shape.elements) * threads;
+  one.skipped = wanted.unusable;
+  one.make = [&kernel, shape] { return std::make_unique<KernelWork>(kernel, shape); };
+  one.error = [&kernel] { return kernel_error(kernel); };
+  return one;
+}
+
+MicroCase step_case(const Plugin& plugin, Model model, Precision precision, int n, int threads) {
+  MicroCase one;
+  one.kernel = step_kernel, one.model = model, one.precision = precision, one.n = n;
+  one.variant = plugin.name, one.isa = plugin.isa, one.threads = threads;
+  one.flops = row_flops(model).rk4_step();
+  one.bytes = 2 * double(model_layout(model).fields.size() * precision_bytes(precision));
+  one.working_set_bytes = std::size_t(n) * std::size_t(n) * std::size_t(one.bytes) / 2 / std::size_t(threads);
+  one.level = level_of(one.working_set_bytes);
+  one.elements = double(n) * n * double(PlateSteps::steps_a_call);
+  one.is_threaded_inside = true;
+  one.make = [&plugin, model, precision, n, threads] {
+    return std::make_unique<PlateSteps>(plugin, model, precision, n, threads);
+  };
+  if (one.variant != "reference")
+    one.error = [&plugin, model, precision, n] { return step_error(plugin, model, precision, n); };
+  return one;
+}
+
+std::vector<MicroCase> micro_cases(const MicroSet& set) {
+  std::vector<const Plugin*> plugins;
+  for (const VariantStatus& variant : asked_variants())
+    if (variant.is_usable()) plugins.push_back(&load_variant(variant.name));
+  require_known_names(set, plugins);
+  std::vector<MicroCase> cases;
+  for (const VariantStatus& variant : asked_variants()) {
+    if (!has_name(set.variants, variant.name) || (variant.is_by_name && has_name(set.variants, "*"))) continue;
+    if (variant.is_usable()) {
+      add_kernels(set, load_variant(variant.name), cases);
+      add_steps(set, load_variant(variant.name), cases);
+    } else {
+      MicroCase missing;
+      missing.kernel = "*", missing.variant = variant.name, missing.isa = variant.isa,
+      missing.skipped = variant.unusable;
+      cases.push_back(missing);
+    }
+  }
+  return cases;
+}
+
+} // namespace dss
