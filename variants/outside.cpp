@@ -54,6 +54,14 @@ std::string joined_needs(const nlohmann::json& needs, const fs::path& path) {
   return fmt::format("{}", fmt::join(names, ","));
 }
 
+/// Names stand in lists, in keys of cells and before a colon.
+void require_name(const std::string& name, const fs::path& path) {
+  const bool is_sound = name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string::npos;
+  if (name.empty() || !is_sound || name == "auto")
+    throw InputError(fmt::format("{}: \"{}\" is no name for a variant; take lower-case letters, digits, - and _",
+                                 path.string(), name));
+}
+
 OutsideVariant described(const fs::path& module) {
   fs::path description = module;
   description.replace_extension(".json");
@@ -65,6 +73,7 @@ OutsideVariant described(const fs::path& module) {
     refuse_description(description, "lacks \"variant\" or \"isa\", or is no JSON");
   if (!json.contains("needs") || !json["needs"].is_array())
     refuse_description(description, "\"needs\" is no list of CPU features");
+  require_name(json["variant"], description);
   return {json["variant"], json["isa"], joined_needs(json["needs"], description), module.string()};
 }
 

@@ -1,6 +1,8 @@
 """Completion in a shell, and that what it offers is what the commands accept."""
 import json
+import os
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -78,6 +80,21 @@ class Completion(ProgramTest):
     def test_the_listing_has_every_scene_that_is_offered(self):
         listed = [scene["scene"] for scene in json.loads(dssbench("list", "scenes", "--json").stdout)]
         self.assertEqual(offered("run", ""), listed)
+
+    @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
+    def test_zsh_completes_as_bash_does(self):
+        script = f"""PATH="{os.path.dirname(PROGRAM)}:$PATH"; compdef() {{ : }}; compadd() {{ shift; print -l -- "$@" }}; _files() {{ print files }}
+source =({PROGRAM} completion zsh)
+words=(dssbench run plate_paper --varia); CURRENT=4; _dssbench
+words=(dssbench run plate_paper --steps ''); CURRENT=5; _dssbench"""
+        result = subprocess.run(["zsh", "-f", "-c", script], capture_output=True, text=True, timeout=60)
+        self.assertEqual((result.stdout.split(), result.stderr), (["--variant", "--variant-path", "files"], ""))
+
+    @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
+    def test_fish_completes_as_bash_does(self):
+        script = f"set PATH {os.path.dirname(PROGRAM)} $PATH; {PROGRAM} completion fish | source; complete -C 'dssbench run plate_paper --varia'"
+        result = subprocess.run(["fish", "--no-config", "-c", script], capture_output=True, text=True, timeout=60, env={**os.environ, "HOME": self.directory})
+        self.assertEqual((result.stdout.split(), result.stderr), (["--variant", "--variant-path"], ""))
 
     def test_scripts_of_other_shells_ask_the_program_too(self):
         for shell in offered("completion", ""):

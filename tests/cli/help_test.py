@@ -1,4 +1,5 @@
 """Help of every command, and the manual page made from it."""
+import json
 import os
 import re
 import shlex
@@ -33,6 +34,12 @@ class Help(ProgramTest):
                 self.assertEqual(words[0], command)
                 for option in (word for word in words if word.startswith("--")):
                     self.assertIn(option, dssbench("complete", command, option).stdout.split(), example)
+
+    def test_the_scene_that_is_shown_to_newcomers_runs(self):
+        with open(os.path.join(ROOT, "solver/scene/README.md"), encoding="utf-8") as file:
+            scene = re.search(r"^    \{$.*?^    \}$", file.read(), re.M | re.S).group(0)
+        result = dssbench("run", self.write("hanging_strip.json", scene), "--variant", "reference", "--json", "-")
+        self.assertEqual((result.returncode, json.loads(result.stdout)["status"]), (0, "ok"), result.stderr)
 
     def page(self):
         result = dssbench("help", "--man")

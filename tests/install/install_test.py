@@ -128,6 +128,10 @@ class Install(unittest.TestCase):
         both = ("--variant-path", self.modules, "--variant-path", again)
         self.assertIn(f"wider exists already, in {self.modules}/wider.so", self.refused("list", "variants", *both))
 
+    def test_a_name_that_means_something_else_is_refused(self):
+        for folder, name in (("none", ""), ("auto", "auto"), ("colon", "mpi:wider"), ("comma", "a,b")):
+            self.assertIn("is no name for a variant", self.refused("list", "variants", "--variant-path", self.altered(folder, variant=name)))
+
     def test_a_module_that_needs_another_cpu_is_not_opened(self):
         hidden = {**os.environ, "DSSBENCH_HIDE_CPU_FEATURES": "bmi2"}
         directory = self.altered("needy", needs=["bmi2"])
