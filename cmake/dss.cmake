@@ -1,9 +1,13 @@
 # Build rules that every folder uses: common options, variants, tests.
 
+include(${CMAKE_CURRENT_LIST_DIR}/dssbench_variant.cmake)
+
 add_library(dss_options INTERFACE)
-target_include_directories(dss_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+target_include_directories(dss_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>)
+target_compile_features(dss_options INTERFACE cxx_std_20)
 # -ffp-contract=off: a fused multiply-add is where the source says so, and nowhere else (DESIGN.md section 5).
-target_compile_options(dss_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${DSS_WERROR}>:-Werror>)
+target_compile_options(dss_options INTERFACE -ffp-contract=off
+  $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wpedantic> $<BUILD_INTERFACE:-Wshadow> $<BUILD_INTERFACE:$<$<BOOL:${DSS_WERROR}>:-Werror>>)
 if(DSS_SANITIZE)
   target_compile_options(dss_options INTERFACE -fsanitize=${DSS_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(dss_options INTERFACE -fsanitize=${DSS_SANITIZE})
@@ -38,25 +42,14 @@ function(dss_add_variant name)
     endif()
   endif()
   string(REPLACE "-" "_" target dss_variant_${name})
-  add_library(${target} MODULE ${arg_SOURCES})
+  dssbench_variant_module(${target} NAME ${name} MARCH ${arg_MARCH} VECTOR_BITS ${arg_VECTOR_BITS} EXPORTS ${PROJECT_SOURCE_DIR}/variants/exports.map
+    OPTIONS ${arg_OPTIONS} SOURCES ${arg_SOURCES})
   if(is_engine) # what its files include, parsed once
     target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/stage_row/stage_row.hpp ${PROJECT_SOURCE_DIR}/variants/api.hpp)
   endif()
   target_link_libraries(${target} PRIVATE dss_options dss_solver OpenMP::OpenMP_CXX)
-  target_compile_options(${target} PRIVATE -march=${arg_MARCH} ${arg_OPTIONS})
-  set(isa ${arg_MARCH})
-  if(isa STREQUAL native) # what the compiler takes the build host for, as its -march= would say
-    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -E -v -x c++ /dev/null ERROR_VARIABLE verbose OUTPUT_QUIET)
-    if(verbose MATCHES "(-march=|\"?-target-cpu\"? \"?)([a-mo-z][a-z0-9_.-]+|nehalem)")
-      set(isa "native: ${CMAKE_MATCH_2}")
-    endif()
-  endif()
-  target_compile_definitions(${target} PRIVATE DSS_VARIANT="${name}" DSS_ISA="${isa}" DSS_VECTOR_BITS=${arg_VECTOR_BITS}
-    $<$<BOOL:${DSS_FEWER_MODELS}>:DSS_FEWER_MODELS>)
-  # Weak symbols of templates stay inside: otherwise link order decides which instruction set runs.
-  target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/variants/exports.map)
-  set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/variants
-    LINK_DEPENDS ${PROJECT_SOURCE_DIR}/variants/exports.map)
+  target_compile_definitions(${target} PRIVATE $<$<BOOL:${DSS_FEWER_MODELS}>:DSS_FEWER_MODELS>)
+  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/variants)
   install(TARGETS ${target} LIBRARY DESTINATION lib/dssbench/variants)
   set_property(GLOBAL APPEND PROPERTY DSS_VARIANT_TARGETS ${target})
   string(JOIN "," needs ${arg_NEEDS})
@@ -85,20 +78,6 @@ function(dss_write_registry)
     string(APPEND text "${entry}\n")
   endforeach()
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/variants/registry.inc CONTENT "${text}" @ONLY)
-endfunction()
-
-# CPU features, as __builtin_cpu_supports names them, that code compiled with -march=native uses.
-function(dss_native_needs out)
-  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -dM -E -x c++ /dev/null OUTPUT_VARIABLE macros)
-  set(needs "")
-  foreach(feature sse4.2 avx avx2 fma bmi bmi2 avx512f avx512dq avx512bw avx512vl avx512cd avx512vbmi avx512ifma avx512vnni)
-    string(TOUPPER ${feature} macro)
-    string(REPLACE "." "_" macro ${macro})
-    if(macros MATCHES "#define __${macro}__ 1")
-      list(APPEND needs ${feature})
-    endif()
-  endforeach()
-  set(${out} ${needs} PARENT_SCOPE)
 endfunction()
 
 # Environment of tests, one variable, since gtest_discover_tests takes lists apart. Compiled OpenCL programs, ours and PoCL's, are kept in the build tree

@@ -106,6 +106,17 @@ public:
   virtual std::vector<double> gather(double value) { return {value}; }
 };
 
+/// Of what both sides pass to each other: a module compiled with other headers, or another standard library, differs.
+constexpr std::size_t plugin_layout = [] {
+  std::size_t layout = 0;
+  for (const std::size_t size :
+       {sizeof(Setup), sizeof(Problem), sizeof(Body), sizeof(Lattice), sizeof(Row), sizeof(Method), sizeof(Outcome),
+        sizeof(StepMaxima), sizeof(PartSetup), sizeof(Part), sizeof(Distribution), sizeof(HaloLayout), sizeof(RankInfo),
+        sizeof(Traffic), sizeof(DeviceUse), sizeof(HybridInfo), sizeof(CompiledKernel)})
+    layout = layout * 1009 + size;
+  return layout;
+}();
+
 struct Plugin {
   int abi;
   const char* name;
@@ -121,9 +132,10 @@ struct Plugin {
   DeviceCeilings (*ceilings)(const std::string& device) = nullptr; ///< null, or measures a device named as for --device
   bool is_compensated = true;                                      ///< has Precision::f32c
   bool has_all = false; ///< implicit methods and every Rotation too; others have the explicit methods, and quaternions
+  std::size_t layout = plugin_layout;
 };
 
-constexpr int plugin_abi = 7;
+constexpr int plugin_abi = 7; ///< to be raised with every change of Plugin or Executor
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

@@ -1,15 +1,17 @@
 #include "variants/loader.hpp"
 
 #include "solver/error.hpp"
+#include "solver/io/program_files.hpp"
 #include "solver/nearest_name.hpp"
+#include "variants/cpu_features.hpp"
+#include "variants/outside.hpp"
 
+#include <algorithm>
 #include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <map>
 #include <mutex>
-#include <string_view>
 
 namespace dss {
 namespace {
@@ -25,67 +27,29 @@ constexpr Entry registry[] = {
 #include "variants/registry.inc"
 };
 
-/// __builtin_cpu_supports takes literals only; this is every feature that a variant may need.
-bool cpu_has(std::string_view feature) {
-#define DSS_FEATURE(name)                                                                                              \
-  if (feature == name) return __builtin_cpu_supports(name) != 0
-  DSS_FEATURE("sse4.2");
-  DSS_FEATURE("avx");
-  DSS_FEATURE("avx2");
-  DSS_FEATURE("fma");
-  DSS_FEATURE("bmi");
-  DSS_FEATURE("bmi2");
-  DSS_FEATURE("avx512f");
-  DSS_FEATURE("avx512dq");
-  DSS_FEATURE("avx512bw");
-  DSS_FEATURE("avx512vl");
-  DSS_FEATURE("avx512cd");
-  DSS_FEATURE("avx512vbmi");
-  DSS_FEATURE("avx512ifma");
-  DSS_FEATURE("avx512vnni");
-#undef DSS_FEATURE
-  return false;
-}
-
-/// First feature that this CPU lacks, or that DSSBENCH_HIDE_CPU_FEATURES hides (to try the refusal where the CPU has
-/// everything).
-std::string missing_feature(std::string_view needs) {
-  const char* hidden = std::getenv("DSSBENCH_HIDE_CPU_FEATURES");
-  const auto is_hidden = [&](std::string_view f) {
-    return hidden != nullptr && fmt::format(",{},", hidden).find(fmt::format(",{},", f)) != std::string::npos;
-  };
-  while (!needs.empty()) {
-    const std::size_t comma = std::min(needs.find(','), needs.size());
-    const std::string_view feature = needs.substr(0, comma);
-    if (!cpu_has(feature) || is_hidden(feature)) return std::string(feature);
-    needs.remove_prefix(std::min(comma + 1, needs.size()));
-  }
-  return {};
-}
-
-/// Beside the program when installed, else in the build tree.
-std::filesystem::path module_path(const std::string& name) {
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::string file = name + DSS_MODULE_SUFFIX;
-  const auto installed = program.parent_path().parent_path() / "lib/dssbench/variants" / file;
-  return std::filesystem::exists(installed, error) ? installed : std::filesystem::path(DSS_MODULE_DIR) / file;
+void require_interface(const Plugin& plugin, const VariantStatus& variant, const std::string& path) {
+  const char* remedy = "build it against the headers of this program";
+  if (plugin.abi != plugin_abi)
+    throw InputError(fmt::format("variant {}: {} speaks interface {}, this program {}; {}", variant.name, path,
+                                 plugin.abi, plugin_abi, remedy));
+  if (plugin.layout != plugin_layout)
+    throw InputError(fmt::format("variant {}: {} was compiled with other headers, or another standard library, than "
+                                 "this program; {}",
+                                 variant.name, path, remedy));
+  if (plugin.name != variant.name)
+    throw InputError(fmt::format("variant {}: {} holds variant {}", variant.name, path, plugin.name));
 }
 
 const Plugin& open_module(const VariantStatus& variant) {
-  const auto path = module_path(variant.name);
+  const std::string path = module_path(variant);
   void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) throw InputError(fmt::format("variant {}: {}", variant.name, dlerror()));
   const auto entry = reinterpret_cast<PluginEntry>(dlsym(module, plugin_symbol));
   if (entry == nullptr)
-    throw InputError(fmt::format("variant {}: {} does not export {}", variant.name, path.string(), plugin_symbol));
-  const Plugin* plugin = entry();
-  if (plugin->abi != plugin_abi)
-    throw InputError(fmt::format("variant {}: {} speaks interface {}, this program {}", variant.name, path.string(),
-                                 plugin->abi, plugin_abi));
-  if (plugin->name != variant.name)
-    throw InputError(fmt::format("variant {}: {} holds variant {}", variant.name, path.string(), plugin->name));
-  return *plugin;
+    throw InputError(fmt::format("variant {}: {} does not export {}", variant.name, path, plugin_symbol));
+  const Plugin& plugin = *entry();
+  require_interface(plugin, variant, path);
+  return plugin;
 }
 
 /// A library that a module needs may be missing, or a device.
@@ -98,15 +62,24 @@ std::string why_unusable(const VariantStatus& variant) {
   }
 }
 
+std::string why_not_here(const std::string& needs, const std::string& missing) {
+  const std::string feature = missing_feature(needs);
+  return feature.empty() ? missing : fmt::format("this CPU lacks {}", feature);
+}
+
 } // namespace
 
 const std::vector<VariantStatus>& variants() {
   static const std::vector<VariantStatus> all = [] {
     std::vector<VariantStatus> list;
-    for (const Entry& entry : registry) {
-      const std::string missing = missing_feature(entry.needs);
-      const std::string cannot = missing.empty() ? entry.missing : fmt::format("this CPU lacks {}", missing);
-      list.push_back({entry.name, entry.isa, cannot, entry.is_by_name});
+    for (const Entry& entry : registry)
+      list.push_back({entry.name, entry.isa, why_not_here(entry.needs, entry.missing), entry.is_by_name});
+    for (const OutsideVariant& outside : outside_variants()) {
+      const auto known = std::ranges::find(list, outside.name, &VariantStatus::name);
+      if (known != list.end())
+        throw InputError(fmt::format("{}: variant {} exists already, {}; give it another name", outside.path,
+                                     outside.name, known->is_outside() ? "in " + known->path : "in this program"));
+      list.push_back({outside.name, outside.isa, why_not_here(outside.needs, ""), true, outside.path});
     }
     return list;
   }();
@@ -121,6 +94,13 @@ const std::vector<VariantStatus>& asked_variants() {
     return list;
   }();
   return all;
+}
+
+std::string module_path(const VariantStatus& variant) {
+  if (variant.is_outside()) return variant.path;
+  const std::filesystem::path prefix = installed_prefix();
+  const auto directory = prefix.empty() ? std::filesystem::path(DSS_MODULE_DIR) : prefix / "lib/dssbench/variants";
+  return (directory / (variant.name + DSS_MODULE_SUFFIX)).string();
 }
 
 std::vector<std::string> usable_variants() {

@@ -13,14 +13,19 @@ struct VariantStatus {
   std::string name;
   std::string isa;         ///< what the module is compiled for
   std::string unusable;    ///< empty if it can run here, else the reason: "this CPU lacks avx512f"
-  bool is_by_name = false; ///< never the choice of auto: it computes on ranks or devices
+  bool is_by_name = false; ///< never the choice of auto: it computes on ranks or devices, or was built outside
+  std::string path{};      ///< of the module of a variant built outside the tree (outside.hpp); else empty
   bool is_usable() const { return unusable.empty(); }
+  bool is_outside() const { return !path.empty(); }
 };
 
-/// Every variant of the registry that CMake generated, slowest first. Needs no module to be opened.
+/// Every variant of the registry that CMake generated, slowest first, then those built outside. Needs no module to be
+/// opened. @throws InputError where outside variants are not as they should be, or have the name of another
 const std::vector<VariantStatus>& variants();
 /// The same, where modules that need more than a CPU (a library, a device) have been opened and asked.
 const std::vector<VariantStatus>& asked_variants();
+/// Where its module is or would be: beside the program when installed, else in the build tree; an outside variant says.
+std::string module_path(const VariantStatus& variant);
 /// Names of those that can run here.
 std::vector<std::string> usable_variants();
 

@@ -43,10 +43,12 @@ void require_same_circumstances(const std::string& path, const Study& study) {
   if (!old.is_object() || !old.contains("context") || !old.contains("scenes"))
     throw InputError(fmt::format("{}: does not say which program made the records; measure without --resume", path));
   const nlohmann::json now = measurement_context();
-  for (const char* key : {"git_commit", "git_dirty", "compiler", "cpu_model"})
-    if (old["context"].value(key, nlohmann::json()) != now[key])
+  for (const char* key : {"git_commit", "git_dirty", "compiler", "cpu_model", "outside_variants"}) {
+    const nlohmann::json then = old["context"].value(key, nlohmann::json()), here = now.value(key, nlohmann::json());
+    if (then != here)
       throw InputError(fmt::format("{}: the records are of {} {}, this is {}; measure without --resume", path, key,
-                                   old["context"].value(key, nlohmann::json()).dump(), now[key].dump()));
+                                   then.dump(), here.dump()));
+  }
   const nlohmann::json digests = scene_digests(study);
   for (const auto& [scene, digest] : digests.items())
     if (old["scenes"].contains(scene) && old["scenes"][scene] != digest)

@@ -1,6 +1,8 @@
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/build_info.hpp"
+#include "solver/io/atomic_file.hpp"
 #include "solver/numerics/denormals.hpp"
+#include "variants/loader.hpp"
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
@@ -12,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
+#include <functional>
 #include <sched.h>
 #include <string>
 #include <unistd.h>
@@ -72,6 +75,15 @@ Json library_versions() {
                                         NLOHMANN_JSON_VERSION_PATCH)}};
 }
 
+/// Of their modules, which no commit of this tree tells.
+Json digests_of_outside_variants() {
+  Json digests;
+  for (const VariantStatus& variant : variants())
+    if (variant.is_outside())
+      digests[variant.name] = fmt::format("{:016x}", std::hash<std::string>{}(read_text(variant.path)));
+  return digests;
+}
+
 } // namespace
 
 std::string measurement_time() {
@@ -114,6 +126,7 @@ nlohmann::ordered_json measurement_context() {
   context["affinity"] = affinity();
   context["omp_proc_bind"] = omp_binding == nullptr ? "" : omp_binding;
   context["denormals_flushed"] = are_denormals_flushed();
+  if (const Json outside = digests_of_outside_variants(); !outside.empty()) context["outside_variants"] = outside;
   return context;
 }
 

@@ -147,7 +147,8 @@ void add_decompose_command(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<DecomposeArguments>();
   command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")->required();
   CLI::Option* parts = command->add_option("--parts", arguments->parts, "How many parts");
-  CLI::Option* method = command->add_option("--method", arguments->method, "strips, blocks or metis (default: strips)");
+  CLI::Option* method = command->add_option("--method", arguments->method, "strips, blocks or metis (default: strips)")
+                            ->type_name("DECOMPOSITION");
   CLI::Option* from = command->add_option("--from", arguments->from, "Read the parts from a file instead");
   from->excludes(parts)->excludes(method);
   command
@@ -158,8 +159,9 @@ void add_decompose_command(CLI::App& app, Chosen& chosen) {
   command->add_option("--speeds", arguments->speeds, "Speed of each part, relative: 1,1,2 (default: all the same)")
       ->delimiter(',');
   command->add_option("--depth", arguments->depth, "Layers of halo (default: 1)");
-  command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
-      ->allow_extra_args(false);
+  command->add_option("--set", arguments->set, "A parameter or any number of the scene; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_option("-o,--output", arguments->output,
                       "Decomposition file (JSON; format: solver/decomposition/README.md)");
   command->add_option("--json", arguments->json, "The report as JSON, to a file or - for standard output");

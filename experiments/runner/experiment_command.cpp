@@ -198,9 +198,10 @@ void add_experiment_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(
       "experiment", "Measure a study: interleaved, each repetition in its own process, each result checked");
   const auto arguments = std::make_shared<ExperimentArguments>();
-  command->add_option("FILE", arguments->file, "A name from `dssbench list experiments`, or a path")->required();
+  command->add_option("EXPERIMENT", arguments->file, "A name from `dssbench list experiments`, or a path")->required();
   command->add_option("--scale", arguments->scale, "A scale of the study: smoke (seconds), host (minutes), paper")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("SCALE");
   command->add_option("--out", arguments->out, "Directory of raw/, tables/ and oracle/")->capture_default_str();
   command->add_flag("--resume", arguments->resumes, "Keep the records present and measure what is missing");
   command->add_flag("--dry-run", arguments->is_dry, "Print the cells and stop");

@@ -101,9 +101,11 @@ void add_explain_command(CLI::App& app, Chosen& chosen) {
       "explain", "Which degrees of freedom, terms and rotations a scene needs, and why each other one does not");
   const auto arguments = std::make_shared<ExplainArguments>();
   command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")->required();
-  command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
-      ->allow_extra_args(false);
+  command->add_option("--set", arguments->set, "A parameter or any number of the scene; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_option("--precision", arguments->precision, "f64, f32 or f32c: whose tolerance counts")
+      ->type_name("PRECISION")
       ->capture_default_str();
   command->add_option(
       "--model-tolerance", arguments->model_tolerance,

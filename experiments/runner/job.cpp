@@ -5,6 +5,7 @@
 #include "experiments/runner/context.hpp"
 #include "solver/error.hpp"
 #include "variants/loader.hpp"
+#include "variants/outside.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -97,6 +98,7 @@ JobResult run_job(int ranks, int threads, const std::vector<std::string>& argume
     line.insert(line.end(), {"--bind-to", "none"});
   else
     line.insert(line.end(), {"--map-by", fmt::format("slot:PE={}", threads), "--bind-to", "core:overload-allowed"});
+  if (std::getenv(variant_path_variable) != nullptr) line.insert(line.end(), {"-x", variant_path_variable});
   line.push_back(std::filesystem::read_symlink(this_program).string());
   line.insert(line.end(), arguments.begin(), arguments.end());
   ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0); // containers have no other user

@@ -2,6 +2,7 @@
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/device_listing.hpp"
+#include "experiments/runner/names.hpp"
 #include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 #include "solver/error.hpp"
@@ -9,6 +10,7 @@
 #include "solver/numerics/method.hpp"
 #include "variants/loader.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -22,6 +24,7 @@ struct ListArguments {
 
 Listing variant_listing() {
   Listing list = Listing::array();
+  const bool has_outside = std::ranges::any_of(asked_variants(), &VariantStatus::is_outside);
   for (const VariantStatus& status : asked_variants()) {
     Listing item = {{"variant", status.name}, {"isa", status.isa}, {"fma", ""}, {"threads", ""}, {"status", "usable"}};
     if (status.is_usable()) {
@@ -31,6 +34,8 @@ Listing variant_listing() {
     } else {
       item["status"] = "unusable: " + status.unusable;
     }
+    if (has_outside) item["from"] = status.is_outside() ? status.path : "this program";
+    item["path"] = module_path(status);
     list.push_back(item);
   }
   return list;
@@ -73,7 +78,7 @@ Listing method_listing() {
 Listing kernel_listing() {
   Listing list = Listing::array();
   for (auto status = variants().rbegin(); status != variants().rend() && list.empty(); ++status) {
-    if (!status->is_usable()) continue;
+    if (!status->is_usable() || status->is_outside()) continue;
     const Plugin& plugin = load_variant(status->name);
     if (plugin.kernels == nullptr) continue;
     for (const CompiledKernel& kernel : plugin.kernels())
@@ -99,9 +104,7 @@ Listing listing(const ListArguments& arguments) {
   if (what == "methods") return method_listing();
   if (what == "kernels") return kernel_listing();
   if (what == "devices") return device_listing(arguments.is_measured);
-  throw InputError(
-      fmt::format("list {}: unknown; {}", what,
-                  nearest_name(what, {"variants", "scenes", "experiments", "methods", "kernels", "devices"})));
+  throw InputError(fmt::format("list {}: unknown; {}", what, nearest_name(what, names_of("WHAT"))));
 }
 
 int list(const ListArguments& arguments) {
@@ -128,9 +131,10 @@ int list(const ListArguments& arguments) {
 } // namespace
 
 void add_list_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("list", "List variants, scenes, experiments, kernels or devices");
+  CLI::App* command = app.add_subcommand("list", "List variants, scenes, experiments, methods, kernels or devices");
   const auto arguments = std::make_shared<ListArguments>();
-  command->add_option("WHAT", arguments->what, "variants, scenes, experiments, kernels or devices")->required();
+  command->add_option("WHAT", arguments->what, "variants, scenes, experiments, methods, kernels or devices")
+      ->required();
   command->add_flag("--json", arguments->is_json, "As JSON, with paths");
   command->add_flag("--measure", arguments->is_measured,
                     "Of OpenCL devices: memory bandwidth and peak arithmetic, some seconds each");

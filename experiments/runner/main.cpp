@@ -1,15 +1,19 @@
 /// The program `dssbench`: command line, exit codes, and one line for every error.
 #include "experiments/runner/commands.hpp"
+#include "experiments/runner/completion.hpp"
 #include "experiments/runner/job.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
 #include "variants/loader.hpp"
+#include "variants/outside.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <new>
 #include <string>
 #include <thread>
@@ -26,26 +30,50 @@ int fail(int exit_code, const std::string& what) {
   return exit_code;
 }
 
-/// CLI11 says only that an unknown word was not expected; the user should hear what would be right.
-void require_known_command(int argc, char** argv, const CLI::App& app) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
-  for (const std::string& name : known)
-    if (name == argv[1]) return;
-  throw InputError(fmt::format("{}: unknown command; {}", argv[1], nearest_name(argv[1], known)));
+/// Words of the command line that are neither options nor their values, up to the first `most`.
+std::vector<std::string> plain_words(const std::vector<std::string>& words, const CLI::App& app, std::size_t most) {
+  std::vector<std::string> plain;
+  for (std::size_t place = 0; place < words.size() && plain.size() < most; ++place) {
+    if (!words[place].starts_with("-"))
+      plain.push_back(words[place]);
+    else if (const CLI::Option* option = app.get_option_no_throw(words[place]);
+             option != nullptr && option->get_items_expected_max() > 0)
+      ++place;
+  }
+  return plain;
 }
 
-/// The first word that looks like an option of a command but is none, with the nearest that is; else empty.
-std::string unknown_option(int argc, char** argv, const CLI::App& app) {
+/// CLI11 says only that an unknown word was not expected; the user should hear what would be right.
+/// @return the command, or nothing where only options are given
+std::string require_known_command(const std::vector<std::string>& words, const CLI::App& app) {
+  const std::vector<std::string> first = plain_words(words, app, 1);
+  if (words.empty())
+    throw InputError(fmt::format("give a command: {}; see dssbench --help", fmt::join(command_names(app), ", ")));
+  if (first.empty()) return "";
+  if (find_command(app, first[0]) != nullptr) return first[0];
+  throw InputError(fmt::format("{}: unknown command; {}", first[0], nearest_name(first[0], command_names(app))));
+}
+
+/// The first word that looks like an option but is none, with the nearest that is; else empty.
+std::string unknown_option(const std::vector<std::string>& words, const CLI::App& app, const std::string& command) {
   std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return one->parsed(); }))
-    for (const CLI::Option* option : command->get_options())
-      if (!option->get_lnames().empty()) known.push_back("--" + option->get_lnames().front());
-  for (int place = 2; place < argc; ++place) {
-    const std::string word = std::string(argv[place]).substr(0, std::string(argv[place]).find('='));
-    if (word.starts_with("--") && std::find(known.begin(), known.end(), word) == known.end())
-      return fmt::format("{}: unknown option; {}", word, nearest_name(word, known));
+  std::string letters;
+  const auto add_names = [&](const CLI::App& of) {
+    for (const CLI::Option* option : of.get_options()) {
+      for (const std::string& name : option->get_snames()) letters += name;
+      for (const std::string& name : option->get_lnames())
+        if (std::find(known.begin(), known.end(), "--" + name) == known.end()) known.push_back("--" + name);
+    }
+  };
+  if (!command.empty()) add_names(*find_command(app, command));
+  add_names(app);
+  for (const std::string& whole : words) {
+    const std::string word = whole.substr(0, whole.find('='));
+    const bool is_long = word.size() > 2 && word.starts_with("--");
+    const bool is_letter = word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+    if ((is_long && std::find(known.begin(), known.end(), word) == known.end()) ||
+        (is_letter && letters.find(word[1]) == std::string::npos))
+      return fmt::format("{}: unknown option; {}", word, nearest_name(is_letter ? "-" + word : word, known));
   }
   return "";
 }
@@ -58,37 +86,56 @@ void require_alone(const std::string& command) {
         "{}: runs on one process and starts its own ranks where it needs them; run it without mpirun", command));
 }
 
-int run_program(int argc, char** argv) {
-  CLI::App app("dssbench: dynamic stress-strain solvers, measured and checked.\n"
-               "Exit codes: 0 success, 1 a check failed, 2 bad input, 3 a run is or would be unstable.");
+void describe(CLI::App& app, std::vector<std::string>& variant_path, Chosen& chosen) {
+  std::string codes;
+  for (std::size_t code = 0; code < exit_code_meanings.size(); ++code)
+    codes += fmt::format("{}{} {}", code == 0 ? "" : ", ", code, exit_code_meanings[code]);
+  app.description("dssbench: dynamic stress-strain solvers, measured and checked\nExit codes: " + codes + ".");
   app.require_subcommand(1);
   app.set_version_flag("--version", "dssbench 0.1.0");
-  app.footer(
-      "Example: dssbench run plate_paper --set n=100 --steps 500 --threads 2\nHelp of a command: dssbench run --help");
+  app.add_option("--variant-path", variant_path,
+                 "A directory of variants built outside the source tree, as examples/variant is; may be repeated")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  app.footer("Example: dssbench run plate_paper --set n=100 --steps 500 --threads 2\n"
+             "Help of a command: dssbench run --help; the manual page: dssbench help --man | man -l -");
+  for (const auto add : {add_list_command, add_run_command, add_explain_command, add_advise_command, add_verify_command,
+                         add_experiment_command, add_stability_command, add_compare_command, add_decompose_command,
+                         add_simulate_command, add_bench_command, add_completion_command, add_help_command})
+    add(app, chosen);
+  for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough(); // to --variant-path
+}
+
+/// What completion scripts ask for: one completion a line. `words` begin with "complete".
+int complete(const CLI::App& app, const std::vector<std::string>& words) {
+  std::vector<std::string> directories;
+  for (std::size_t place = 1; place + 2 < words.size(); ++place)
+    if (words[place] == "--variant-path") directories.push_back(words[place + 1]);
+  add_variant_path(directories);
+  for (const std::string& completion : completions(app, {words.begin() + 1, words.end()}))
+    fmt::print("{}\n", completion);
+  return exit_success;
+}
+
+int run_program(int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  CLI::App app("", "dssbench");
+  std::vector<std::string> variant_path;
   Chosen chosen;
-  add_list_command(app, chosen);
-  add_run_command(app, chosen);
-  add_explain_command(app, chosen);
-  add_advise_command(app, chosen);
-  add_verify_command(app, chosen);
-  add_experiment_command(app, chosen);
-  add_stability_command(app, chosen);
-  add_compare_command(app, chosen);
-  add_decompose_command(app, chosen);
-  add_simulate_command(app, chosen);
-  add_bench_command(app, chosen);
-  require_known_command(argc, argv, app);
+  describe(app, variant_path, chosen);
+  if (!words.empty() && words[0] == "complete") return complete(app, words);
+  const std::string command = require_known_command(words, app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error); // help, version
-    std::string what = unknown_option(argc, argv, app);
+    std::string what = unknown_option(words, app, command);
     if (what.empty()) what = error.what();
     what = what.substr(0, what.find('\n'));
-    return fail(exit_bad_input,
-                fmt::format("{}; see dssbench {} --help", what, argc > 1 && argv[1][0] != '-' ? argv[1] : ""));
+    return fail(exit_bad_input, fmt::format("{}; see dssbench {}{}--help", what, command, command.empty() ? "" : " "));
   }
-  for (const CLI::App* command : app.get_subcommands()) require_alone(command->get_name());
+  require_alone(command);
+  add_variant_path(variant_path);
   const int exit_code = chosen();
   end_variants(exit_code, true);
   if (std::fflush(stdout) != 0) throw InputError("standard output: cannot write; is the disk full?");

@@ -2,6 +2,7 @@
 #include "experiments/runner/simulation.hpp"
 #include "experiments/runner/temporary_file.hpp"
 #include "solver/error.hpp"
+#include "solver/io/program_files.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path platform_folder() { return fs::path(DSS_SOURCE_DIR) / "experiments/platforms"; }
+fs::path platform_folder() { return program_file("experiments/platforms"); }
 
 /// Two ranks of this machine as two nodes: the same settings as in experiments/platforms, figures by ping-pong.
 std::string describe_host() {
@@ -42,6 +43,15 @@ std::string describe_host() {
 
 } // namespace
 
+std::vector<std::string> Platform::names() {
+  std::vector<std::string> names{host_platform};
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(platform_folder(), error))
+    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
 void Platform::require_known(const std::string& name_or_path) {
   if (name_or_path == host_platform) {
     if (const std::string why = why_no_ranks(); !why.empty())
@@ -50,12 +60,8 @@ void Platform::require_known(const std::string& name_or_path) {
   }
   if (name_or_path.ends_with(".xml") && fs::exists(name_or_path)) return;
   if (fs::exists(platform_folder() / (name_or_path + ".xml"))) return;
-  std::vector<std::string> names{host_platform};
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(platform_folder(), error))
-    names.push_back(entry.path().stem().string());
-  std::ranges::sort(names);
-  throw InputError(fmt::format("--platform {}: no such platform; {}", name_or_path, nearest_name(name_or_path, names)));
+  throw InputError(
+      fmt::format("--platform {}: no such platform; {}", name_or_path, nearest_name(name_or_path, names())));
 }
 
 Platform::Platform(const std::string& name_or_path) : path_(name_or_path) {

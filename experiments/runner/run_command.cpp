@@ -127,13 +127,17 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<RunArguments>();
   RunRequest& request = arguments->request;
   command->add_option("SCENE", request.scene, "A name from `dssbench list scenes`, or a path")->required();
-  command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
-      ->allow_extra_args(false);
+  command->add_option("--set", arguments->set, "A parameter or any number of the scene; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_option("--variant", request.variant, "A name from `dssbench list variants`; auto: the fastest here")
-      ->capture_default_str();
-  command->add_option("--device", request.device,
-                      "For a variant on devices: P:D from `dssbench list devices`, cpu, gpu, or a part of a name "
-                      "(default: its first)");
+      ->capture_default_str()
+      ->type_name("VARIANT");
+  command
+      ->add_option("--device", request.device,
+                   "For a variant on devices: P:D from `dssbench list devices`, cpu, gpu, or a part of a name "
+                   "(default: its first)")
+      ->type_name("DEVICE");
   command->add_option("--hybrid", request.hybrid,
                       "Variants that compute the scene together, VARIANT[@DEVICE][:THREADS][=WEIGHT],...; auto: the "
                       "best here, or the fastest one alone; with --ranks one member a rank");
@@ -144,22 +148,26 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
       ->add_option("--decomposition", request.decomposition,
                    "Of the scene into parts for ranks: strips, blocks, metis, or a file of `dssbench decompose`")
       ->capture_default_str()
+      ->type_name("DECOMPOSITION")
       ->group("Ranks");
   command
       ->add_option("--halo", request.halo,
                    "How ranks exchange what they share: sendrecv, overlap, deep, deep-overlap, shared; auto: the "
                    "fastest of a short trial")
       ->capture_default_str()
+      ->type_name("HALO")
       ->group("Ranks");
   command
       ->add_option("--shares", request.shares,
                    "equal parts, or by each rank's speed as measured before the run: measured")
       ->capture_default_str()
+      ->type_name("SHARES")
       ->group("Ranks");
-  command->add_option(
-      "--model", request.model,
-      "auto (default, unless the scene names one): the smallest that suffices, as `dssbench explain` says; or spatial, "
-      "small, linear, bending, planar, axial");
+  command
+      ->add_option("--model", request.model,
+                   "auto (default, unless the scene names one): the smallest that suffices, as `dssbench explain` "
+                   "says; or spatial, small, linear, bending, planar, axial")
+      ->type_name("MODEL");
   command->add_option(
       "--model-tolerance", request.model_tolerance,
       "Of --model auto: relative error that a model of small rotations may make (default: the scene's tolerance of "
@@ -169,13 +177,20 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
           "--on-bound", request.on_bound,
           "Of --model auto, where the error of small rotations may exceed it: promote (a larger model goes on from the "
           "last good state) or stop")
-      ->capture_default_str();
-  command->add_option("--precision", request.precision,
-                      "f64, f32, or f32c: f32 whose state is summed with its low parts kept (default: f64)");
-  command->add_option("--integrator", request.integrator,
-                      fmt::format("{} (default: the scene's)", fmt::join(method_names(), ", ")));
-  command->add_option("--rotation", request.rotation,
-                      "quaternion (default); of the variant reference also tait_bryan, tait_bryan_raw, linearised");
+      ->capture_default_str()
+      ->type_name("BOUND");
+  command
+      ->add_option("--precision", request.precision,
+                   "f64, f32, or f32c: f32 whose state is summed with its low parts kept (default: f64)")
+      ->type_name("PRECISION");
+  command
+      ->add_option("--integrator", request.integrator,
+                   fmt::format("{} (default: the scene's)", fmt::join(method_names(), ", ")))
+      ->type_name("INTEGRATOR");
+  command
+      ->add_option("--rotation", request.rotation,
+                   "quaternion (default); of the variant reference also tait_bryan, tait_bryan_raw, linearised, small")
+      ->type_name("ROTATION");
   command->add_option("--dt", request.dt, "Time step [s] (default: the scene's)");
   command->add_option("--steps", request.steps, "Number of steps (default: the scene's)");
   command->add_option(

@@ -1,5 +1,6 @@
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/job.hpp"
+#include "experiments/runner/names.hpp"
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
@@ -17,9 +18,7 @@ namespace {
 
 Rotation chosen_rotation(const std::string& text) {
   if (const auto rotation = find_rotation(text)) return *rotation;
-  std::vector<std::string> known;
-  for (const Rotation rotation : rotations) known.emplace_back(name(rotation));
-  throw InputError(fmt::format("--rotation {}: unknown rotation; {}", text, nearest_name(text, known)));
+  throw InputError(fmt::format("--rotation {}: unknown rotation; {}", text, nearest_name(text, names_of("ROTATION"))));
 }
 
 /// The variant of the process, and that of parts on ranks.
@@ -79,8 +78,11 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
                        plan.scene.problem.lattice.element_count));
   if (request.halo != "auto") asked_halo_strategy(request.halo, request.threads);
   if (request.shares != "equal" && request.shares != "measured")
-    refuse(
-        fmt::format("--shares {}: unknown; {}", request.shares, nearest_name(request.shares, {"equal", "measured"})));
+    refuse(fmt::format("--shares {}: unknown; {}", request.shares, nearest_name(request.shares, names_of("SHARES"))));
+  if (const std::vector<std::string> known = names_of("DECOMPOSITION");
+      !is_file(request.decomposition) && std::ranges::find(known, request.decomposition) == known.end())
+    refuse(fmt::format("--decomposition {}: unknown method; {}", request.decomposition,
+                       nearest_name(request.decomposition, known)));
   if (!(plan.dt > 0) || !std::isfinite(plan.dt))
     refuse(fmt::format("--dt {:g}: the step must be positive [s]", plan.dt));
   if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));
@@ -170,8 +172,8 @@ ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
   const std::string asked = request.model.value_or(request.is_model_auto ? plan.scene.asked_model : plan.scene.model);
   const double tolerance = require_model_tolerance(request.model_tolerance.value_or(plan.tolerance().run));
   if (request.on_bound != "promote" && request.on_bound != "stop")
-    throw InputError(fmt::format("--on-bound {}: unknown; {}", request.on_bound,
-                                 nearest_name(request.on_bound, {"promote", "stop"})));
+    throw InputError(
+        fmt::format("--on-bound {}: unknown; {}", request.on_bound, nearest_name(request.on_bound, names_of("BOUND"))));
   if (asked == "auto" && plan.rotation != Rotation::quaternion)
     return {asked, Model::spatial, fmt::format("--rotation {} is one of it", name(plan.rotation)),
             {},    tolerance,      false};
@@ -198,7 +200,7 @@ std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const 
 Precision require_precision_name(const std::string& name) {
   if (const auto precision = find_precision(name)) return *precision;
   throw InputError(
-      fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, {"f64", "f32", "f32c"})));
+      fmt::format("--precision {}: unknown precision; {}", name, nearest_name(name, names_of("PRECISION"))));
 }
 
 double require_model_tolerance(double tolerance) {

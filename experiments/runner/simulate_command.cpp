@@ -1,10 +1,12 @@
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
+#include "experiments/runner/names.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/simulation.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/nearest_name.hpp"
 
 #include <fmt/format.h>
 #include <memory>
@@ -22,15 +24,15 @@ struct SimulateArguments {
 
 int simulate_scene(const SimulateArguments& arguments) {
   const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
-  const auto precision = find_precision(arguments.precision);
-  if (!precision) throw InputError(fmt::format("--precision {}: give f64 or f32", arguments.precision));
+  const Precision precision = require_precision_name(arguments.precision);
   const Method& method = require_method(arguments.integrator.empty() ? scene.problem.integrator : arguments.integrator);
   if (arguments.halo != "auto" && find_halo_strategy(arguments.halo) == nullptr)
-    throw InputError(fmt::format("--halo {}: give auto, sendrecv, overlap, deep or deep-overlap", arguments.halo));
+    throw InputError(
+        fmt::format("--halo {}: unknown strategy; {}", arguments.halo, nearest_name(arguments.halo, names_of("HALO"))));
   if (arguments.halo == "shared")
     throw InputError("--halo shared: every simulated rank is a node of its own; give deep");
   const Platform platform(arguments.platform);
-  const SimulatedProblem what{scene.problem, method, find_model(scene.model).value(), *precision};
+  const SimulatedProblem what{scene.problem, method, find_model(scene.model).value(), precision};
   const Decomposition decomposition = decompose(scene.problem, arguments.decomposition, arguments.ranks);
   const NodeSpeed speed =
       arguments.node_speed > 0 ? given_speed("given", arguments.node_speed, method) : own_speed(what, decomposition);
@@ -79,22 +81,29 @@ void add_simulate_command(CLI::App& app, Chosen& chosen) {
   command
       ->add_option("--platform", arguments->platform,
                    "gigabit, ten_gigabit, fdr, a SimGrid platform file; this_host: two ranks here, by ping-pong")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("PLATFORM");
   command->add_option("--halo", arguments->halo, "sendrecv, overlap, deep, deep-overlap; auto: the fastest")
-      ->capture_default_str();
-  command->add_option("--decomposition", arguments->decomposition, "strips, blocks or metis")->capture_default_str();
+      ->capture_default_str()
+      ->type_name("HALO");
+  command->add_option("--decomposition", arguments->decomposition, "strips, blocks or metis")
+      ->capture_default_str()
+      ->type_name("DECOMPOSITION");
   command
       ->add_option("--node-speed", arguments->node_speed,
                    "Element-steps/s of a node (default: one core of this machine, measured)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--precision", arguments->precision, "f64 or f32")->capture_default_str();
-  command->add_option("--integrator", arguments->integrator,
-                      fmt::format("{} (default: the scene's)", fmt::join(method_names(), ", ")));
+  command->add_option("--precision", arguments->precision, "f64 or f32")->capture_default_str()->type_name("PRECISION");
+  command
+      ->add_option("--integrator", arguments->integrator,
+                   fmt::format("{} (default: the scene's)", fmt::join(method_names(), ", ")))
+      ->type_name("INTEGRATOR");
   command->add_option("--steps", arguments->steps, "Steps to simulate")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));
-  command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
-      ->allow_extra_args(false);
+  command->add_option("--set", arguments->set, "A parameter or any number of the scene; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_option("--json", arguments->json, "File for the result, or - for standard output");
   command->footer(
       "Example: dssbench simulate plate_paper --set n=300 --ranks 6 --platform ten_gigabit --node-speed 1.211e6\n"

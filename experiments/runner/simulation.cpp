@@ -3,6 +3,7 @@
 #include "experiments/runner/child.hpp"
 #include "experiments/runner/temporary_file.hpp"
 #include "solver/error.hpp"
+#include "solver/io/program_files.hpp"
 #include "variants/loader.hpp"
 #include "variants/trial.hpp"
 
@@ -45,10 +46,8 @@ constexpr const char* settings[] = {
     "--cfg=contexts/stack-size:1024"};
 
 std::string module_path() {
-  std::error_code error;
-  const fs::path installed =
-      fs::read_symlink(this_program, error).parent_path().parent_path() / "lib/dssbench/simulated_cluster.so";
-  return fs::exists(installed, error) ? installed.string() : DSS_SIMULATED_CLUSTER;
+  const fs::path prefix = installed_prefix();
+  return prefix.empty() ? DSS_SIMULATED_CLUSTER : (prefix / "lib/dssbench/simulated_cluster.so").string();
 }
 
 /// A decomposition whose parts are small enough to be tried: the one given, or as many strips as it takes.

@@ -53,6 +53,8 @@ public:
   explicit Platform(const std::string& name_or_path);
   /// Whether a name is known, without measuring anything. @throws InputError as above
   static void require_known(const std::string& name_or_path);
+  /// Of all that are shipped, and this host.
+  static std::vector<std::string> names();
   const std::string& path() const { return path_; }
 
 private:

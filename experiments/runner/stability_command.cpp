@@ -128,13 +128,16 @@ void add_stability_command(CLI::App& app, Chosen& chosen) {
       app.add_subcommand("stability", "The largest stable step of a scene, predicted, and measured by runs about rest");
   const auto arguments = std::make_shared<StabilityArguments>();
   command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")->required();
-  command->add_option(
-      "--integrator", arguments->integrator,
-      fmt::format("{}; all: every explicit one (default: the scene's)", fmt::join(method_names(), ", ")));
+  command
+      ->add_option("--integrator", arguments->integrator,
+                   fmt::format("{}; all: every explicit one (default: the scene's)", fmt::join(method_names(), ", ")))
+      ->type_name("INTEGRATOR");
   command->add_option("--variant", arguments->variant, "A name from `dssbench list variants`; auto: the fastest here")
-      ->capture_default_str();
-  command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
-      ->allow_extra_args(false);
+      ->capture_default_str()
+      ->type_name("VARIANT");
+  command->add_option("--set", arguments->set, "A parameter or any number of the scene; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_flag("--predict", arguments->is_predicted_only, "Predict, and measure nothing");
   command->add_option("--json", arguments->json, "File for the result, or - for standard output");
   command->footer(

@@ -3,6 +3,7 @@
 #include "experiments/runner/study_block.hpp"
 #include "experiments/runner/study_reader.hpp"
 #include "solver/error.hpp"
+#include "solver/io/program_files.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
@@ -93,7 +94,7 @@ void add_twins(const std::string& variant, Study& study) {
 
 fs::path study_directory() {
   if (const char* directory = std::getenv("DSSBENCH_EXPERIMENTS")) return directory;
-  return fs::path(DSS_SOURCE_DIR) / "experiments";
+  return program_file("experiments");
 }
 
 } // namespace

@@ -231,6 +231,7 @@ void add_verify_command(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<VerifyArguments>();
   command->add_option("SCENE", arguments->scenes, "Names or paths (default: all that are shipped)");
   command->add_option("--variant", arguments->variants, "V,...: only these variants")
+      ->type_name("VARIANT")
       ->delimiter(',')
       ->allow_extra_args(false);
   command
@@ -240,8 +241,10 @@ void add_verify_command(CLI::App& app, Chosen& chosen) {
       ->delimiter(',')
       ->check(CLI::Range(1, 4096))
       ->allow_extra_args(false);
-  command->add_option("--device", arguments->device,
-                      "For variants on devices, as for `dssbench run` (default: their first); none: leave them out");
+  command
+      ->add_option("--device", arguments->device,
+                   "For variants on devices, as for `dssbench run` (default: their first); none: leave them out")
+      ->type_name("DEVICE");
   command->add_option("--json", arguments->json, "File for the table, or - for standard output");
   command->add_flag("--quiet", arguments->is_quiet,
                     "Print only what failed, and one row for each reason why something was skipped");

@@ -163,11 +163,38 @@ class Errors(ProgramTest):
         self.assert_refused(2, ["plate_papr"], "verify", "plate_papr")
         self.assert_refused(2, ["avx3", '"avx2"'], "verify", "--variant", "avx3")
 
-    def test_every_command_has_help_with_an_example(self):
-        for command in ("list", "run", "verify", "experiment", "stability", "compare"):
-            result = dssbench(command, "--help")
-            self.assertEqual(result.returncode, 0)
-            self.assertIn("Example: dssbench " + command, result.stdout)
+    def test_every_unknown_name_suggests_the_nearest(self):
+        elements, statics = ("run", "two_elements"), ("run", "two_elements", "--analysis", "static")
+        for arguments, nearest in (
+                (("verfy",), "verify"), (("help", "verfy"), "verify"), (("list", "varients"), "variants"), (("completion", "bsh"), "bash"),
+                (("--versoin",), "--version"), (("list", "variants", "--jsn"), "--json"), (("run", "two_elements", "--variant-pth", "x"), "--variant-path"),
+                (("explain", "two_element"), "two_elements"), (("verify", "two_element"), "two_elements"), (("stability", "two_element"), "two_elements"),
+                (("advise", "two_element", "--tolerance", "1"), "two_elements"), (("decompose", "two_element", "--parts", "2"), "two_elements"),
+                (("simulate", "two_element", "--ranks", "2"), "two_elements"), (("experiment", "tabel1"), "table1"),
+                (("experiment", "table1", "--scale", "smok"), "smoke"), (("verify", "--variant", "scaler"), "scalar"),
+                (("stability", "two_elements", "--variant", "scaler"), "scalar"), (("advise", "two_elements", "--tolerance", "1", "--variant", "scaler"), "scalar"),
+                (("advise", "two_elements", "--tolerance", "1", "--quantity", "disp"), "displacement"),
+                (("advise", "two_elements", "--tolerance", "1", "--vary", "stretc"), "stretch"),
+                ((*elements, "--variant", "scaler"), "scalar"), ((*elements, "--model", "spacial"), "spatial"), ((*elements, "--precision", "f65"), "f64"),
+                ((*elements, "--integrator", "rk5"), "rk4"), ((*elements, "--rotation", "quaternin"), "quaternion"), ((*elements, "--halo", "depe"), "deep"),
+                ((*elements, "--decomposition", "stripz"), "strips"), ((*elements, "--shares", "mesured"), "measured"),
+                ((*elements, "--on-bound", "promot"), "promote"), ((*elements, "--analysis", "statik"), "static"), ((*statics, "--solver", "newtn"), "newton"),
+                ((*statics, "--solver", "newtn", "--steps", "3"), "newton"), ((*statics, "--solver", "cg", "--preconditioner", "bloc"), "block_jacobi"),
+                ((*statics, "--solver", "relaxation", "--masses", "scald"), "scaled"), ((*elements, "--set", "stretc=1"), "stretch"),
+                ((*elements, "--set", "run.stps=1"), "steps"), (("decompose", "two_elements", "--parts", "2", "--method", "stripz"), "strips"),
+                (("stability", "two_elements", "--integrator", "rk5"), "rk4"), (("simulate", "two_elements", "--ranks", "2", "--integrator", "rk5"), "rk4"),
+                (("simulate", "two_elements", "--ranks", "2", "--halo", "ovrlap"), "overlap"),
+                (("simulate", "two_elements", "--ranks", "2", "--platform", "ten_gigabt"), "ten_gigabit"),
+                (("simulate", "two_elements", "--ranks", "2", "--decomposition", "stripz", "--node-speed", "1e6"), "strips"),
+                (("explain", "two_elements", "--precision", "f65"), "f64")):
+            with self.subTest(arguments):
+                self.assert_refused(2, [f'did you mean "{nearest}"?', "known: "], *arguments)
+
+    def test_no_command_at_all_is_told_which_there_are(self):
+        self.assert_refused(2, ["give a command", "verify", "--help"])
+
+    def test_an_option_of_one_letter_that_is_none_is_told(self):
+        self.assert_refused(2, ["-x: unknown option", "--set"], *SMALL, "-x")
 
 
 if __name__ == "__main__":

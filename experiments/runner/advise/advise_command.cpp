@@ -3,6 +3,7 @@
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
+#include "experiments/runner/names.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
 
@@ -28,7 +29,7 @@ AdviseRequest checked_request(const AdviseArguments& arguments) {
   const auto quantity = find_quantity(arguments.quantity);
   if (!quantity)
     throw InputError(fmt::format("--quantity {}: unknown quantity; {}", arguments.quantity,
-                                 nearest_name(arguments.quantity, {"displacement", "stress", "energy"})));
+                                 nearest_name(arguments.quantity, names_of("QUANTITY"))));
   request.quantity = *quantity;
   if (arguments.threads < 0 || arguments.threads > 1024)
     throw InputError(fmt::format("--threads {}: give 1 to 1024", arguments.threads));
@@ -105,9 +106,11 @@ void add_advise_command(CLI::App& app, Chosen& chosen) {
       ->add_option("--quantity", arguments->quantity,
                    fmt::format("displacement: {}; stress: {}; energy: {}", measure_of(Quantity::displacement),
                                measure_of(Quantity::stress), measure_of(Quantity::energy)))
-      ->capture_default_str();
-  command->add_option("--set", arguments->set, "KEY=VALUE: a parameter or any number of the scene; may be repeated")
-      ->allow_extra_args(false);
+      ->capture_default_str()
+      ->type_name("QUANTITY");
+  command->add_option("--set", arguments->set, "A parameter or any number of the scene; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_option(
       "--vary", arguments->vary,
       "A parameter of the scene that refines its grid: the element count is chosen too, for half of the "
@@ -118,7 +121,8 @@ void add_advise_command(CLI::App& app, Chosen& chosen) {
                    "Equally spaced times at which errors are taken, the end the last")
       ->capture_default_str();
   command->add_option("--variant", request.variants, "Variants to choose from, a list (default: all of this CPU)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->type_name("VARIANT");
   command->add_option("--threads", arguments->threads, "Most threads to choose from (default: all cores)");
   command->add_option(
       "--budget", request.budget_s,

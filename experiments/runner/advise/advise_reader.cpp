@@ -1,5 +1,6 @@
 #include "experiments/runner/advise/advise_study.hpp"
 #include "experiments/runner/keyed_study.hpp"
+#include "experiments/runner/names.hpp"
 #include "experiments/runner/precision/precision_cells.hpp"
 #include "experiments/runner/precision/precision_rules.hpp"
 #include "experiments/runner/study_sets.hpp"
@@ -13,7 +14,7 @@ namespace {
 Quantity read_quantity(const JsonPlace& place) {
   const std::string text = place.text();
   if (const auto quantity = find_quantity(text)) return *quantity;
-  place.fail(fmt::format("{}: unknown quantity; {}", text, nearest_name(text, {"displacement", "stress", "energy"})));
+  place.fail(fmt::format("{}: unknown quantity; {}", text, nearest_name(text, names_of("QUANTITY"))));
 }
 
 AdviseStudy::Case read_case(const JsonPlace& place, double shorten, const std::string& file) {

@@ -1,4 +1,5 @@
 /// The options of analyses, and which options of `run` make sense with them.
+#include "experiments/runner/names.hpp"
 #include "experiments/runner/statics/analysis.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
@@ -9,8 +10,6 @@
 
 namespace dss {
 namespace {
-
-const std::vector<std::string> analyses = {"dynamic", "static", "modal"};
 
 /// Options of `run` that mean something to it, besides SCENE, --analysis and --set.
 std::vector<std::string> options_of(const std::string& analysis, const std::string& solver) {
@@ -24,6 +23,11 @@ std::vector<std::string> options_of(const std::string& analysis, const std::stri
   return known;
 }
 
+void require_known(const char* what, const std::string& name, const std::vector<std::string>& known) {
+  if (std::ranges::find(known, name) == known.end())
+    throw InputError(fmt::format("--{} {}: unknown {}; {}", what, name, what, nearest_name(name, known)));
+}
+
 } // namespace
 
 void add_analysis_options(CLI::App& command, AnalysisRequest& request) {
@@ -31,16 +35,20 @@ void add_analysis_options(CLI::App& command, AnalysisRequest& request) {
     return command.add_option(option, value, help)->group("Analyses");
   };
   add("--analysis", request.analysis,
-      "dynamic, static (at rest under the loads of the run's end), modal (natural frequencies); default: the scene's");
+      "dynamic, static (at rest under the loads of the run's end), modal (natural frequencies); default: the scene's")
+      ->type_name("ANALYSIS");
   add("--solver", request.solver,
       "Of statics: direct or cg (linear), newton, relaxation (explicit steps with kinetic damping, on any variant), "
       "auto")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("SOLVER");
   add("--preconditioner", request.preconditioner, "Of conjugate gradients: incomplete_cholesky or block_jacobi")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("PRECONDITIONER");
   add("--tolerance", request.tolerance, "Of relaxation: unbalanced forces against the loads")->capture_default_str();
   add("--masses", request.masses, "Of relaxation: scaled, so that all degrees of freedom are equally fast, or scene")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("MASSES");
   add("--modes", request.modes, "Of a modal analysis: number of modes with a frequency")->capture_default_str();
   command
       .add_flag("--prestressed", request.is_prestressed, "Modes about the equilibrium under the loads, not about rest")
@@ -49,8 +57,8 @@ void add_analysis_options(CLI::App& command, AnalysisRequest& request) {
 
 std::string chosen_analysis(const CLI::App& command, const RunRequest& run, const AnalysisRequest& request) {
   const std::string analysis = request.analysis ? *request.analysis : scene_analysis(run.scene, run.overrides);
-  if (std::ranges::find(analyses, analysis) == analyses.end())
-    throw InputError(fmt::format("--analysis {}: unknown analysis; {}", analysis, nearest_name(analysis, analyses)));
+  require_known("analysis", analysis, names_of("ANALYSIS"));
+  require_known("solver", request.solver, names_of("SOLVER"));
   const bool is_dynamic = analysis == "dynamic";
   const std::vector<std::string> own = options_of(analysis, request.solver);
   for (const CLI::Option* option : command.get_options()) {

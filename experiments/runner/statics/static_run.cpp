@@ -1,3 +1,4 @@
+#include "experiments/runner/names.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/statics/analysis.hpp"
 #include "experiments/runner/statics/analysis_model.hpp"
@@ -23,18 +24,11 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr double step_share = 0.95; ///< of the largest stable step
 constexpr int most_tries = 4;       ///< each with half the step
 
-std::string chosen_solver(const std::string& solver) {
-  const std::vector<std::string> known = {"auto", "direct", "cg", "newton", "relaxation"};
-  for (const std::string& one : known)
-    if (one == solver) return solver;
-  throw InputError(fmt::format("--solver {}: unknown solver; {}", solver, nearest_name(solver, known)));
-}
-
 Preconditioner chosen_preconditioner(const std::string& name) {
   if (name == "incomplete_cholesky") return Preconditioner::incomplete_cholesky;
   if (name == "block_jacobi") return Preconditioner::block_jacobi;
-  throw InputError(fmt::format("--preconditioner {}: unknown; {}", name,
-                               nearest_name(name, {"incomplete_cholesky", "block_jacobi"})));
+  throw InputError(
+      fmt::format("--preconditioner {}: unknown; {}", name, nearest_name(name, names_of("PRECONDITIONER"))));
 }
 
 /// Where nothing leaves the plane only what moves in it is unknown, and of linear equations as little as the smallest linear model has.
@@ -154,10 +148,10 @@ void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& re
 } // namespace
 
 AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& request) {
-  const std::string solver = chosen_solver(request.solver);
+  const std::string solver = request.solver;
   if (request.masses != "scaled" && request.masses != "scene")
     throw InputError(
-        fmt::format("--masses {}: unknown; {}", request.masses, nearest_name(request.masses, {"scaled", "scene"})));
+        fmt::format("--masses {}: unknown; {}", request.masses, nearest_name(request.masses, names_of("MASSES"))));
   if (!(request.tolerance > 0))
     throw InputError(fmt::format("--tolerance {:g}: give a positive number", request.tolerance));
   const Scene scene = load_scene(run.scene, run.overrides);

@@ -1,6 +1,7 @@
 #include "solver/scene/json/document.hpp"
 
 #include "solver/error.hpp"
+#include "solver/io/program_files.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <fmt/format.h>
@@ -171,11 +172,7 @@ std::vector<std::string> scene_names(const std::string& directory) {
 
 std::string scene_directory() {
   if (const char* chosen = std::getenv("DSSBENCH_SCENES"); chosen != nullptr && *chosen != '\0') return chosen;
-  std::error_code error;
-  const fs::path in_source = fs::path(DSS_SOURCE_DIR) / "experiments" / "scenes";
-  if (fs::is_directory(in_source, error)) return in_source.string();
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return (program.parent_path().parent_path() / "share" / "dssbench" / "scenes").string();
+  return program_file("experiments/scenes").string();
 }
 
 std::string scene_path(const std::string& name_or_path) {

@@ -1,0 +1,18 @@
+#include "solver/io/program_files.hpp"
+
+namespace dss {
+
+namespace fs = std::filesystem;
+
+fs::path installed_prefix() {
+  std::error_code error;
+  const fs::path prefix = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
+  return fs::is_directory(prefix / "share/dssbench", error) ? prefix : fs::path();
+}
+
+fs::path program_file(const fs::path& path) {
+  const fs::path prefix = installed_prefix();
+  return (prefix.empty() ? fs::path(DSS_SOURCE_DIR) : prefix / "share/dssbench") / path;
+}
+
+} // namespace dss

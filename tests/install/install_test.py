@@ -1,0 +1,174 @@
+"""Installs the build tree, moves it, builds the example of an outside variant against it, and runs that."""
+import glob
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from tiny_study import STUDY
+
+BUILD, SOURCE, CMAKE = (os.environ[name] for name in ("BUILD", "SOURCE", "CMAKE"))
+
+
+def finished(*command, **options):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300, **options)
+
+
+def must(*command, **options):
+    result = finished(*command, **options)
+    if result.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, command))}\n{result.stdout}{result.stderr}")
+    return result.stdout
+
+
+class Install(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory(prefix="dssbench-install-")
+        cls.addClassCleanup(holder.cleanup)
+        cls.directory = os.path.realpath(holder.name)
+        must(CMAKE, "--install", BUILD, "--prefix", cls.directory + "/first")
+        cls.prefix = cls.directory + "/moved" # what is installed may be moved
+        os.rename(cls.directory + "/first", cls.prefix)
+        shutil.copytree(cls.prefix + "/share/dssbench/examples/variant", cls.directory + "/variant")
+        must(CMAKE, "-S", cls.directory + "/variant", "-B", cls.directory + "/build", f"-DCMAKE_PREFIX_PATH={cls.prefix}", "-DCMAKE_BUILD_TYPE=Debug")
+        must(CMAKE, "--build", cls.directory + "/build")
+        cls.modules = cls.directory + "/build/variants"
+
+    def dssbench(self, *arguments, **options):
+        return finished(self.prefix + "/bin/dssbench", *arguments, cwd=self.directory, **options)
+
+    def listed(self, what, *arguments):
+        return json.loads(must(self.prefix + "/bin/dssbench", "list", what, "--json", *arguments))
+
+    def refused(self, *arguments, **options):
+        result = self.dssbench(*arguments, **options)
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1), result.stderr)
+        return result.stderr
+
+    def altered(self, name, **changes):
+        """A directory with the outside variant whose description is changed."""
+        directory = os.path.join(self.directory, name)
+        shutil.copytree(self.modules, directory)
+        with open(directory + "/wider.json", encoding="utf-8") as file:
+            description = json.load(file)
+        with open(directory + "/wider.json", "w", encoding="utf-8") as file:
+            json.dump({**description, **changes}, file)
+        return directory
+
+    def test_everything_that_the_installed_program_reads_is_installed(self):
+        for what in ("variants", "scenes", "experiments"):
+            here = self.listed(what)
+            there = json.loads(must(os.environ["DSSBENCH"], "list", what, "--json"))
+            key = what.removesuffix("s")
+            self.assertEqual([item[key] for item in here], [item[key] for item in there])
+            for item in here:
+                self.assertTrue(item["path"].startswith(self.prefix), item["path"])
+                self.assertTrue(os.path.exists(item["path"]) or "built without" in item.get("status", ""), item)
+        for folder in ("failures", "ladder", "continuum", "stability", "platforms", "scenes"):
+            names = {os.path.basename(path) for suffix in ("json", "xml") for path in glob.glob(f"{SOURCE}/experiments/{folder}/*.{suffix}")}
+            self.assertTrue(names)
+            self.assertLessEqual(names, set(os.listdir(f"{self.prefix}/share/dssbench/experiments/{folder}")))
+
+    def test_the_installed_program_computes_and_measures(self):
+        self.assertIn("0 failed", must(self.prefix + "/bin/dssbench", "verify", "two_elements", "--variant", "reference"))
+        record = json.loads(must(self.prefix + "/bin/dssbench", "run", "plate_paper", "--set", "n=10", "--steps", "20", "--model", "planar", "--json", "-"))
+        self.assertEqual(record["status"], "ok")
+        for study in ("failures", "model_ladder", "continuum", "stability", "work_precision"): # whose scenes lie beside them
+            dry = self.dssbench("experiment", study, "--scale", "smoke", "--dry-run", "--out", self.directory + "/results")
+            self.assertEqual(dry.returncode, 0, dry.stderr)
+
+    def test_the_manual_page_and_completions_are_installed(self):
+        for file, word in (("man/man1/dssbench.1", ".TH DSSBENCH"), ("bash-completion/completions/dssbench", "complete "),
+                           ("zsh/site-functions/_dssbench", "#compdef"), ("fish/vendor_completions.d/dssbench.fish", "complete "), ("dssbench/LICENSE", "BSD")):
+            with open(f"{self.prefix}/share/{file}", encoding="utf-8") as text:
+                self.assertIn(word, text.read())
+
+    def test_an_outside_variant_is_listed_with_its_path_and_passes_verify(self):
+        listed = {item["variant"]: item for item in self.listed("variants", "--variant-path", self.modules)}
+        self.assertEqual((listed["wider"]["status"], listed["wider"]["from"]), ("usable", self.modules + "/wider.so"))
+        self.assertNotIn("wider", [item["variant"] for item in self.listed("variants")])
+        result = self.dssbench("verify", "two_elements", "--variant", "wider", "--variant-path", "build/variants")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        skipped = [line for line in result.stdout.splitlines() if " skipped  " in line]
+        self.assertEqual([line for line in skipped if "f32c" not in line and "starts with" not in line], []) # what it or the scene has not
+        self.assertRegex(result.stdout, r"\b[1-9]\d* checks passed, 0 failed")
+
+    def test_an_outside_variant_is_never_the_choice_of_auto(self):
+        run = ("run", "two_elements", "--steps", "10", "--json", "-")
+        self.assertEqual(json.loads(self.dssbench(*run, "--variant-path", self.modules).stdout)["variant"], json.loads(self.dssbench(*run).stdout)["variant"])
+
+    def test_processes_that_an_experiment_starts_know_it(self):
+        study = {**STUDY, "experiment": "own", "cells": [{"scene": "two_elements", "variants": ["wider"]}], "base": ["wider"], "twin": "wider"}
+        with open(self.directory + "/own.json", "w", encoding="utf-8") as file:
+            json.dump(study, file)
+        result = self.dssbench("experiment", "own.json", "--scale", "smoke", "--out", "results", "--variant-path", "build/variants")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        with open(self.directory + "/results/raw/own.csv", encoding="utf-8") as file:
+            self.assertIn("wider", file.read())
+        rebuilt = self.altered("rebuilt")
+        with open(rebuilt + "/wider.so", "ab") as file:
+            file.write(b"0")
+        refusal = self.refused("experiment", "own.json", "--scale", "smoke", "--out", "results", "--resume", "--variant-path", rebuilt)
+        self.assertIn("the records are of outside_variants", refusal)
+
+    def test_it_may_also_be_named_by_the_environment(self):
+        named = {**os.environ, "DSSBENCH_VARIANT_PATH": self.modules}
+        self.assertEqual(self.dssbench("run", "two_elements", "--steps", "10", "--variant", "wider", env=named).returncode, 0)
+
+    def test_a_directory_that_is_not_there_is_refused(self):
+        for arguments in (("list", "variants"), ("compare", "a", "b")):
+            self.assertIn("--variant-path no/such: no such directory", self.refused(*arguments, "--variant-path", "no/such"))
+
+    def test_a_name_that_exists_is_refused_with_both_places(self):
+        self.assertRegex(self.refused("list", "variants", "--variant-path", self.altered("twice", variant="scalar")), "scalar exists already, in this program")
+        again = self.altered("again")
+        both = ("--variant-path", self.modules, "--variant-path", again)
+        self.assertIn(f"wider exists already, in {self.modules}/wider.so", self.refused("list", "variants", *both))
+
+    def test_a_name_that_means_something_else_is_refused(self):
+        for folder, name in (("none", ""), ("auto", "auto"), ("colon", "mpi:wider"), ("comma", "a,b")):
+            self.assertIn("is no name for a variant", self.refused("list", "variants", "--variant-path", self.altered(folder, variant=name)))
+
+    def test_a_module_that_needs_another_cpu_is_not_opened(self):
+        hidden = {**os.environ, "DSSBENCH_HIDE_CPU_FEATURES": "bmi2"}
+        directory = self.altered("needy", needs=["bmi2"])
+        with open(directory + "/wider.so", "wb"): # no module at all: whoever opened it would fail otherwise
+            pass
+        path = ("--variant-path", directory)
+        self.assertIn("this CPU lacks bmi2", self.refused("run", "two_elements", "--variant", "wider", *path, env=hidden))
+        self.assertIn('did you mean "avx512f"', self.refused("list", "variants", "--variant-path", self.altered("odd", needs=["avx512g"])))
+
+    def test_a_module_without_description_is_refused_with_what_would_be_right(self):
+        directory = self.altered("mute")
+        os.remove(directory + "/wider.json")
+        self.assertRegex(self.refused("list", "variants", "--variant-path", directory), r'wider\.json: cannot be read.*"needs"')
+        for text in ("{", "[]", '{"variant": "wider"}', '{"variant": "wider", "isa": "x", "needs": "bmi2"}'):
+            with open(directory + "/wider.json", "w", encoding="utf-8") as file:
+                file.write(text)
+            self.assertIn("wider.json: ", self.refused("list", "variants", "--variant-path", directory))
+
+    def with_plugin(self, name, abi, layout):
+        """A module that says this of itself, and can do nothing."""
+        directory = self.altered(name)
+        with open(directory + "/plugin.cpp", "w", encoding="utf-8") as file:
+            file.write('#include "variants/api.hpp"\n'
+                       'static constexpr dss::Plugin plugin{.abi = ' + abi + ', .name = "wider", .isa = "x", .has_fma = false, .is_threaded = false,\n'
+                       '  .is_distributed = false, .create = nullptr, .kernels = nullptr, .layout = ' + layout + '};\n'
+                       'extern "C" const dss::Plugin* dss_plugin() { return &plugin; }\n')
+        must(os.environ["CXX"], "-std=c++20", "-shared", "-fPIC", f"-I{self.prefix}/include/dssbench", directory + "/plugin.cpp", "-o", directory + "/wider.so")
+        return directory
+
+    def test_a_module_of_another_interface_or_other_headers_is_refused(self):
+        for name, abi, layout, words in (("abi", "dss::plugin_abi + 1", "dss::plugin_layout", "speaks interface"),
+                                         ("layout", "dss::plugin_abi", "1", "was compiled with other headers")):
+            directory = self.with_plugin(name, abi, layout)
+            self.assertIn(words, self.refused("run", "two_elements", "--variant", "wider", "--variant-path", directory))
+            listed = {item["variant"]: item for item in self.listed("variants", "--variant-path", directory)}
+            self.assertIn(words, listed["wider"]["status"])
+
+
+if __name__ == "__main__":
+    unittest.main()
