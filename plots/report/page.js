@@ -35,7 +35,11 @@
     if (axis.type === "category") axis.tickvals = axis.ticktext = axis.categoryarray || [...new Set(traces.flatMap((trace) => trace.y))];
     if (axis.ticktext) axis.ticktext = axis.ticktext.map((text) => text.length > 16 ? text.slice(0, 15) + "\u2026" : text);
     if (layout.xaxis.ticktext) layout.xaxis.tickangle = -90;
-    for (const trace of traces) if (trace.marker && trace.marker.size > 10) trace.marker.size *= 0.65;
+    for (const trace of traces.filter((one) => one.marker)) {
+      const size = trace.marker.size;
+      if (Array.isArray(size)) trace.marker.size = size.map((one) => 0.5 * one);
+      else if (size > 10) trace.marker.size = 0.65 * size;
+    }
   }
 
   function draw(section) {

@@ -84,11 +84,11 @@ class ReportTest(unittest.TestCase):
                 lines = (self.directory / name / path).read_text(encoding="utf-8").count("\n")
                 self.assertTrue(2 <= int(line) <= lines, (name, path, line))
 
-    def test_a_row_shows_the_time_of_the_line_that_it_names(self):
+    def test_a_row_names_the_line_that_it_is_from(self):
         lines = (self.directory / "committed" / "tables" / "table1_host.csv").read_text(encoding="utf-8").splitlines()
         head = lines[0].split(",")
         section = self.pages["committed"].split('id="table-1-host"')[1].split("</section>")[0]
-        found = re.findall(r'<tr[^>]*><th[^>]*>([^<]*)</th>.*?table1_host\.csv:(\d+)</a>', section)
+        found = re.findall(r'<th[^>]*scope="row">([^<]*)</th>.*?table1_host\.csv:(\d+)</a>', section)
         self.assertGreater(len(found), 5)
         for label, line in found:
             row = next(csv.reader([lines[int(line) - 1]]))
@@ -131,7 +131,7 @@ class Artifact(unittest.TestCase):
 
     def test_its_scenes_exist(self):
         scenes = re.findall(r"dssbench (?:run|verify|advise|explain|stability|simulate) (?!-)(\w+)", self.text)
-        self.assertGreater(len(scenes), 2)
+        self.assertTrue(scenes)
         for scene in scenes:
             self.assertTrue((report.ROOT / "experiments" / "scenes" / f"{scene}.json").exists(), scene)
 
