@@ -68,7 +68,9 @@ def chart_table(chart):
 
 def chart_section(name, title, chart, age, scale, has_library):
     choices = [(one.key, one.label, list(dict.fromkeys(choice(value) for value in chart.rows[one.key])), one.is_single) for one in chart.filters if one.key in chart.rows]
-    picture = element("div", "", class_="chart", role="img", aria_label=f"{title}. {chart.text}", data_chart=name) if has_library else element("p", "Without Plotly there is no chart; its table is below.", class_="missing")
+    picture = element("div", "", class_="chart", role="img", aria_label=f"{title}. {chart.text}", data_chart=name)
+    if not has_library:
+        picture = element("p", "Without Plotly there is no chart; its table is below.", class_="missing")
     body = [element("h3", escaped(title)), age_line(*age), element("p", prose(chart.text)), filters(choices, title), picture,
             f"<details><summary>As a table, {len(chart.rows)} rows</summary>{scrolling(chart_table(chart), title)}</details>", source_line([chart.table], command(study_of(chart.table), scale))]
     return element("section", "\n".join(body), class_="part", id=name)
@@ -83,7 +85,8 @@ def grid_section(grid, age, made_by, folder=""):
     """Tables 1 to 3: columns of a kind have a colour and a heading of their own."""
     kinds = [(kind, place == 0) for kind, _, columns in grid.groups for place in range(len(columns))]
     above = "".join(element("th", escaped(heading), colspan=len(columns), scope="colgroup", class_=f"{kind} first".strip()) for kind, heading, columns in grid.groups)
-    below = "".join(element("th", escaped(column), scope="col", class_=f"{kind}{' first' * (place == 0)}".strip()) for kind, _, columns in grid.groups for place, column in enumerate(columns))
+    below = "".join(element("th", escaped(column), scope="col", class_=f"{kind}{' first' * is_first}".strip())
+                    for (kind, is_first), column in zip(kinds, [column for _, _, columns in grid.groups for column in columns]))
     lines = []
     for number, row in enumerate(grid.rows):
         cells = []
@@ -144,8 +147,9 @@ def pictures_section(results):
             parts.append(f'<figure><img src="data:image/png;base64,{data}" alt="{escaped(text)}"><figcaption>{escaped(text)}: {link(f"figures/{name}")}</figcaption></figure>')
     if not parts:
         parts = [element("p", "Not drawn: run <code>make reproduce</code>.", class_="missing")]
-    made = "Made by <code>dssbench run plate_paper --set n=60 --steps 2000 --output plate_paper.vtu</code>, <code>dssbench run l_bracket --output l_bracket.vtu --frames 6</code> and <code>plots/body_picture.py</code>."
-    return element("section", element("h2", "What is computed") + "\n".join(parts) + element("p", made, class_="source"), id="pictures")
+    made = ("Made by `dssbench run plate_paper --set n=60 --steps 2000 --output plate_paper.vtu`, `dssbench run l_bracket --output l_bracket.vtu --frames 6` and "
+            "`plots/body_picture.py`.")
+    return element("section", element("h2", "What is computed") + "\n".join(parts) + element("p", prose(made), class_="source"), id="pictures")
 
 
 def safe_json(data):

@@ -90,7 +90,8 @@ def table_of_processes(results, name, table, title, variant):
             here = first(at[at["halo"] == "auto"]) if (at["halo"] == "auto").any() else first(at)
         cells = [Cell(published["label"]), Cell(shown(published["paper_wall_s"], 6)), Cell(shown(published["paper_speedup"], 4)), reference(published, f"tables/{table}")]
         cells += [Cell("" if here is None else here["label"]), Cell(wall(here)), Cell(speedup(here, "scalar")), Cell("" if here is None else str(here["status"])), reference(here, f"tables/{table}")]
-        of_networks = [None if simulated is None or published["is_base"] else first(simulated[(simulated["network"] == network) & (simulated["ranks"] == published["processes"])]) for network in NETWORKS]
+        alike = None if simulated is None or published["is_base"] else simulated[simulated["ranks"] == published["processes"]]
+        of_networks = [None if alike is None else first(alike[alike["network"] == network]) for network in NETWORKS]
         cells += [Cell("" if row is None else shown(row["simulated_paper_node_wall_s"], 4)) for row in of_networks]
         lines = [int(row["line"]) for row in of_networks if row is not None]
         cells.append(Cell(f"{table}_simulated.csv:{', '.join(map(str, lines))}", f"tables/{table}_simulated", lines[0]) if lines else Cell(""))
@@ -102,7 +103,8 @@ def table_of_processes(results, name, table, title, variant):
              "Simulated: the paper's problem on nodes as fast as its own, with its exchange, on three networks." if simulated is not None
              else f"Not simulated: run `dssbench experiment {table}`."]
     groups = [("", "", ["configuration"]), ("paper", "paper (published, other machines)", ["time [s]", "speed-up", "row"]),
-              ("measured", "measured (here)", ["cell", "median time [s]", "speed-up", "status", "row"]), ("simulated", "simulated (the paper's node)", [*[f"{word} [s]" for word in NETWORKS.values()], "rows"])]
+              ("measured", "measured (here)", ["cell", "median time [s]", "speed-up", "status", "row"]),
+              ("simulated", "simulated (the paper's node)", [*[f"{word} [s]" for word in NETWORKS.values()], "rows"])]
     return Grid(name, title, [table, f"{table}_simulated"], groups, rows, [note for note in notes if note])
 
 
@@ -120,14 +122,15 @@ def table1_host(results):
     rows = []
     for _, row in measured.iterrows():
         scaled = "" if is_missing(row.get("extrapolated_wall_s")) else f"{shown(row['extrapolated_wall_s'])} ({shown(row['extrapolated_to_steps'])})"
-        texts = [row["label"], shown(row["steps"]), wall(row), scaled, speedup(row, "reference"), speedup(row, "scalar"), f"{shown(row['repetitions'])}, {shown(row['contaminated'])}", row["status"], "", ""]
+        texts = [row["label"], shown(row["steps"]), wall(row), scaled, speedup(row, "reference"), speedup(row, "scalar"), f"{shown(row['repetitions'])}, {shown(row['contaminated'])}",
+                 row["status"], "", ""]
         rows.append([*[Cell(str(text)) for text in texts], reference(row, "tables/table1_host")])
     paper = paper_rows(results, "table1_host")
     for _, row in paper[paper["processes"] == 1].iterrows():
         rows.append([Cell(row["label"]), *[Cell("")] * 7, Cell(shown(row["paper_wall_s"], 6)), Cell(shown(row["paper_speedup"], 4)), reference(row, "tables/table1_host")])
     one = first(measured)
-    groups = [("", "", ["configuration"]), ("measured", "measured (here)", ["steps", "median time [s]", "scaled time [s] (to steps)", "against reference", "against scalar", "repetitions, contaminated", "status"]),
-              ("paper", "paper (published, other machine)", ["time [s]", "speed-up"]), ("", "", ["row"])]
+    columns = ["steps", "median time [s]", "scaled time [s] (to steps)", "against reference", "against scalar", "repetitions, contaminated", "status"]
+    groups = [("", "", ["configuration"]), ("measured", "measured (here)", columns), ("paper", "paper (published, other machine)", ["time [s]", "speed-up"]), ("", "", ["row"])]
     notes = [f"{one['scene']} {one['set']}, {one['model']}, {one['precision']}, {one['integrator']}: medians, 95 % intervals, speed-ups by interleaved pairs."] if one is not None else []
     resolution = measured["resolution"].dropna() if "resolution" in measured else pandas.Series(dtype=float)
     if len(resolution):
@@ -145,7 +148,8 @@ def table3(results, name="table-3", title="Table 3: devices and hybrids", link="
         is_paper = row["source"] == "paper"
         scaled = row["extrapolated_wall_s"]
         cells = [Cell(row["label"]), Cell(shown(row["set"])), Cell(shown(row["paper_wall_s"], 5)) if is_paper else Cell("")]
-        cells += [Cell("")] * 4 if is_paper else [Cell(f"{wall(row)} ({shown(row['steps'])})" if wall(row) else ""), Cell("" if is_missing(scaled) else shown(scaled)), Cell(speedup(row, "scalar")), Cell(str(row["status"]))]
+        time = f"{wall(row)} ({shown(row['steps'])})" if wall(row) else ""
+        cells += [Cell("")] * 4 if is_paper else [Cell(time), Cell(shown(scaled)), Cell(speedup(row, "scalar")), Cell(str(row["status"]))]
         cells.append(reference(row, link))
         rows.append(cells)
         sizes.append(shown(row["set"]))

@@ -5,20 +5,23 @@ from .words import shown, with_interval
 
 def of_speed(results):
     """What the fastest variant does, against the straightforward code."""
+    exact, scaled = "speedup_vs_reference", "extrapolated_speedup_vs_reference"
     try:
-        frame = results.table("table1_host", "source", "label", "scene", "set", "steps", "measured_wall_s", "status", "check", "speedup_vs_scalar", "extrapolated_speedup_vs_reference", "speedup_vs_reference")
+        frame = results.table("table1_host", "source", "label", "scene", "set", "steps", "measured_wall_s", "status", "check", "speedup_vs_scalar", exact, scaled)
     except NotMeasured:
         return "How fast the variants are was not measured (`dssbench experiment table1_host`)."
     frame = frame[(frame["source"] == "measured") & (frame["status"] == "ok")]
-    against = frame["speedup_vs_reference"].fillna(frame["extrapolated_speedup_vs_reference"])
+    against = frame[exact].fillna(frame[scaled])
     if against.dropna().empty:
         return "No cell of tables/table1_host.csv has a speed-up."
     best = frame.loc[against.idxmax()]
-    way = "speedup_vs_reference" if shown(best["speedup_vs_reference"]) else "extrapolated_speedup_vs_reference"
-    passed = (frame["check"] == "passed").sum()
-    return (f"The fastest configuration of Table 1 on this machine, {best['label']}, computes {shown(best['steps'])} steps of {best['scene']} {best['set']} in {shown(best['measured_wall_s'])} s: "
-            f"{with_interval(best[way], best.get(way + '_low'), best.get(way + '_high'))} times as fast as the straightforward `reference` and {with_interval(best['speedup_vs_scalar'], best.get('speedup_vs_scalar_low'), best.get('speedup_vs_scalar_high'))} times as fast as `scalar`, "
-            f"one thread each, with {passed} of {len(frame)} cells checked against the oracle.")
+
+    def interval(column):
+        return with_interval(best[column], best.get(f"{column}_low"), best.get(f"{column}_high"))
+
+    what = f"{best['label']}, computes {shown(best['steps'])} steps of {best['scene']} {best['set']} in {shown(best['measured_wall_s'])} s"
+    return (f"The fastest configuration of Table 1 on this machine, {what}: {interval(exact) or interval(scaled)} times as fast as the straightforward `reference` and "
+            f"{interval('speedup_vs_scalar')} times as fast as `scalar`, one thread each, with {(frame['check'] == 'passed').sum()} of {len(frame)} cells checked against the oracle.")
 
 
 def of_accuracy(results):
@@ -29,15 +32,16 @@ def of_accuracy(results):
         chain = chain[chain["factor_vs_reference"].notna()]
         if len(chain):
             last = chain.iloc[-1]
-            parts.append(f"the chain from the reference to the cheapest method of the same error ends at {shown(last['factor_vs_reference'])} times ({last['label']}) with an error of {shown(last['error_max'])}")
+            parts.append(f"the chain from the reference to the cheapest method of the same error ends at {shown(last['factor_vs_reference'])} times ({last['label']}) "
+                         f"with an error of {shown(last['error_max'])}")
     except NotMeasured:
         pass
     try:
         pair = results.table("work_precision_comparisons", "scene", "base", "contender", "times_cheaper", "contender_error_max", "space_error").dropna(subset=["times_cheaper"])
         if len(pair):
             row = pair.iloc[0]
-            parts.append(f"on {row['scene']} {row['contender']} is {shown(row['times_cheaper'])} times cheaper than the paper's {row['base']} at an error of {shown(row['contender_error_max'], 2)}, where the grid's own is "
-                         f"{shown(row['space_error'], 2)}")
+            parts.append(f"on {row['scene']} {row['contender']} is {shown(row['times_cheaper'])} times cheaper than the paper's {row['base']} at an error of "
+                         f"{shown(row['contender_error_max'], 2)}, where the grid's own is {shown(row['space_error'], 2)}")
     except NotMeasured:
         pass
     try:
@@ -55,7 +59,8 @@ def of_accuracy(results):
 def of_trust(results, missing, old, records):
     """What holds, what is missing and what is old."""
     parts = []
-    for table, words in (("failures", "cells of the failure atlas are as theory says"), ("model_ladder", "rows of the model ladder are as expected"), ("stability", "step limits agree with theory or are on the safe side")):
+    for table, words in (("failures", "cells of the failure atlas are as theory says"), ("model_ladder", "rows of the model ladder are as expected"),
+                         ("stability", "step limits agree with theory or are on the safe side")):
         try:
             status = results.table(table, "status")["status"]
             parts.append(f"{status.isin(['ok', 'passed', 'bound']).sum()} of {len(status)} {words}")

@@ -30,8 +30,10 @@ const chart = arguments[0], seen = (selector) => [...chart.querySelectorAll(sele
   const box = mark.getBoundingClientRect();
   return box.width + box.height > 0;
 }).length;
-const look = [...chart.querySelectorAll(".scatterlayer path, .barlayer path, .heatmaplayer image")].map((mark) => (mark.getAttribute("transform") || "") + (mark.getAttribute("d") || mark.getAttribute("href") || "")).join();
-return {look, main: chart.querySelectorAll("svg.main-svg").length, traces: Number(chart.dataset.traces), marks: seen(".scatterlayer .trace path, .barlayer .point path, .heatmaplayer image"),
+const look = [...chart.querySelectorAll(".scatterlayer path, .barlayer path, .heatmaplayer image")]
+  .map((mark) => (mark.getAttribute("transform") || "") + (mark.getAttribute("d") || mark.getAttribute("href") || "")).join();
+return {look, main: chart.querySelectorAll("svg.main-svg").length, traces: Number(chart.dataset.traces),
+        marks: seen(".scatterlayer .trace path, .barlayer .point path, .heatmaplayer image"),
         width: chart.getBoundingClientRect().width, height: chart.getBoundingClientRect().height};
 """
 SECTIONS = ["work-precision-time", "work-precision-evaluations", "pareto", "scaling-1", "scaling-2", "cluster", "stability", "energy", "ladder", "ladder-errors", "atlas", "advice", "error-budget",
@@ -56,8 +58,8 @@ class BrowserTest(unittest.TestCase):
                 report.skip_all(result.stderr.strip())
             cls.urls[name] = (directory / name / "report.html").as_uri()
         options = Options()
-        for argument in ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1280,900", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-                         f"--user-data-dir={directory / 'profile'}"):
+        for argument in ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1280,900", "--no-first-run",
+                         "--disable-background-networking", "--disable-component-update", f"--user-data-dir={directory / 'profile'}"):
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         os.environ["no_proxy"] = "localhost,127.0.0.1"  # the driver is here, whatever proxy leads elsewhere
@@ -124,7 +126,8 @@ class BrowserTest(unittest.TestCase):
 
     def test_a_filter_changes_what_the_chart_and_its_table_show(self):
         self.open("committed")
-        for section, key, value in (("atlas", "verdict", "unstable"), ("work-precision-time", "problem", "tumbling_box damping_ratio=0"), ("work-precision-time", "precision", "f32"), ("scaling-1", "variant", "avx2"),
+        for section, key, value in (("atlas", "verdict", "unstable"), ("work-precision-time", "problem", "tumbling_box damping_ratio=0"),
+                                    ("work-precision-time", "precision", "f32"), ("scaling-1", "variant", "avx2"),
                                     ("stability", "integrator", "velocity_verlet"), ("ladder", "verdict", "insufficient")):
             choice = self.select(section, key)
             before, first = (self.drawn(section), self.rows(section)), choice.first_selected_option.get_attribute("value")
