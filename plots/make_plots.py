@@ -42,6 +42,8 @@ def main():
         if stability_map.draw(table, results / "figures" / f"{table.stem}_map.png") is None:
             print(results / "figures" / f"{table.stem}_map.png")
             continue
+        if table.stem in ("kernels", "ceilings", "attribution", "chain"):  # charts of the report alone
+            continue
         if table.stem.startswith("work_precision_"):  # what the chart shows already, in words
             continue
         if any(kind.draw(table, output) is None for kind in (advice, balance_lines, failure_atlas, continuum, statics, work_precision, error_budget, model_ladder)):

@@ -103,9 +103,9 @@ def build(results, plotly):
             old_and_missing(missing, ages), page.element("h2", "Tables of the paper", id="tables")]
     body += [page.grid_section(grid, age, page.element("code", escaped(made_by)), folder) for grid, age, made_by, folder in grids]
     body += [page.missing_section(*lacking) for lacking in missing if lacking[0] in names]
-    body += [page.element("h2", "Charts", id="charts-of-studies"), *sections, page.pictures_section(results), page.environment_section(ages)]
+    body += [page.element("h2", "Charts", id="charts-of-studies"), *sections, page.pictures_section(results), page.environment_section(ages), page.tables_section(results, ages)]
     contents = [("summary", "Summary"), ("old-and-missing", "Old and missing"), ("tables", "Tables 1-3")] + [(name, title) for name, title, _, _ in CHARTS]
-    contents += [("pictures", "Pictures"), ("environment", "Environment")]
+    contents += [("pictures", "Pictures"), ("environment", "Environment"), ("all-tables", "All tables")]
     text = markdown.write(sentences, [grid[:3] for grid in grids], results.figures(), by_study(missing), ages)
     return page.assemble(origin_text(results, ages), contents, body, charts, plotly), text
 

@@ -42,7 +42,9 @@ class Record:
     def kept_text(self):
         if not self.kept:
             return ""
-        return (f"{self.kept} of {self.count} records are old: kept by --resume from {day(self.first)} to {day(self.kept_until)}, the others are of {day(self.resumed)}")
+        pause = (self.resumed - self.kept_until).total_seconds() / 60
+        return (f"{self.kept} of {self.count} records are old: of {day(self.first)} to {day(self.kept_until)}, kept by --resume when measuring went on {pause:.0f} minutes later, "
+                f"{day(self.resumed)}")
 
     def made_by(self, time=None):
         return f"commit {self.commit[:9] or 'unknown'}{' with uncommitted changes' if self.is_dirty else ''}, {day(time or self.first)}"
@@ -101,10 +103,14 @@ class Ages:
 
     def _line_without_record(self, table):
         path = self.directory / "tables" / f"{table}.csv"
-        written = pandas.Timestamp(path.stat().st_mtime, unit="s", tz="UTC") if path.exists() else None
-        if written is not None and self.session_start is not None and written < self.session_start - SESSION_GAP:
-            return True, f"old: written {day(written)}, before the newest records ({self.newest.name}, {day(self.newest.last)}); its commit is not recorded."
-        return False, "Its commit and date are not recorded (no raw/NAME.json)."
+        unknown = "Its commit and date are not recorded (no raw/NAME.json)."
+        if self.newest is None or not path.exists():
+            return False, unknown
+        written, newest = pandas.Timestamp(path.stat().st_mtime, unit="s", tz="UTC"), f"the newest records ({self.newest.name}, {day(self.newest.last)})"
+        if written < self.session_start - SESSION_GAP:
+            return True, f"old: written {day(written)}, before {newest}; its commit is not recorded."
+        # Git writes files when it checks them out, long after they were measured.
+        return False, f"Written {day(written)}, with {newest}." if written < self.newest.last + SESSION_GAP else unknown
 
     def old(self):
         """(name, why) of each record that is old, wholly or in part."""

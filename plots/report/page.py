@@ -4,7 +4,7 @@ import json
 import pathlib
 import string
 
-from .results import study_of
+from .results import NotMeasured, study_of
 from .words import choice, escaped, is_missing, prose, shown
 
 HERE = pathlib.Path(__file__).parent
@@ -135,6 +135,19 @@ def environment_section(ages):
             f"<details><summary>All that {escaped(ages.newest.name)}, the newest, says of its machine</summary>{scrolling(plain_table(['what', 'value'], newest), 'Newest environment')}</details>",
             element("p", "Tables without a record in raw/ do not say which commit made them.", class_="note")]
     return element("section", "\n".join(body), id="environment")
+
+
+def tables_section(results, ages):
+    """Every table, with what is known of its age."""
+    rows = []
+    for name in results.names():
+        is_old, text = ages.line(study_of(name), name)
+        try:
+            count = str(len(results.table(name)))
+        except NotMeasured as reason:
+            count = escaped(reason)
+        rows.append([link(f"tables/{name}.csv"), count, escaped(text).replace("old", '<strong class="old">old</strong>', 1) if is_old else escaped(text), command(study_of(name), "")])
+    return element("section", element("h2", "All tables") + scrolling(plain_table(["table", "rows", "age", "made by"], rows), "All tables"), id="all-tables")
 
 
 def pictures_section(results):
