@@ -19,7 +19,7 @@ class Cell:
 
 @dataclasses.dataclass
 class Grid:
-    """A table whose columns stand in groups: groups are (kind, heading, columns); a kind is "", paper, measured or simulated."""
+    """A table whose columns stand in groups: groups are (kind, heading, columns); a kind is "", paper, measured, scaled or simulated."""
     name: str
     title: str
     tables: list
@@ -55,13 +55,10 @@ def wall(row):
     return "" if row is None else with_interval(row["measured_wall_s"], row.get("measured_wall_low_s"), row.get("measured_wall_high_s"))
 
 
-def speedup(row, base):
-    """Against `base`; one that is scaled from fewer steps says so. Empty where more workers than cores make it no speed-up."""
-    if row is None:
-        return ""
-    plain = with_interval(row.get(f"speedup_vs_{base}"), row.get(f"speedup_vs_{base}_low"), row.get(f"speedup_vs_{base}_high"))
-    scaled = with_interval(row.get(f"extrapolated_speedup_vs_{base}"), row.get(f"extrapolated_speedup_vs_{base}_low"), row.get(f"extrapolated_speedup_vs_{base}_high"))
-    return plain or (f"{scaled} (scaled)" if scaled else "")
+def speedup(row, base, before=""):
+    """Against `base`, with its interval; `before` is extrapolated_ for one that is scaled from fewer steps. Empty where more workers than cores make it no speed-up."""
+    column = f"{before}speedup_vs_{base}"
+    return "" if row is None else with_interval(row.get(column), row.get(f"{column}_low"), row.get(f"{column}_high"))
 
 
 def simulated_rows(results, table, parameter_label):
@@ -122,15 +119,16 @@ def table1_host(results):
     rows = []
     for _, row in measured.iterrows():
         scaled = "" if is_missing(row.get("extrapolated_wall_s")) else f"{shown(row['extrapolated_wall_s'])} ({shown(row['extrapolated_to_steps'])})"
-        texts = [row["label"], shown(row["steps"]), wall(row), scaled, speedup(row, "reference"), speedup(row, "scalar"), f"{shown(row['repetitions'])}, {shown(row['contaminated'])}",
-                 row["status"], "", ""]
+        texts = [row["label"], shown(row["steps"]), wall(row), speedup(row, "reference"), speedup(row, "scalar"), f"{shown(row['repetitions'])}, {shown(row['contaminated'])}", row["status"]]
+        texts += [scaled, speedup(row, "reference", "extrapolated_"), speedup(row, "scalar", "extrapolated_"), "", ""]
         rows.append([*[Cell(str(text)) for text in texts], reference(row, "tables/table1_host")])
     paper = paper_rows(results, "table1_host")
     for _, row in paper[paper["processes"] == 1].iterrows():
-        rows.append([Cell(row["label"]), *[Cell("")] * 7, Cell(shown(row["paper_wall_s"], 6)), Cell(shown(row["paper_speedup"], 4)), reference(row, "tables/table1_host")])
+        rows.append([Cell(row["label"]), *[Cell("")] * 9, Cell(shown(row["paper_wall_s"], 6)), Cell(shown(row["paper_speedup"], 4)), reference(row, "tables/table1_host")])
     one = first(measured)
-    columns = ["steps", "median time [s]", "scaled time [s] (to steps)", "against reference", "against scalar", "repetitions, contaminated", "status"]
-    groups = [("", "", ["configuration"]), ("measured", "measured (here)", columns), ("paper", "paper (published, other machine)", ["time [s]", "speed-up"]), ("", "", ["row"])]
+    groups = [("", "", ["configuration"]), ("measured", "measured (here)", ["steps", "median time [s]", "against reference", "against scalar", "repetitions, contaminated", "status"]),
+              ("scaled", "scaled from fewer steps", ["time [s] (to steps)", "against reference", "against scalar"]),
+              ("paper", "paper (published, other machine)", ["time [s]", "speed-up"]), ("", "", ["row"])]
     notes = [f"{one['scene']} {one['set']}, {one['model']}, {one['precision']}, {one['integrator']}: medians, 95 % intervals, speed-ups by interleaved pairs."] if one is not None else []
     resolution = measured["resolution"].dropna() if "resolution" in measured else pandas.Series(dtype=float)
     if len(resolution):
@@ -149,12 +147,14 @@ def table3(results, name="table-3", title="Table 3: devices and hybrids", link="
         scaled = row["extrapolated_wall_s"]
         cells = [Cell(row["label"]), Cell(shown(row["set"])), Cell(shown(row["paper_wall_s"], 5)) if is_paper else Cell("")]
         time = f"{wall(row)} ({shown(row['steps'])})" if wall(row) else ""
-        cells += [Cell("")] * 4 if is_paper else [Cell(time), Cell(shown(scaled)), Cell(speedup(row, "scalar")), Cell(str(row["status"]))]
+        texts = [time, speedup(row, "scalar"), str(row["status"]), shown(scaled), speedup(row, "scalar", "extrapolated_")]
+        cells += [Cell("" if is_paper else text) for text in texts]
         cells.append(reference(row, link))
         rows.append(cells)
         sizes.append(shown(row["set"]))
     groups = [("", "", ["executor", "plate"]), ("paper", "paper (published)", ["10,000 steps [s]"]),
-              ("measured", "measured (here)", ["median time [s] (steps)", "scaled to 10,000 steps [s]", "against scalar", "status"]), ("", "", ["row"])]
+              ("measured", "measured (here)", ["median time [s] (steps)", "against scalar", "status"]), ("scaled", "scaled from fewer steps", ["10,000 steps [s]", "against scalar"]),
+              ("", "", ["row"])]
     notes = ["Scaled times are medians of fewer steps times the ratio of steps, and no measurement. A device that is not there is unavailable: nothing else stands in for it.",
              "Table 3 has no simulation; tables/balance.csv is a model of a CPU beside a device."]
     return Grid(name, title, ["table3"], groups, rows, notes, {"Plate": sizes, "Source": list(frame["source"].fillna(""))})
