@@ -9,7 +9,7 @@ ifneq (,$(filter clang tsan,$(PRESET)))
 export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
-.PHONY: all build test reproduce reproduce-gpu gpu-studies bench clean dependencies
+.PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
 
 all: build
 
@@ -21,6 +21,8 @@ build: dependencies
 	@rm -f $(PRESET).configure.log
 	@cmake --build --preset $(PRESET) $(TARGETS)
 
+# The report is tested in a browser.
+test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium
 test: build
 	@ctest --preset $(PRESET)
 
@@ -32,7 +34,9 @@ reproduce: build
 	@for study in table1_host table1 table2 table3 error_budget work_precision advise stability failures model_ladder continuum statics balance cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 --output $(OUT)/fields/plate_paper.vtu >/dev/null
+	@$(BUILD)/dssbench run l_bracket --output $(OUT)/fields/l_bracket.vtu --frames 6 >/dev/null
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
+	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 
 # All that needs a GPU. Without one the results that are there stay as they are.
 reproduce-gpu: TARGETS := --target dssbench
@@ -46,6 +50,11 @@ gpu-studies:
 	@$(BUILD)/dssbench verify --quiet --variant opencl,opencl-rhs --device gpu
 	@for study in table3 table3_gpu; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
+	@/usr/bin/python3 plots/make_report.py --results $(OUT)
+
+# The page of the results that are there; nothing is measured.
+report: dependencies
+	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 
 bench: build
 	@$(BUILD)/kernel_benchmark --benchmark_min_time=0.05 --benchmark_repetitions=3 --benchmark_report_aggregates_only=true \

@@ -2,7 +2,8 @@
 # Installs the Debian packages that dssbench needs and this machine lacks; without the right to, prints the one line to run.
 set -eu
 packages="g++ cmake ninja-build pkg-config binutils libeigen3-dev libxsimd-dev libcli11-dev libfmt-dev nlohmann-json3-dev libmuparser-dev
-libmetis-dev libopenmpi-dev openmpi-bin libsimgrid-dev libgtest-dev libbenchmark-dev likwid ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd python3-matplotlib python3-pandas python3-jsonschema ${DSS_EXTRA_PACKAGES:-}"
+libmetis-dev libopenmpi-dev openmpi-bin libsimgrid-dev libgtest-dev libbenchmark-dev likwid ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd python3-matplotlib python3-pandas python3-jsonschema
+python3-venv python3-pip ${DSS_EXTRA_PACKAGES:-}"
 missing=""
 for package in $packages; do
   dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""All figures of a directory of results: a bar chart for each table, lines over ranks and over sizes where it has them, a picture for each .vtu in fields/.
+"""All figures of a directory of results: a bar chart for each table, lines over ranks and over sizes where it has them, pictures of each .vtu and .pvd in fields/.
 
-Reads DIR/tables/*.csv and DIR/fields/*.vtu, writes DIR/figures/. No solver runs.
+Reads DIR/tables/*.csv and DIR/fields/, writes DIR/figures/. No solver runs.
 Example: plots/make_plots.py --results results
 """
 import argparse
@@ -10,13 +10,13 @@ import sys
 
 import advice
 import balance_lines
+import body_picture
 import cluster_lines
 import continuum
 import error_budget
 import failure_atlas
 import figure9_lines
 import model_ladder
-import plate_picture
 import scaling_lines
 import speedup_bars
 import stability_map
@@ -29,8 +29,8 @@ def main():
     parser.add_argument("--results", type=pathlib.Path, default=pathlib.Path("results"), help="directory with tables/ and fields/")
     arguments = parser.parse_args()
     results = arguments.results
-    tables, fields = sorted((results / "tables").glob("*.csv")), sorted((results / "fields").glob("*.vtu"))
-    if not tables and not fields:
+    tables, fields = sorted((results / "tables").glob("*.csv")), results / "fields"
+    if not tables and not any(fields.glob("*.vtu")):
         sys.exit(f"{results}: no tables/*.csv and no fields/*.vtu; run `dssbench experiment` first")
     for table in tables:
         output = results / "figures" / f"{table.stem}.png"
@@ -41,6 +41,8 @@ def main():
             continue
         if stability_map.draw(table, results / "figures" / f"{table.stem}_map.png") is None:
             print(results / "figures" / f"{table.stem}_map.png")
+            continue
+        if table.stem in ("kernels", "ceilings", "attribution", "chain"):  # charts of the report alone
             continue
         if table.stem.startswith("work_precision_"):  # what the chart shows already, in words
             continue
@@ -54,9 +56,7 @@ def main():
         output = results / "figures" / f"{table.stem}_figure9.png"
         if figure9_lines.draw(table, output) is None:  # most tables have no plates of the paper's figure
             print(output)
-    for field in fields:
-        output = results / "figures" / f"{field.stem}.png"
-        plate_picture.draw(field, output, None)
+    for output in body_picture.draw_all(fields, results / "figures"):
         print(output)
 
 

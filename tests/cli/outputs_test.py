@@ -90,7 +90,7 @@ class Outputs(ProgramTest):
     def test_the_vtu_has_the_displacements_of_the_state(self):
         sys.path.insert(0, str(ROOT / "plots"))
         try:
-            from plate_picture import read_vtu
+            from body_picture import read_vtu
         except ImportError as missing:
             self.skipTest(f"this python has no {missing.name}")
         self.run_json("--output", self.path("p.vtu"), "--state", self.path("s.csv"))
@@ -109,12 +109,23 @@ class Outputs(ProgramTest):
 
     def test_a_picture_comes_of_a_vtu(self):
         self.run_json("--output", self.path("p.vtu"))
-        result = subprocess.run([sys.executable, ROOT / "plots/plate_picture.py", self.path("p.vtu"), "--output", self.path("p.png")],
+        result = subprocess.run([sys.executable, ROOT / "plots/body_picture.py", self.path("p.vtu"), "--output", self.path("p.png")],
                                 capture_output=True, text=True)
         if "ModuleNotFoundError" in result.stderr:
             self.skipTest("this python has no matplotlib")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertGreater(os.path.getsize(self.path("p.png")), 5000)
+
+    def test_pictures_come_of_a_series_and_of_a_body_with_depth(self):
+        result = dssbench("run", "l_bracket", "--steps", "20", "--output", self.path("b.vtu"), "--frames", "2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = subprocess.run([sys.executable, ROOT / "plots/body_picture.py", self.path("b.pvd"), "--output", self.path("b.png")], capture_output=True, text=True)
+        if "ModuleNotFoundError" in result.stderr:
+            self.skipTest("this python has no matplotlib")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.split(), [self.path("b.png"), self.path("b_frames.png")])
+        for name in ("b.png", "b_frames.png"):
+            self.assertGreater(os.path.getsize(self.path(name)), 5000)
 
     def test_verify_writes_its_table_and_passes(self):
         result = dssbench("verify", "two_elements", "--variant", "reference,scalar", "--json", self.path("v.json"))

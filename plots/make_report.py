@@ -1,0 +1,144 @@
+#!/usr/bin/python3
+"""The report of a directory of results: report.html, one page that opens from disk without a network, and REPORT.md.
+
+Reads DIR/tables, DIR/raw and DIR/figures, and nothing else. Plotly, which draws the page's charts, is installed into --environment by pip once; where that fails, the
+page has the tables alone, and one line says so.
+Example: plots/make_report.py --results results
+"""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+from report import library, markdown, page, paper_tables, summary
+from report.age import Ages
+from report.charts import CHARTS
+from report.results import ROOT, NotMeasured, Results, study_of
+from report.words import escaped, prose
+
+MOST_BYTES = 10_000_000
+
+
+def scale_of(results, ages, table):
+    """The scale of a table, from its rows or its record."""
+    try:
+        scales = results.table(table, "scale")["scale"].dropna()
+        return str(scales.iloc[0]) if len(scales) else ""
+    except NotMeasured:
+        return ages.records[study_of(table)].scale if study_of(table) in ages.records else ""
+
+
+def command_text(results, ages, table):
+    """As page.command says it, without marks."""
+    return re.sub("<[^>]*>", "", page.command(study_of(table), scale_of(results, ages, table)))
+
+
+def attempt(missing, name, title, table, make):
+    """What `make` gives; else it is missing, and none."""
+    try:
+        return make()
+    except NotMeasured as reason:
+        missing.append((name, title, table, str(reason)))
+        return None
+
+
+def other_grids(results):
+    """(grid, age, command, folder) of Table 3 on other machines."""
+    for other in results.others():
+        ages = Ages(other.directory)
+        yield paper_tables.other_table3(other), ages.line("table3", "table3"), command_text(other, ages, "table3"), f"{other.directory.name}/"
+
+
+def revision():
+    """The commit of this tree, if git knows."""
+    try:
+        result = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short=9", "HEAD"], capture_output=True, text=True)
+    except OSError:
+        return ""
+    return result.stdout.strip() if result.returncode == 0 else ""
+
+
+def origin_text(results, ages):
+    parts = [f"Results in <code>{escaped(results.directory.name)}</code>, {len(results.names())} tables"]
+    if ages.newest:
+        parts.append(f"newest record {escaped(ages.newest.name)}, {escaped(ages.newest.made_by(ages.newest.last))}")
+    if revision():
+        parts.append(f"this page by commit {revision()}")
+    return "; ".join(parts) + "."
+
+
+def by_study(missing):
+    """(titles, study, reason) of sections that one study would fill."""
+    groups = {}
+    for _, title, table, reason in missing:
+        groups.setdefault((study_of(table), reason), []).append(title)
+    return [("; ".join(titles), study, reason) for (study, reason), titles in groups.items()]
+
+
+def old_and_missing(missing, ages):
+    """The section that says both."""
+    lines = [f"{escaped(titles)}: {escaped(reason)}; run {page.command(study, '')}." for titles, study, reason in by_study(missing)]
+    lines += [f'{escaped(name)} is <strong class="old">old</strong>: {escaped(why)}.' for name, why in ages.old()]
+    content = page.element("ul", "".join(page.element("li", line) for line in lines)) if lines else page.element("p", "Nothing.")
+    return page.element("section", page.element("h2", "Old and missing") + content, id="old-and-missing")
+
+
+def build(results, plotly):
+    """(text of the page, text of REPORT.md)."""
+    ages, missing, charts, sections = Ages(results.directory), [], {}, []
+    grids = [(grid, ages.line(study_of(table), table), command_text(results, ages, table), "")
+             for name, title, table, make in paper_tables.TABLES if (grid := attempt(missing, name, title, table, lambda: make(results)))]
+    grids += other_grids(results)
+    for name, title, table, make in CHARTS:
+        chart = attempt(missing, name, title, table, lambda: make(results))
+        if chart:
+            charts[name] = chart
+            sections.append(page.chart_section(name, title, chart, ages.line(study_of(table), table), scale_of(results, ages, table), bool(plotly)))
+        else:
+            sections.append(page.missing_section(*missing[-1]))
+    names = {name for name, _, _, _ in paper_tables.TABLES}
+    sentences = summary.sentences(results, missing, ages.old(), len(ages.records))
+    body = [page.element("section", page.element("h2", "Summary") + page.element("ol", "".join(page.element("li", prose(text)) for text in sentences), class_="summary"), id="summary"),
+            old_and_missing(missing, ages), page.element("h2", "Tables of the paper", id="tables")]
+    body += [page.grid_section(grid, age, page.element("code", escaped(made_by)), folder) for grid, age, made_by, folder in grids]
+    body += [page.missing_section(*lacking) for lacking in missing if lacking[0] in names]
+    body += [page.element("h2", "Charts", id="charts-of-studies"), *sections, page.pictures_section(results), page.environment_section(ages), page.tables_section(results, ages)]
+    contents = [("summary", "Summary"), ("old-and-missing", "Old and missing"), ("tables", "Tables 1-3")] + [(name, title) for name, title, _, _ in CHARTS]
+    contents += [("pictures", "Pictures"), ("environment", "Environment"), ("all-tables", "All tables")]
+    text = markdown.write(sentences, [grid[:3] for grid in grids], results.figures(), by_study(missing), ages)
+    return page.assemble(origin_text(results, ages), contents, body, charts, plotly), text
+
+
+def plotly_text(environment):
+    """plotly.min.js; an empty text if it cannot be had, which one line says."""
+    path, reason = library.installed(environment), ""
+    if path is None:
+        path, reason = library.install(environment)
+    if path is None:
+        print(f"report.html gets no charts: Plotly cannot be installed ({reason})", file=sys.stderr)
+        return ""
+    return path.read_text(encoding="utf-8").replace("</script", "<\\/script")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--results", type=pathlib.Path, default=pathlib.Path("results"), help="directory with tables/, raw/ and figures/")
+    parser.add_argument("--environment", type=pathlib.Path, default=ROOT / "build" / "report-environment", help="virtual environment for Plotly")
+    arguments = parser.parse_args()
+    results = Results(arguments.results.resolve())
+    if not results.names():
+        sys.exit(f"{arguments.results}: no tables/*.csv; run `dssbench experiment` first")
+    html, text = build(results, plotly_text(arguments.environment))
+    size = len(html.encode("utf-8"))
+    if size > MOST_BYTES:
+        sys.exit(f"{arguments.results}/report.html would have {size / 1e6:.1f} MB; at most {MOST_BYTES / 1e6:.0f} MB are allowed: thin out what plots/report/charts draws")
+    for name, content in (("report.html", html), ("REPORT.md", text)):
+        unfinished = results.directory / f".{name}.new"
+        unfinished.write_text(content, encoding="utf-8")
+        unfinished.replace(results.directory / name)
+    print(f"{arguments.results / 'report.html'} ({size / 1e6:.1f} MB)\n{arguments.results / 'REPORT.md'}")
+
+
+if __name__ == "__main__":
+    main()

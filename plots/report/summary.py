@@ -1,0 +1,76 @@
+"""Three sentences on the whole, with figures from the tables."""
+from .results import NotMeasured
+from .words import shown, with_interval
+
+
+def of_speed(results):
+    """What the fastest variant does, against the straightforward code."""
+    exact, scaled = "speedup_vs_reference", "extrapolated_speedup_vs_reference"
+    try:
+        frame = results.table("table1_host", "source", "label", "scene", "set", "steps", "measured_wall_s", "status", "check", "speedup_vs_scalar", exact, scaled)
+    except NotMeasured:
+        return "How fast the variants are was not measured (`dssbench experiment table1_host`)."
+    frame = frame[(frame["source"] == "measured") & (frame["status"] == "ok")]
+    against = frame[exact].fillna(frame[scaled])
+    if against.dropna().empty:
+        return "No cell of tables/table1_host.csv has a speed-up."
+    best = frame.loc[against.idxmax()]
+
+    def interval(column):
+        return with_interval(best[column], best.get(f"{column}_low"), best.get(f"{column}_high"))
+
+    what = f"{best['label']}, computes {shown(best['steps'])} steps of {best['scene']} {best['set']} in {shown(best['measured_wall_s'])} s"
+    return (f"The fastest configuration of Table 1 on this machine, {what}: {interval(exact) or interval(scaled)} times as fast as the straightforward `reference`{'' if interval(exact) else ' (scaled from fewer steps)'} and "
+            f"{interval('speedup_vs_scalar')} times as fast as `scalar`, one thread each, with {(frame['check'] == 'passed').sum()} of {len(frame)} cells checked against the oracle.")
+
+
+def of_accuracy(results):
+    """What an accuracy costs."""
+    parts = []
+    try:
+        chain = results.table("chain", "link", "label", "factor_vs_reference", "error_max").sort_values("link")
+        chain = chain[chain["factor_vs_reference"].notna()]
+        if len(chain):
+            last = chain.iloc[-1]
+            parts.append(f"the chain from the reference to the cheapest method of the same error ends at {shown(last['factor_vs_reference'])} times ({last['label']}) "
+                         f"with an error of {shown(last['error_max'])}")
+    except NotMeasured:
+        pass
+    try:
+        pair = results.table("work_precision_comparisons", "scene", "base", "contender", "times_cheaper", "contender_error_max", "space_error").dropna(subset=["times_cheaper"])
+        if len(pair):
+            row = pair.iloc[0]
+            parts.append(f"on {row['scene']} {row['contender']} is {shown(row['times_cheaper'])} times cheaper than the paper's {row['base']} at an error of "
+                         f"{shown(row['contender_error_max'], 2)}, where the grid's own is {shown(row['space_error'], 2)}")
+    except NotMeasured:
+        pass
+    try:
+        advice = results.table("advise", "tolerance", "true_error", "time_over_cheapest")
+        kept = (advice["true_error"] <= advice["tolerance"]).sum()
+        parts.append(f"`dssbench advise` keeps {kept} of {len(advice)} tolerances at no more than {shown(advice['time_over_cheapest'].max())} times the cheapest that a full search finds")
+    except NotMeasured:
+        pass
+    if not parts:
+        return "What an accuracy costs was not measured (`dssbench experiment work_precision`)."
+    sentence = "; ".join(parts)
+    return sentence[0].upper() + sentence[1:] + "."
+
+
+def of_trust(results, missing, old, records):
+    """What holds, what is missing and what is old."""
+    parts = []
+    for table, words in (("failures", "cells of the failure atlas are as theory says"), ("model_ladder", "rows of the model ladder are as expected"),
+                         ("stability", "step limits agree with theory or are on the safe side")):
+        try:
+            status = results.table(table, "status")["status"]
+            parts.append(f"{status.isin(['ok', 'passed', 'bound']).sum()} of {len(status)} {words}")
+        except NotMeasured:
+            pass
+    held = ", ".join(parts) if parts else "nothing was held against theory"
+    lack = f"{len(missing)} section{'s are' if len(missing) != 1 else ' is'} not measured" if missing else "nothing is missing"
+    age = f"{len(old)} of {records} records {'are' if len(old) != 1 else 'is'} old, wholly or in part" if old else "no record is known to be old"
+    return f"{held[0].upper()}{held[1:]}; in this report {lack}, and {age}."
+
+
+def sentences(results, missing, old, records):
+    return [of_speed(results), of_accuracy(results), of_trust(results, missing, old, records)]
