@@ -31,7 +31,7 @@ reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(BUILD)/dssbench verify --quiet --device none
 	@$(BUILD)/dssbench verify --quiet plate_paper --variant scalar,opencl,opencl-rhs
-	@for study in table1_host table1 table2 table3 error_budget work_precision advise stability failures model_ladder continuum statics balance cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
+	@for study in chain kernels table1_host table1 table2 table3 error_budget work_precision advise stability failures model_ladder continuum statics balance cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 --output $(OUT)/fields/plate_paper.vtu >/dev/null
 	@$(BUILD)/dssbench run l_bracket --output $(OUT)/fields/l_bracket.vtu --frames 6 >/dev/null
@@ -56,9 +56,9 @@ gpu-studies:
 report: dependencies
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 
+bench: TARGETS := --target dssbench
 bench: build
-	@$(BUILD)/kernel_benchmark --benchmark_min_time=0.05 --benchmark_repetitions=3 --benchmark_report_aggregates_only=true \
-	  --benchmark_enable_random_interleaving=true $(BENCH_FLAGS)
+	@$(BUILD)/dssbench bench $(BENCH_FLAGS)
 
 clean:
 	@rm -rf build

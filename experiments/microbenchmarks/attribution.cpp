@@ -1,6 +1,7 @@
 #include "experiments/microbenchmarks/attribution.hpp"
 #include "experiments/microbenchmarks/executed_mix.hpp"
 #include "experiments/microbenchmarks/micro_case.hpp"
+#include "experiments/microbenchmarks/own_ceilings.hpp"
 #include "experiments/runner/statistics.hpp"
 #include "solver/error.hpp"
 #include "variants/loader.hpp"
@@ -136,7 +137,8 @@ void put_mix(const RowPart& part, const TimedParts& parts, Record& row) {
   if (part.as_executed == nullptr) return;
   for (const auto& [column, value] : std::initializer_list<std::pair<const char*, double>>{
            {"fma", m.fma},
-           {"other_arithmetic", m.other},
+           {"sums", m.sums},
+           {"products", m.products},
            {"shuffles", m.shuffles},
            {"loads", m.loads},
            {"stores", m.stores},
@@ -173,7 +175,8 @@ const std::vector<std::string>& attribution_columns() {
                                                    "limiter",
                                                    "sum_over_step",
                                                    "fma",
-                                                   "other_arithmetic",
+                                                   "sums",
+                                                   "products",
                                                    "shuffles",
                                                    "loads",
                                                    "stores",
@@ -193,22 +196,22 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
   for (const bool is_last : {false, true}) rows.push_back(row_part(plugin, one, is_last, step.level));
   const CompiledKernel& kernel = *rows.front().kernel;
   const std::string isa = ceiling_isa(kernel), precision{name(one.precision)};
-  InstructionMix fused;
-  (isa == "scalar" ? fused.other : fused.fma) = 240;
-  const GeneratedMix peak(fused, isa, precision);
-  const double lanes = kernel.lanes, peak_flops_a_pass = 240 * lanes * (isa == "scalar" ? 1 : 2);
+  const GeneratedMix peak(peak_mix(isa == "scalar"), isa, precision);
+  const double lanes = kernel.lanes, peak_flops_a_pass = peak_instructions * lanes * (isa == "scalar" ? 1 : 2);
 
+  // Rows of n elements fill packs: what the rest of the last one costs is a step's, too.
+  const double filled = one.n / (lanes * std::ceil(one.n / lanes));
   TimedParts parts;
   parts.try_emplace("step", Timed{[&] { steps->pass(); }, step.elements});
   parts.try_emplace("peak", Timed{[&] { peak.run(100); }, 100 * peak_flops_a_pass}); // ns a flop
   for (const RowPart& part : rows) {
-    const double l1_elements = kernel_case(plugin, *part.kernel, "L1", 1).elements;
+    const double l1_elements = filled * kernel_case(plugin, *part.kernel, "L1", 1).elements;
     parts.try_emplace(part.name, Timed{[&part] { part.in_level->pass(); },
-                                       kernel_case(plugin, *part.kernel, step.level, 1).elements});
+                                       filled * kernel_case(plugin, *part.kernel, step.level, 1).elements});
     parts.try_emplace(part.name + " L1", Timed{[&part] { part.in_l1->pass(); }, l1_elements});
     if (part.as_executed == nullptr) continue;
-    parts.try_emplace(part.name + " mix", Timed{[&part] { part.as_executed->run(100); }, 100 * lanes});
-    parts.try_emplace(part.name + " lean", Timed{[&part] { part.without_stack->run(100); }, 100 * lanes});
+    parts.try_emplace(part.name + " mix", Timed{[&part] { part.as_executed->run(100); }, 100 * lanes * filled});
+    parts.try_emplace(part.name + " lean", Timed{[&part] { part.without_stack->run(100); }, 100 * lanes * filled});
   }
   time_rounds(parts, rounds, sample_s);
 

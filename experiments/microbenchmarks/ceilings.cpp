@@ -39,9 +39,16 @@ double number_after(const std::string& text, const std::string& label) {
   return at == std::string::npos ? std::nan("") : std::atof(text.c_str() + at + label.size());
 }
 
+/// Of one thread: iterations are a thread's.
+double guessed_bytes_per_s(const Ceiling& ceiling) {
+  if (ceiling.is_flops) return ceiling.isa == "scalar" ? 4e9 : 25e9;
+  return ceiling.level == "L1" ? 300e9 : ceiling.level == "L2" ? 90e9 : ceiling.level == "L3" ? 20e9 : 10e9;
+}
+
 void run_likwid(const std::string& program, Ceiling& ceiling) {
-  // So many iterations that a sample lasts, at a guess of the speed; then once more by what was seen.
-  double iterations = 10;
+  // So many iterations that a sample lasts, at a guess of the speed; once more by what was seen where the guess was far off.
+  double iterations =
+      std::max(10.0, std::ceil(likwid_sample_s * guessed_bytes_per_s(ceiling) / double(ceiling.working_set_bytes)));
   for (int attempt = 0; attempt < 3; ++attempt) {
     const std::vector<std::string> arguments{
         "likwid-bench",
@@ -61,7 +68,7 @@ void run_likwid(const std::string& program, Ceiling& ceiling) {
       ceiling.reason = fmt::format("likwid-bench: {}", child.failure(likwid_limit_s));
       return;
     }
-    if (time >= likwid_sample_s / 2) return;
+    if (time >= likwid_sample_s / 4) return;
     iterations = std::ceil(iterations * std::min(1e5, 1.2 * likwid_sample_s / std::max(time, 1e-7)));
   }
 }

@@ -20,7 +20,7 @@ namespace dss {
 namespace {
 
 constexpr double objdump_limit_s = 120;
-constexpr std::size_t short_row = 8, long_row = 24; ///< packs: their difference is free of what a row begins with
+constexpr std::size_t short_row = 4, long_row = 12; ///< packs: their difference is free of what a row begins with
 
 using Executions = std::map<std::uint64_t, long>; ///< by address in the module
 
@@ -94,8 +94,10 @@ void count_instruction(const std::string& text, double count, InstructionMix& mi
   const bool is_floating = name.ends_with("pd") || name.ends_with("ps") || name.ends_with("sd") || name.ends_with("ss");
   if (begins_with_any(name, {"fmadd", "fmsub", "fnmadd", "fnmsub"}))
     mix.fma += count;
-  else if (is_floating && begins_with_any(name, {"add", "sub", "mul", "div", "sqrt", "max", "min"}))
-    mix.other += count;
+  else if (is_floating && begins_with_any(name, {"add", "sub", "max", "min"}))
+    mix.sums += count;
+  else if (is_floating && begins_with_any(name, {"mul", "div", "sqrt"}))
+    mix.products += count;
   else if (begins_with_any(name, {"align", "perm", "shuf", "unpck", "palignr", "insertf", "extractf", "movddup"}))
     mix.shuffles += count;
   else
@@ -110,17 +112,32 @@ void count_instruction(const std::string& text, double count, InstructionMix& mi
   if (is_store) mix.stores += count, mix.stack_stores += is_stack ? count : 0;
 }
 
-InstructionMix looked_up(const std::string& module, const Executions& executions, double packs) {
+/// The disassembly of a range of addresses of a module, a line an instruction.
+std::string disassembly(const std::string& module, std::uint64_t first, std::uint64_t last) {
   const ChildResult child =
-      run_child("/usr/bin/env", {"env", "objdump", "-d", "--no-show-raw-insn", module}, objdump_limit_s);
+      run_child("/usr/bin/env",
+                {"env", "objdump", "-d", "--no-show-raw-insn", fmt::format("--start-address={}", first),
+                 fmt::format("--stop-address={}", last + 1), module},
+                objdump_limit_s);
   if (child.exit_code != 0) throw InputError(fmt::format("objdump (binutils): {}", child.failure(objdump_limit_s)));
+  return child.output;
+}
+
+InstructionMix looked_up(const std::string& module, const Executions& executions, double packs) {
+  constexpr std::uint64_t gap =
+      4096; // functions far from each other are looked up one by one: whole modules take seconds
   InstructionMix mix;
-  std::istringstream lines(child.output);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t colon = line.find(":\t");
-    if (colon == std::string::npos) continue;
-    const auto found = executions.find(std::strtoull(line.c_str(), nullptr, 16));
-    if (found != executions.end()) count_instruction(line.substr(colon + 2), double(found->second) / packs, mix);
+  for (auto first = executions.begin(); first != executions.end();) {
+    auto last = first;
+    for (auto next = std::next(first); next != executions.end() && next->first - last->first < gap; ++next) last = next;
+    std::istringstream lines(disassembly(module, first->first, last->first));
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t colon = line.find(":\t");
+      if (colon == std::string::npos) continue;
+      const auto found = executions.find(std::strtoull(line.c_str(), nullptr, 16));
+      if (found != executions.end()) count_instruction(line.substr(colon + 2), double(found->second) / packs, mix);
+    }
+    first = std::next(last);
   }
   return mix;
 }
@@ -134,7 +151,8 @@ InstructionMix executed_mix(const CompiledKernel& kernel) {
   constexpr std::uint64_t most_text = 64u << 20;
   const Executions executions = trace(kernel, reinterpret_cast<std::uint64_t>(module.dli_fbase), most_text);
   const InstructionMix mix = looked_up(module.dli_fname, executions, double(long_row - short_row));
-  if (mix.fma + mix.other == 0) throw InputError("instruction mix: the disassembly does not show what ran");
+  if (mix.fma + mix.sums + mix.products == 0)
+    throw InputError("instruction mix: the disassembly does not show what ran");
   return mix;
 }
 

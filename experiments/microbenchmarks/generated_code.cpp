@@ -19,23 +19,21 @@ bool is_turn(long count, long total, long i) { return i * count / total != (i + 
 class MixWriter {
 public:
   MixWriter(const InstructionMix& mix, const VectorNames& names)
-      : names_(names), fma_(std::lround(mix.fma)), shuffles_(std::lround(mix.shuffles)), loads_(std::lround(mix.loads)),
-        stores_(std::lround(mix.stores)),
-        total_(std::max({fma_ + shuffles_ + std::lround(mix.other), loads_, stores_, 1L})),
-        arithmetic_(fma_ + shuffles_ + std::lround(mix.other)) {}
+      : names_(names), fma_(std::lround(mix.fma)), shuffles_(std::lround(mix.shuffles)), sums_(std::lround(mix.sums)),
+        products_(std::lround(mix.products)), loads_(std::lround(mix.loads)), stores_(std::lround(mix.stores)),
+        arithmetic_(fma_ + shuffles_ + sums_ + products_), total_(std::max({arithmetic_, loads_, stores_, 1L})) {}
 
   std::string text() {
-    const int first = first_target();
+    const int first = first_target(), targets = odd(names_.registers - first);
     for (int r = 0; r < 3; ++r) add("{} {}, {}", move(), memory("rdi", r), reg(r));
     for (int r = first; r < names_.registers; ++r) add("{} {}, {}", move(), memory("rdi", 3), reg(r));
     out_ += ".p2align 6\n1:\n";
     for (long i = 0; i < total_; ++i) {
-      const std::string target = reg(first + int(i % (names_.registers - first)));
+      const std::string target = reg(first + int(i % targets));
       const std::string source = is_turn(loads_, total_, i) ? next_load() : "";
       instruction(i, target, source);
       if (is_turn(stores_, total_, i))
-        add("{} {}, {}", move(), reg(first + int((i + 7) % (names_.registers - first))),
-            memory("rsi", stored_++ % store_lines));
+        add("{} {}, {}", move(), reg(first + int((i + 7) % targets)), memory("rsi", stored_++ % store_lines));
     }
     out_ += "dec %rdx\njnz 1b\n";
     if (!names_.is_scalar) out_ += "vzeroupper\n";
@@ -50,22 +48,35 @@ private:
   std::string reg(int number) const { return fmt::format("%{}{}", names_.reg, number); }
   static std::string memory(const char* base, long place) { return fmt::format("{}(%{})", place * line, base); }
   std::string move() const { return (names_.is_scalar ? "mov" : "vmova") + names_.suffix; }
+  /// So that kinds that take turns meet every register: one that is only multiplied ends in denormals.
+  static int odd(int count) { return count % 2 == 0 ? count - 1 : count; }
   int first_target() const { return 4; } // register 3 takes loads that nothing computes with
   std::string next_load() { return memory("rdi", constants + loaded_++ % load_lines); }
 
-  /// x = 0.9 x + 0.1, or with a number of memory near 0.9; sums and differences in turn; what has no operand to take just loads.
+  /// Which kind of instruction is next: that which is farthest behind its share.
+  enum Kind { fused, sum, product, lanes_moved, none };
+  Kind next_kind(long i) {
+    const long counts[] = {fma_, sums_, products_, shuffles_};
+    Kind most = none;
+    double behind = 0;
+    for (int kind = 0; kind < 4; ++kind) {
+      const double lag = double(counts[kind]) * double(i + 1) / double(total_) - double(made_[kind]);
+      if (made_[kind] < counts[kind] && lag > behind) behind = lag, most = Kind(kind);
+    }
+    if (most != none) ++made_[most];
+    return most;
+  }
+  /// x = 0.98 x + 0.1, x + 0.013, 0.98 x, or with a number of memory near 1; what has no operand to take just loads.
   void instruction(long i, const std::string& x, const std::string& source) {
-    const bool is_fma = arithmetic_ > 0 && is_turn(fma_, total_, i);
-    const bool is_shuffle = !is_fma && is_turn(shuffles_, total_ - fma_, i - i * fma_ / total_);
-    const bool is_other = !is_fma && !is_shuffle && others_ < arithmetic_ - fma_ - shuffles_;
-    if (!is_fma && !is_other && !source.empty()) add("{} {}, {}", move(), source, reg(3));
-    if (is_fma)
+    const Kind kind = next_kind(i);
+    if ((kind == none || kind == lanes_moved) && !source.empty()) add("{} {}, {}", move(), source, reg(3));
+    if (kind == fused)
       add("vfmadd132{} {}, {}, {}", names_.suffix, source.empty() ? reg(0) : source, reg(1), x);
-    else if (is_shuffle)
+    else if (kind == lanes_moved)
       add("{} {}, {}", shuffle(), shuffle_operands(x), x);
-    else if (is_other) {
-      const char* operation = others_++ % 2 == 0 ? "add" : "sub";
-      const std::string operand = source.empty() ? reg(2) : source;
+    else if (kind != none) {
+      const char* operation = kind == sum ? "add" : "mul";
+      const std::string operand = source.empty() ? reg(kind == sum ? 2 : 0) : source;
       if (names_.is_scalar)
         add("{}{} {}, {}", operation, names_.suffix, operand, x);
       else
@@ -83,8 +94,8 @@ private:
   }
 
   const VectorNames& names_;
-  const long fma_, shuffles_, loads_, stores_, total_, arithmetic_;
-  long loaded_ = 0, stored_ = 0, others_ = 0;
+  const long fma_, shuffles_, sums_, products_, loads_, stores_, arithmetic_, total_;
+  long made_[4] = {}, loaded_ = 0, stored_ = 0;
   std::string out_;
 };
 
@@ -93,8 +104,8 @@ void fill(std::byte* memory) {
   T* numbers = reinterpret_cast<T*>(memory);
   const std::size_t a_line = line / sizeof(T);
   for (std::size_t n = 0; n < page / sizeof(T); ++n) {
-    const double starts[] = {0.9, 0.1, 0.013, 0.5};
-    const double value = n / a_line < 4 ? starts[n / a_line] : 0.85 + 1e-3 * double(n * 7919 % 101);
+    const double starts[] = {0.98, 0.1, 0.013, 0.5};
+    const double value = n / a_line < 4 ? starts[n / a_line] : 0.95 + 1e-3 * double(n * 7919 % 101);
     numbers[n] = T(value + 1e-4 * double(n % a_line));
   }
 }

@@ -10,10 +10,10 @@ namespace dss {
 
 /// Instructions of a pass: vector (or, in scalar code, scalar) arithmetic, and operands in memory.
 struct InstructionMix {
-  double fma = 0;      ///< fused multiply-adds
-  double other = 0;    ///< sums, products and other arithmetic of the same width
-  double shuffles = 0; ///< of lanes
-  double loads = 0;    ///< from memory, as an operand or by themselves
+  double fma = 0;                ///< fused multiply-adds
+  double sums = 0, products = 0; ///< and differences; and quotients: some processors have units of their own for each
+  double shuffles = 0;           ///< of lanes
+  double loads = 0;              ///< from memory, as an operand or by themselves
   double stores = 0;
   double stack_loads = 0, stack_stores = 0; ///< of these, the stack's: registers that did not suffice
   double rest = 0;                          ///< moves, addresses, counters, branches

@@ -1,5 +1,4 @@
 #include "experiments/microbenchmarks/own_ceilings.hpp"
-#include "experiments/microbenchmarks/generated_code.hpp"
 
 #include <algorithm>
 #include <barrier>
@@ -74,15 +73,23 @@ std::string stream_text(const VectorNames& names, const std::string& kind, std::
 
 } // namespace
 
+InstructionMix peak_mix(bool is_scalar) {
+  InstructionMix mix;
+  if (is_scalar)
+    mix.sums = mix.products = peak_instructions / 2;
+  else
+    mix.fma = peak_instructions;
+  return mix;
+}
+
 double own_peak_flops(const std::string& isa, const std::string& precision, int threads) {
   const VectorNames names = vector_names(isa, precision);
-  InstructionMix mix;
-  (names.is_scalar ? mix.other : mix.fma) = 240;
+  const InstructionMix mix = peak_mix(names.is_scalar);
   const double lanes = names.is_scalar ? 1 : double(names.bytes) / (precision == "f64" ? 8 : 4);
   const double pass_s = best_pass_s(threads, [&]() -> Work {
     return [code = std::make_shared<GeneratedMix>(mix, isa, precision)](long passes) { code->run(passes); };
   });
-  return 240 * lanes * (names.is_scalar ? 1 : 2) * threads / pass_s;
+  return peak_instructions * lanes * (names.is_scalar ? 1 : 2) * threads / pass_s;
 }
 
 double own_bandwidth(const std::string& isa, const std::string& benchmark, std::size_t bytes, int threads) {

@@ -3,6 +3,7 @@
 #include "experiments/runner/atlas/continuum_study.hpp"
 #include "experiments/runner/atlas/failure_study.hpp"
 #include "experiments/runner/balance_study.hpp"
+#include "experiments/runner/chain/chain_study.hpp"
 #include "experiments/runner/child.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
@@ -162,6 +163,16 @@ int time_kernels(const MicroStudy& study, const ExperimentArguments& arguments) 
   return run_micro_study(study, arguments.out, arguments.resumes) ? exit_success : exit_check_failed;
 }
 
+int time_chain(const ChainStudy& study, const ExperimentArguments& arguments) {
+  if (arguments.is_dry) {
+    for (const ChainLink& link : study.links)
+      fmt::print("{}: {}: {} t{} {} {} {}\n", study.name, link.label, link.variant, link.threads, name(link.model),
+                 name(link.precision), link.integrator);
+    return exit_success;
+  }
+  return run_chain(study, arguments.out, arguments.resumes) ? exit_success : exit_check_failed;
+}
+
 int experiment(const ExperimentArguments& arguments) {
   if (const auto advice = load_advise(arguments.file, arguments.scale)) return judge_advice(*advice, arguments);
   if (const auto failures = load_failures(arguments.file, arguments.scale))
@@ -174,6 +185,7 @@ int experiment(const ExperimentArguments& arguments) {
   if (const auto budget = load_error_budget(arguments.file, arguments.scale)) return account(*budget, arguments);
   if (const auto balance = load_balance(arguments.file, arguments.scale)) return model(*balance, arguments);
   if (const auto micro = load_micro_study(arguments.file, arguments.scale)) return time_kernels(*micro, arguments);
+  if (const auto chain = load_chain(arguments.file, arguments.scale)) return time_chain(*chain, arguments);
   if (const auto limits = load_stability(arguments.file, arguments.scale)) return find_limits(*limits, arguments);
   const std::vector<SimulationBlock> blocks = load_simulation(arguments.file, arguments.scale);
   const std::string simulated_only = name_if_simulated_only(arguments.file);

@@ -1,0 +1,74 @@
+#include "experiments/runner/chain/chain_study.hpp"
+#include "experiments/runner/context.hpp"
+#include "experiments/runner/keyed_study.hpp"
+#include "solver/nearest_name.hpp"
+#include "solver/numerics/method.hpp"
+#include "variants/loader.hpp"
+
+namespace dss {
+namespace {
+
+template <class Value, class Name>
+Value named(const JsonPlace& place, const std::vector<Value>& values, const char* kind, Name&& name_of) {
+  std::vector<std::string> known;
+  for (const Value& value : values) {
+    known.emplace_back(name_of(value));
+    if (known.back() == place.text()) return value;
+  }
+  place.fail(fmt::format("\"{}\" is not a {}; {}", place.text(), kind, nearest_name(place.text(), known)));
+}
+
+/// What a link names; the rest it has from the one before.
+void read_link(const JsonPlace& place, ChainLink& link) {
+  place.require_keys({"label", "variant", "model", "precision", "integrator", "steps_an_interval", "threads"});
+  if (place.has("label")) link.label = place["label"].text();
+  if (place.has("variant")) link.variant = load_variant(place["variant"].text()).name;
+  if (place.has("model"))
+    link.model = named(place["model"], std::vector<Model>(models.begin(), models.end()), "model",
+                       [](Model model) { return std::string(name(model)); });
+  if (place.has("precision"))
+    link.precision = named(place["precision"], std::vector<Precision>{Precision::f64, Precision::f32}, "precision",
+                           [](Precision precision) { return std::string(name(precision)); });
+  if (place.has("integrator")) {
+    link.integrator = place["integrator"].text();
+    const Method* method = find_method(link.integrator);
+    if (method == nullptr || method->has_error_stage)
+      place["integrator"].fail("is not a method of equal steps; `dssbench list methods` shows all");
+  }
+  if (place.has("steps_an_interval")) link.steps_an_interval = place["steps_an_interval"].count(1);
+  if (place.has("threads"))
+    link.threads = place["threads"].value() == "cores" ? usable_cores() : int(place["threads"].count(1));
+}
+
+} // namespace
+
+std::optional<ChainStudy> load_chain(const std::string& study, const std::string& scale) {
+  const auto opened = open_study(study, "chain", scale);
+  if (!opened) return {};
+  opened->scale.require_keys({"set", "end_time", "repetitions", "sample_s"});
+  const JsonPlace& work = opened->work;
+  work.require_keys({"scene", "set", "end_time", "saved_times", "bar", "solution", "links"});
+  ChainStudy chain;
+  chain.name = opened->name, chain.title = opened->title, chain.scale = scale;
+  chain.scene = scene_beside(opened->path, work["scene"].text());
+  const JsonPlace& set = opened->scale.has("set") ? opened->scale : work;
+  if (set.has("set")) chain.set = one_set(set["set"]);
+  chain.end_time = (opened->scale.has("end_time") ? opened->scale : work)["end_time"].positive();
+  chain.saved_times = int(work["saved_times"].count(1));
+  chain.bar = work["bar"].positive();
+  chain.repetitions = int(opened->scale["repetitions"].count(1));
+  chain.sample_s = opened->scale["sample_s"].positive();
+  ChainLink link{"", load_variant("auto").name, "rk4", Model::spatial, Precision::f64, usable_cores(), 0};
+  chain.solution = link;
+  read_link(work["solution"], chain.solution);
+  for (const JsonPlace& place : work["links"].items()) {
+    read_link(place, link);
+    chain.links.push_back(link);
+  }
+  if (chain.links.size() < 2) work["links"].fail("has fewer than two links");
+  for (const ChainLink& one : chain.links)
+    if (one.steps_an_interval == 0) work["links"].fail("the first link names no steps_an_interval");
+  return chain;
+}
+
+} // namespace dss

@@ -1,0 +1,94 @@
+"""`bench` and the studies of kernels and of the chain: what they write, what a kill leaves, what compare says."""
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, ProgramTest, dssbench
+
+FEW = ("bench", "--kernel", "rotation,rk_update", "--variant", "scalar", "--model", "spatial,planar")
+SHORT = ("--min-time", "0.001")
+
+
+class Bench(ProgramTest):
+    def records(self, out, name="kernels"):
+        with open(self.path(f"{out}/raw/{name}.csv"), encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def cells(self, out, name="kernels"):
+        return sorted((row["cell"], row["repetition"]) for row in self.records(out, name))
+
+    def test_kernels_are_checked_timed_and_tabled(self):
+        result = dssbench(*FEW, *SHORT, "--repetitions", 2, "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("out/tables/kernels.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 6)  # rotation of two models, rk_update of one, two precisions
+        for row in rows:
+            self.assertEqual((row["check"], row["status"], row["repetitions"]), ("passed", "ok", "2"))
+            self.assertGreater(float(row["measured_ns_per_element"]), 0)
+        with open(self.path("out/raw/kernels.json"), encoding="utf-8") as file:
+            self.assertIn("hardware_counters", json.load(file)["context"])
+
+    def test_a_run_killed_and_resumed_has_the_records_of_a_whole_one(self):
+        few = (*FEW, "--repetitions", "4", "--min-time", "0.02")
+        self.assertEqual(dssbench(*few, "--out", self.path("whole")).returncode, 0)
+        running = subprocess.Popen([PROGRAM, *few, "--out", self.path("cut")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        raw = self.path("cut/raw/kernels.csv")
+        for _ in range(1000):  # until some are there
+            if os.path.exists(raw) and os.path.getsize(raw) > 1500:
+                break
+            time.sleep(0.01)
+        running.send_signal(signal.SIGKILL)
+        running.wait()
+        self.assertLess(len(self.records("cut")), len(self.records("whole")), "it was not cut off")
+        result = dssbench(*few, "--resume", "--out", self.path("cut"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.cells("cut"), self.cells("whole"))
+
+    def test_compare_has_a_verdict_for_each_kernel(self):
+        self.assertEqual(dssbench(*FEW, *SHORT, "--repetitions", 9, "--out", self.path("a")).returncode, 0)
+        with open(self.path("a/raw/kernels.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        with open(self.path("slower.csv"), "w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, rows[0].keys())
+            writer.writeheader()
+            for row in rows:
+                slower = 3 if row["kernel"] == "rotation" else 1
+                writer.writerow({**row, "wall_s": slower * float(row["wall_s"])})
+        result = dssbench("compare", self.path("a/raw/kernels.csv"), self.path("slower.csv"))
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual(result.stdout.count("slower"), 4, result.stdout)  # rotation: two models, two precisions
+        self.assertIn("Mann-Whitney", result.stdout)
+
+    def test_unknown_names_are_refused_with_the_nearest(self):
+        self.assert_refused(2, ["rotatoin", "rotation"], "bench", "--kernel", "rotatoin", "--out", self.path("out"))
+        self.assert_refused(2, ["L5", "L3"], "bench", "--level", "L5", "--out", self.path("out"))
+        self.assertFalse(os.path.exists(self.path("out/raw/kernels.csv")))
+
+
+class Chain(ProgramTest):
+    def test_each_link_has_a_factor_and_an_error(self):
+        result = dssbench("experiment", "chain", "--scale", "smoke", "--out", self.path("out"))
+        with open(self.path("out/tables/chain.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 8, result.stderr)
+        for row in rows:
+            self.assertEqual(row["status"], "ok", row)
+            self.assertLess(float(row["error_max"]), 1e-3)
+        self.assertEqual(float(rows[0]["factor_vs_reference"]), 1)
+        self.assertGreater(float(rows[2]["factor_vs_reference"]), 3)
+
+    def test_a_chain_with_an_unknown_model_is_refused(self):
+        study = {"experiment": "c", "title": "c", "scales": {"host": {"repetitions": 1, "sample_s": 1e-3}},
+                 "chain": {"scene": "plate_paper", "end_time": 1e-5, "saved_times": 1, "bar": 1, "solution": {"steps_an_interval": 20},
+                           "links": [{"label": "a", "variant": "scalar", "steps_an_interval": 10}, {"label": "b", "model": "planer"}]}}
+        self.assert_refused(2, ["/chain/links/1/model", "planer", "planar"], "experiment", self.write("c.json", json.dumps(study)),
+                            "--out", self.path("out"))
+
+
+if __name__ == "__main__":
+    unittest.main()

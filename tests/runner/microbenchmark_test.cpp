@@ -1,0 +1,127 @@
+/// Microbenchmarks: what is timed is right, what is counted is what runs, and a run that was cut off goes on.
+#include "experiments/microbenchmarks/executed_mix.hpp"
+#include "experiments/microbenchmarks/kernel_work.hpp"
+#include "experiments/microbenchmarks/micro_run.hpp"
+#include "experiments/microbenchmarks/micro_tables.hpp"
+#include "experiments/microbenchmarks/own_ceilings.hpp"
+#include "kernels/stage_row/cost.hpp"
+#include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+#include "tests/runner/own_directory.hpp"
+#include "variants/loader.hpp"
+
+#include <fstream>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace dss {
+namespace {
+
+using Microbenchmarks = test::OwnDirectory;
+
+std::vector<const Plugin*> plugins_with_kernels() {
+  std::vector<const Plugin*> list;
+  for (const VariantStatus& variant : variants())
+    if (variant.is_usable() && load_variant(variant.name).kernels != nullptr)
+      list.push_back(&load_variant(variant.name));
+  return list;
+}
+
+TEST_F(Microbenchmarks, EveryKernelAndRowOfEveryVariantAgreesWithLongDouble) {
+  for (const Plugin* plugin : plugins_with_kernels())
+    for (const CompiledKernel& kernel : plugin->kernels())
+      EXPECT_LE(kernel_error(kernel), kernel_case(*plugin, kernel, "L1", 1).tolerance())
+          << plugin->name << ' ' << kernel.name << ' ' << name(kernel.model) << ' ' << name(kernel.precision);
+}
+
+TEST_F(Microbenchmarks, AKernelWithOneWrongLaneIsCaught) {
+  CompiledKernel wrong = load_variant("scalar").kernels()[0];
+  static const CompiledKernel right = wrong;
+  wrong.run = [](int kernel, const void* in, void* out, std::size_t elements, std::size_t stride) {
+    right.run(kernel, in, out, elements, stride);
+    static_cast<double*>(out)[elements - 1] += 1e-9;
+  };
+  EXPECT_GT(kernel_error(wrong), 1e-10);
+}
+
+TEST_F(Microbenchmarks, WhatRowsExecuteAreTheFlopsThatTheyDeclare) {
+#ifdef DSS_SANITIZED
+  GTEST_SKIP() << "sanitized code executes more";
+#endif
+  for (const Plugin* plugin : plugins_with_kernels())
+    for (const CompiledKernel& kernel : plugin->kernels()) {
+      if (!kernel.is_row || kernel.precision != Precision::f64 ||
+          (kernel.model != Model::spatial && kernel.model != Model::planar))
+        continue;
+      InstructionMix mix;
+      try {
+        mix = executed_mix(kernel);
+      } catch (const InputError& error) {
+        GTEST_SKIP() << error.what();
+      }
+      EXPECT_NEAR(2 * mix.fma + mix.sums + mix.products, kernel.flops, 0.02 * kernel.flops)
+          << plugin->name << ' ' << kernel.name << ' ' << name(kernel.model) << ' ' << name(kernel.precision);
+      EXPECT_GT(mix.loads, mix.stack_loads);
+      EXPECT_GE(mix.stores - mix.stack_stores, kernel.outputs);
+    }
+}
+
+TEST_F(Microbenchmarks, CeilingsOfOurOwnAreOfTheRightOrder) {
+  const double scalar = own_peak_flops("scalar", "f64", 1);
+  EXPECT_GT(scalar, 1e8);
+  EXPECT_LT(scalar, 1e12);
+  for (const char* stream : {"load", "copy", "triad"})
+    EXPECT_GT(own_bandwidth("scalar", stream, 1 << 14, 1), 1e8) << stream;
+}
+
+std::set<std::string> recorded(const std::string& path) {
+  std::set<std::string> cells;
+  for (const Record& record : read_csv(path).rows)
+    EXPECT_TRUE(cells.insert(text_in(record, "cell") + ' ' + text_in(record, "repetition")).second) << "twice";
+  return cells;
+}
+
+TEST_F(Microbenchmarks, ARunThatWasCutOffGoesOnToTheSameSetOfRecords) {
+  const MicroSet set{{"rotation", "stage_row"}, {"planar"}, {"f64"}, {"scalar"}, {"L1"}, {1}, {}};
+  const auto run = [&](const std::string& path, bool resume) {
+    RecordFile records(path, micro_columns(), resume);
+    run_micro_cases("test", micro_cases(set), {3, 1e-5}, records, [](double, double, const std::string&) {});
+  };
+  run(file("whole.csv"), false);
+  const std::string text = read_text(file("whole.csv"));
+  std::ofstream(file("cut.csv")) << text.substr(0, text.size() * 2 / 3); // in the middle of a row
+  run(file("cut.csv"), true);
+  EXPECT_EQ(recorded(file("cut.csv")), recorded(file("whole.csv")));
+  EXPECT_EQ(recorded(file("whole.csv")).size(), 6u);
+}
+
+TEST_F(Microbenchmarks, ARoofIsTheSmallerOfPeakAndBandwidth) {
+  const std::vector<Ceiling> ceilings{{true, "peak", "scalar", "f64", "", 0, 1, 10e9, "own", "", ""},
+                                      {false, "load", "scalar", "", "L1", 0, 1, 40e9, "own", "", ""},
+                                      {false, "triad", "scalar", "", "L1", 0, 1, 20e9, "own", "", ""}};
+  Record record{{"cell", "a"},
+                {"isa", "x86-64-v2"},
+                {"precision", "f64"},
+                {"level", "L1"},
+                {"threads", "1"},
+                {"cores", "2"},
+                {"flops_per_element", "1"},
+                {"bytes_per_element", "8"},
+                {"repetition", "0"},
+                {"steps", "10"},
+                {"elements", "100"},
+                {"wall_s", "1e-6"},
+                {"sample_s", "1e-6"},
+                {"check", "passed"},
+                {"status", "ok"}};
+  const Record row = kernel_table({record}, ceilings).rows.at(0);
+  EXPECT_DOUBLE_EQ(number_in(row, "measured_ns_per_element"), 1);
+  EXPECT_DOUBLE_EQ(number_in(row, "roof_flops_per_s"), 5e9);
+  EXPECT_DOUBLE_EQ(number_in(row, "share_of_roof"), 0.2);
+  EXPECT_EQ(text_in(row, "limiter"), "L1 bandwidth");
+  record["check"] = "failed", record["status"] = "wrong";
+  EXPECT_EQ(text_in(kernel_table({record}, ceilings).rows.at(0), "share_of_roof"), "");
+}
+
+} // namespace
+} // namespace dss
