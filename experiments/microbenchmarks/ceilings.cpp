@@ -2,6 +2,8 @@
 #include "experiments/microbenchmarks/own_ceilings.hpp"
 #include "experiments/microbenchmarks/working_set.hpp"
 #include "experiments/runner/child.hpp"
+#include "experiments/runner/context.hpp"
+#include "variants/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -114,6 +116,28 @@ double best(const std::vector<Ceiling>& ceilings, auto&& suits) {
   return most;
 }
 
+/// Of OpenCL devices, by their own kernels; those of a processor with all its cores.
+void add_devices(std::vector<Ceiling>& ceilings) {
+  for (const VariantStatus& variant : asked_variants()) {
+    if (!variant.is_usable()) continue;
+    const Plugin& plugin = load_variant(variant.name);
+    if (plugin.ceilings == nullptr || plugin.devices == nullptr) continue;
+    for (const DeviceEntry& device : plugin.devices()) {
+      if (!device.unusable.empty()) continue;
+      const DeviceCeilings measured = plugin.ceilings(device.id);
+      const int threads = device.kind == "cpu" ? usable_cores() : 1;
+      const auto add = [&](bool is_flops, const char* precision, double per_s) {
+        ceilings.push_back({is_flops, device.name, "opencl", precision, is_flops ? "" : "memory", 0, threads,
+                            per_s > 0 ? per_s : std::nan(""), "own", "dssbench list devices --measure", ""});
+      };
+      add(true, "f64", measured.f64_flops_per_s);
+      add(true, "f32", measured.f32_flops_per_s);
+      add(false, "", measured.triad_bytes_per_s);
+    }
+    return; // other variants on devices have the same
+  }
+}
+
 } // namespace
 
 std::vector<Ceiling> measure_ceilings(const std::vector<int>& threads,
@@ -128,6 +152,7 @@ std::vector<Ceiling> measure_ceilings(const std::vector<int>& threads,
                      ceiling.level, ceiling.threads, 1e-9 * ceiling.per_s, ceiling.is_flops ? "GFLOP/s" : "GB/s",
                      ceiling.tool));
   }
+  add_devices(ceilings);
   return ceilings;
 }
 

@@ -120,7 +120,10 @@ bool run_micro_study(const MicroStudy& study, const std::string& directory, bool
   nlohmann::json context = measurement_context();
   const std::string no_counters = why_no_counters();
   context["hardware_counters"] = no_counters.empty() ? "available" : "unavailable: " + no_counters;
-  write_circumstances(paths.context, context, circumstances);
+  if (records.present().empty())
+    write_circumstances(paths.context, context, circumstances);
+  else
+    note_resumption(paths.context);
 
   std::vector<Ceiling> ceilings;
   if (resumes && std::filesystem::exists(table_of("ceilings")))

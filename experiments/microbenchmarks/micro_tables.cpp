@@ -23,10 +23,12 @@ const std::vector<std::string> kept_columns = {"cell",
                                                "flops_per_element",
                                                "bytes_per_element"};
 
-/// Of the variant's module, in the words of the ceilings.
+/// Of the variant's module, in the words of the ceilings; empty where none is measured.
 std::string isa_of_ceiling(const std::string& isa) {
-  if (isa.find("v4") != std::string::npos) return "avx512";
-  return isa.find("v3") != std::string::npos ? "avx2" : "scalar";
+  for (const auto& [word, ceiling] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"x86-64-v4", "avx512"}, {"x86-64-v3", "avx2"}, {"x86-64-v2", "scalar"}, {"OpenCL", "opencl"}})
+    if (isa.starts_with(word)) return ceiling;
+  return "";
 }
 
 void put_rates(const Record& head, const std::vector<double>& ns, const std::vector<Ceiling>& ceilings, Record& row) {

@@ -38,6 +38,14 @@ void write_circumstances(const std::string& path, const nlohmann::json& context,
   file.commit();
 }
 
+void note_resumption(const std::string& path) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(read_text(path));
+  json["resumed_utc"].push_back(measurement_time());
+  AtomicFile file(path);
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
 void require_same_circumstances(const std::string& path, const Study& study) {
   const nlohmann::json old = nlohmann::json::parse(read_text(path), nullptr, false);
   if (!old.is_object() || !old.contains("context") || !old.contains("scenes"))

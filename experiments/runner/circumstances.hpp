@@ -14,6 +14,9 @@ std::string scene_digest(const Scene& scene);
 /// Writes the study's name and scale, the digests of its scenes, and the context as a measured process saw it.
 void write_circumstances(const std::string& path, const nlohmann::json& context, const Study& study);
 
+/// Adds the present time to `resumed_utc` of the file: its records were gone on with.
+void note_resumption(const std::string& path);
+
 /// Repetitions of one cell must be of one program, machine and scene.
 /// @throws InputError if those of the file are not those of now
 void require_same_circumstances(const std::string& path, const Study& study);

@@ -76,6 +76,7 @@ private:
     if (present.empty()) return;
     require_same_circumstances(paths_.context, study_);
     has_context_ = true;
+    note_resumption(paths_.context);
     for (const Record& old : present) {
       all_records_.push_back(old);
       if (text_in(old, "scale") != study_.scale.name) continue;

@@ -5,6 +5,7 @@
 #include "experiments/runner/balance_study.hpp"
 #include "experiments/runner/chain/chain_study.hpp"
 #include "experiments/runner/child.hpp"
+#include "experiments/runner/circumstances.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/experiment.hpp"
@@ -55,6 +56,17 @@ std::string table_path(const std::string& name, const std::string& out) {
   return path;
 }
 
+/// The table of a study without records of its own, with what made it beside: raw/NAME.json.
+void write_table(const std::string& name, const ExperimentArguments& arguments, const Table& table) {
+  const ExperimentPaths paths = experiment_paths(arguments.out, name);
+  write_csv(paths.table, table);
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(paths.context).parent_path(), error);
+  Study study;
+  study.name = name, study.scale.name = arguments.scale;
+  write_circumstances(paths.context, measurement_context(), study);
+}
+
 /// Simulates what the study says, beside what it has measured.
 int simulate(const std::string& name, const std::vector<SimulationBlock>& blocks, const std::string& out) {
   const ExperimentPaths paths = experiment_paths(out, name);
@@ -75,7 +87,7 @@ int model(const BalanceStudy& study, const ExperimentArguments& arguments) {
     return exit_success;
   }
   const std::string path = table_path(study.name, arguments.out);
-  write_csv(path, table);
+  write_table(study.name, arguments, table);
   fmt::print("{}\nTable: {}\n", balance_text(study, table), path);
   return exit_success;
 }
@@ -88,7 +100,7 @@ int find_limits(const StabilityStudy& study, const ExperimentArguments& argument
   const std::string path = table_path(study.name, arguments.out);
   flush_denormals();
   const Table limits = stability_table(study), energy = stability_energy_table(study);
-  write_csv(path, limits);
+  write_table(study.name, arguments, limits);
   write_csv(experiment_paths(arguments.out, study.name + "_energy").table, energy);
   write_csv(experiment_paths(arguments.out, study.name + "_map").table, stability_map_table(study));
   fmt::print("{}\nTable: {}\n", stability_text(study, limits, energy), path);
@@ -105,7 +117,7 @@ int check(const Study& study, const ExperimentArguments& arguments, std::size_t 
   }
   const std::string path = table_path(study.name, arguments.out);
   const Table table = make_table(study);
-  write_csv(path, table);
+  write_table(study.name, arguments, table);
   fmt::print("{}\nTable: {}\n", make_text(study, table), path);
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
@@ -120,7 +132,7 @@ int account(const ErrorBudgetStudy& study, const ExperimentArguments& arguments)
   const std::string path = table_path(study.name, arguments.out);
   Progress progress;
   const Table table = error_budget_table(study, [&](const std::string& line) { progress.note(line); });
-  write_csv(path, table);
+  write_table(study.name, arguments, table);
   fmt::print("{}\nTable: {}\n", error_budget_text(study, table), path);
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
@@ -135,7 +147,7 @@ int climb(const LadderStudy& study, const ExperimentArguments& arguments) {
   flush_denormals();
   Progress progress;
   const Table table = ladder_table(study, [&](const std::string& line) { progress.note(line); });
-  write_csv(path, table);
+  write_table(study.name, arguments, table);
   fmt::print("{}\nTable: {}\n", ladder_text(study, table), path);
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }
@@ -149,7 +161,7 @@ int judge_advice(const AdviseStudy& study, const ExperimentArguments& arguments)
   Progress progress;
   const Table table = advise_table(study, experiment_paths(arguments.out, study.name).oracle_directory,
                                    [&](const std::string& line) { progress.note(line); });
-  write_csv(path, table);
+  write_table(study.name, arguments, table);
   fmt::print("{}\nTable: {}\n", advise_study_text(study, table), path);
   return has_failed_rows(table) ? exit_check_failed : exit_success;
 }

@@ -24,6 +24,7 @@ class Record:
         self.commit = str(self.context.get("git_commit", ""))
         self.is_dirty = bool(self.context.get("git_dirty"))
         self.reasons = []
+        self.resumptions = sorted(pandas.to_datetime(text.get("resumed_utc", []), utc=True))
         self._read_times(path.with_suffix(".csv"))
 
     def _read_times(self, path):
@@ -35,7 +36,9 @@ class Record:
                 longest = float(rows["process_s"].max()) if "process_s" in rows and rows["process_s"].notna().any() else 0.0
         self.first, self.last, self.count = times[0], times[-1], len(times)
         pause = PAUSE + 3 * datetime.timedelta(seconds=longest)
-        breaks = [place for place in range(1, len(times)) if times[place] - times[place - 1] > pause]
+        # Newer records say when they were gone on with; of older ones a pause tells.
+        told = [sum(time < resumed for time in times) for resumed in self.resumptions]
+        breaks = [place for place in told if 0 < place < len(times)] if self.resumptions else [place for place in range(1, len(times)) if times[place] - times[place - 1] > pause]
         self.kept = breaks[-1] if breaks else 0  # rows before the last pause
         self.kept_until, self.resumed = (times[breaks[-1] - 1], times[breaks[-1]]) if breaks else (None, None)
 

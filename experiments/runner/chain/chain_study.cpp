@@ -345,7 +345,10 @@ bool run_chain(const ChainStudy& study, const std::string& directory, bool resum
   Progress progress;
   const Scene scene = load_scene(study.scene, study.set);
   RecordFile records(paths.raw, raw_chain_columns(), resumes);
-  write_circumstances(paths.context, measurement_context(), circumstances);
+  if (records.present().empty())
+    write_circumstances(paths.context, measurement_context(), circumstances);
+  else
+    note_resumption(paths.context);
   time_links(study, scene, records, progress);
   ChainErrors errors(study, scene, progress);
   const Table table = chain_table(study, read_csv(paths.raw).rows, errors);

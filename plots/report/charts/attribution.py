@@ -11,6 +11,8 @@ PATTERNS = ["", "/", "x", ".", "-", "|", "+", "\\"]  # parts are told apart with
 
 def attribution(results):
     frame = results.table("attribution", "variant", "model", "precision", "scene", "n", "threads", "part", "measured_ns_per_element_step", "share_of_step", "limiter", "sum_over_step")
+    sums = frame["sum_over_step"].dropna()
+    frame = frame[(frame["part"] != "step") & frame["measured_ns_per_element_step"].notna()].copy()  # the whole is what its parts stack up to
     frame["problem"] = [problem(row["scene"], f"n={shown(row['n'])}" if shown(row["n"]) else "") for _, row in frame.iterrows()]
     frame["bar"] = frame["variant"] + " " + frame["model"] + " " + frame["precision"] + " " + frame["problem"] + ", t" + frame["threads"].map(shown)
     colours, patterns = by_order(frame["part"].unique(), OKABE_ITO), by_order(frame["part"].unique(), PATTERNS)
@@ -20,7 +22,6 @@ def attribution(results):
                        legendgroup=part, marker={"color": colours[part], "pattern": {"shape": patterns[part], "fillmode": "overlay", "fgcolor": "ground", "size": 6, "solidity": 0.25}}, textposition="none")
         trace["hovertext"], trace["hovertemplate"] = trace.pop("text"), "%{hovertext}<extra></extra>"
         traces.append(trace)
-    sums = frame["sum_over_step"].dropna()
     words = "" if sums.empty else f" The parts add up to {' to '.join(dict.fromkeys(f'{end:.3g}' for end in (sums.min(), sums.max())))} of the step's own time."
     text = f"Time of an element and step, by part; limiters and shares of ceilings are said by each part.{words}"
     bars = frame["bar"].nunique()
