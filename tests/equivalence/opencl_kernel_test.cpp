@@ -69,9 +69,12 @@ TEST_F(OpenCl, kernels_have_the_bits_of_packs) {
   if (packs().kernels == nullptr) GTEST_SKIP() << packs().name << " has no kernels";
   opencl::Queue queue(opencl::find_device("", Precision::f64));
   for (const CompiledKernel& kernel : packs().kernels())
-    if (!kernel.is_row) EXPECT_EQ(kernel.precision == Precision::f64 ? differing<double>(queue, kernel) : differing<float>(queue, kernel),
-              0u)
-        << kernel.name << ' ' << name(kernel.model) << ' ' << name(kernel.precision) << ": OpenCL and " << packs().name;
+    if (!kernel.is_row) {
+      EXPECT_EQ(kernel.precision == Precision::f64 ? differing<double>(queue, kernel) : differing<float>(queue, kernel),
+                0u)
+          << kernel.name << ' ' << name(kernel.model) << ' ' << name(kernel.precision) << ": OpenCL and "
+          << packs().name;
+    }
 }
 
 } // namespace
