@@ -1,7 +1,7 @@
 #include "experiments/runner/chain/chain_table.hpp"
 #include "experiments/runner/samples.hpp"
-#include "experiments/runner/study.hpp"
 #include "experiments/runner/statistics.hpp"
+#include "experiments/runner/study.hpp"
 #include "experiments/runner/text_table.hpp"
 
 #include <algorithm>
