@@ -60,6 +60,7 @@ RowPart row_part(const Plugin& plugin, const AttributionCase& one, bool is_last,
   const CompiledKernel& kernel = row_kernel(plugin, one, is_last);
   RowPart part{kernel.name, is_last ? 1 : 3, &kernel, {}, {}, {}, {}, {}, {}, 0};
   const MicroCase in_level = kernel_case(plugin, kernel, level, 1);
+  if (!in_level.skipped.empty()) throw InputError(fmt::format("attribution: {}: {}", level, in_level.skipped));
   part.in_level = in_level.make();
   part.in_l1 = kernel_case(plugin, kernel, "L1", 1).make();
   part.bytes = in_level.bytes;
@@ -88,9 +89,11 @@ void time_rounds(TimedParts& parts, int rounds, double sample_s) {
       timed.ns.push_back(1e9 * seconds(timed) / (timed.elements * double(timed.passes)));
 }
 
+/// Times of one round, by name; NaN for what was not timed.
+using RoundTimes = std::function<double(const std::string& name)>;
+
 /// Median over the rounds of a figure made from the times of a round.
-double over_rounds(const TimedParts& parts,
-                   const std::function<double(const std::function<double(const std::string&)>&)>& figure) {
+double over_rounds(const TimedParts& parts, const std::function<double(const RoundTimes&)>& figure) {
   std::vector<double> values;
   for (std::size_t round = 0; round < parts.begin()->second.ns.size(); ++round)
     values.push_back(figure([&](const std::string& name) {
@@ -100,24 +103,23 @@ double over_rounds(const TimedParts& parts,
   return std::isnan(values.front()) ? values.front() : median(values);
 }
 
-struct Bound {
-  double ns = 0;
-  std::string limiter;
-};
+/// What a row kernel needs at least, by the times of a round: for its flops, its mix of instructions, its traffic [ns].
+double bound_ns(const RoundTimes& of, const RowPart& part, double traffic_ns) {
+  return std::fmax(std::fmax(part.kernel->flops * of("peak"), of(part.name + " mix")), traffic_ns);
+}
 
-/// The bound that is nearest to a row's time.
-Bound largest_bound(const TimedParts& parts, const RowPart& part, double peak_ns, double traffic_ns,
-                    const std::string& level) {
-  Bound most{peak_ns, "arithmetic: fused multiply-adds alone"};
-  if (traffic_ns > most.ns) most = {traffic_ns, fmt::format("{} bandwidth", level)};
-  const double mix_ns = over_rounds(parts, [&](auto&& of) { return of(part.name + " mix"); });
-  if (!(mix_ns > most.ns)) return most;
-  const double lean_ns = over_rounds(parts, [&](auto&& of) { return of(part.name + " lean"); });
-  const double spilled = 1 - lean_ns / mix_ns;
-  most = {mix_ns, "instructions: not all are fused, and operands are in memory"};
-  if (spilled > 0.03)
-    most.limiter += fmt::format("; {:.0f} % of the bound are registers spilled to the stack", 100 * spilled);
-  return most;
+/// Which of these is the largest.
+std::string limiter(const TimedParts& parts, const RowPart& part, double traffic_ns, const std::string& level) {
+  const double peak_ns = over_rounds(parts, [&](const RoundTimes&of) { return part.kernel->flops * of("peak"); }),
+               mix_ns = over_rounds(parts, [&](const RoundTimes&of) { return of(part.name + " mix"); });
+  if (traffic_ns > std::fmax(peak_ns, mix_ns)) return fmt::format("{} bandwidth", level);
+  if (!(mix_ns > peak_ns)) return "arithmetic: fused multiply-adds alone";
+  const double spilled =
+      over_rounds(parts, [&](const RoundTimes& of) { return 1 - of(part.name + " lean") / of(part.name + " mix"); });
+  const std::string words = "instructions: not all are fused, and operands are in memory";
+  return spilled < 0.03
+             ? words
+             : fmt::format("{}; {:.0f} % of the bound are registers spilled to the stack", words, 100 * spilled);
 }
 
 Record head_row(const AttributionCase& one, const std::string& part) {
@@ -144,10 +146,36 @@ void put_mix(const RowPart& part, const TimedParts& parts, Record& row) {
            {"stores", m.stores},
            {"stack_loads", m.stack_loads},
            {"stack_stores", m.stack_stores},
-           {"mix_bound_ns", part.count * over_rounds(parts, [&](auto&& of) { return of(part.name + " mix"); })},
+           {"mix_bound_ns",
+            part.count * over_rounds(parts, [&](const RoundTimes& of) { return of(part.name + " mix"); })},
            {"mix_without_stack_bound_ns",
-            part.count * over_rounds(parts, [&](auto&& of) { return of(part.name + " lean"); })}})
+            part.count * over_rounds(parts, [&](const RoundTimes& of) { return of(part.name + " lean"); })}})
     row[column] = number_text(value);
+}
+
+/// Times of a count of passes of a part; the record of a row kernel.
+Record row_record(const AttributionCase& one, const TimedParts& parts, const RowPart& part, const std::string& level,
+                  double traffic_ns, double l1_traffic_ns) {
+  const auto figure = [&](const std::function<double(const RoundTimes&)>& of_round) {
+    return number_text(over_rounds(parts, of_round));
+  };
+  const double count = part.count;
+  Record row = head_row(one, part.name);
+  row["count_per_step"] = fmt::format("{}", part.count);
+  row["measured_ns_per_element_step"] = figure([&](const RoundTimes& of) { return count * of(part.name); });
+  row["measured_in_l1_ns"] = figure([&](const RoundTimes& of) { return count * of(part.name + " L1"); });
+  row["share_of_step"] = figure([&](const RoundTimes& of) { return count * of(part.name) / of("step"); });
+  row["flops_per_element_step"] = number_text(count * part.kernel->flops);
+  row["share_of_peak"] = figure([&](const RoundTimes& of) { return part.kernel->flops * of("peak") / of(part.name); });
+  row["peak_bound_ns"] = figure([&](const RoundTimes& of) { return count * part.kernel->flops * of("peak"); });
+  row["traffic_bound_ns"] = number_text(count * traffic_ns);
+  row["share_of_ceiling"] =
+      figure([&](const RoundTimes& of) { return bound_ns(of, part, traffic_ns) / of(part.name); });
+  row["share_of_ceiling_in_l1"] =
+      figure([&](const RoundTimes& of) { return bound_ns(of, part, l1_traffic_ns) / of(part.name + " L1"); });
+  row["limiter"] = limiter(parts, part, traffic_ns, level);
+  put_mix(part, parts, row);
+  return row;
 }
 
 } // namespace
@@ -215,40 +243,25 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
   }
   time_rounds(parts, rounds, sample_s);
 
-  const double step_ns = over_rounds(parts, [](auto&& of) { return of("step"); });
-  const double sum_over_step =
-      over_rounds(parts, [](auto&& of) { return (3 * of("stage_row") + of("stage_row_last")) / of("step"); });
-  const double bandwidth_here = bandwidth(ceilings, step.level, 1);
+  const auto traffic_ns = [&](const RowPart& part, const std::string& level) {
+    return 1e9 * part.bytes / bandwidth(ceilings, level, 1); // NaN, and no bound, where it was not measured
+  };
   std::vector<Record> records;
-  double bound_ns = 0;
-  for (const RowPart& part : rows) {
-    Record row = head_row(one, part.name);
-    const double ns = over_rounds(parts, [&](auto&&of) { return of(part.name); }),
-                 in_l1 = over_rounds(parts, [&](auto&&of) { return of(part.name + " L1"); });
-    const double peak_ns = over_rounds(parts, [&](auto&& of) { return part.kernel->flops * of("peak"); });
-    const double traffic_ns = 1e9 * part.bytes / bandwidth_here;
-    const Bound bound = largest_bound(parts, part, peak_ns, traffic_ns, step.level);
-    const Bound in_l1_bound = largest_bound(parts, part, peak_ns, 0, "L1");
-    bound_ns += part.count * bound.ns;
-    row["count_per_step"] = fmt::format("{}", part.count);
-    row["measured_ns_per_element_step"] = number_text(part.count * ns);
-    row["measured_in_l1_ns"] = number_text(part.count * in_l1);
-    row["share_of_step"] =
-        number_text(over_rounds(parts, [&](auto&& of) { return part.count * of(part.name) / of("step"); }));
-    row["flops_per_element_step"] = number_text(part.count * part.kernel->flops);
-    row["share_of_peak"] = number_text(peak_ns / ns);
-    row["peak_bound_ns"] = number_text(part.count * peak_ns);
-    row["traffic_bound_ns"] = number_text(part.count * traffic_ns);
-    row["share_of_ceiling"] = number_text(bound.ns / ns);
-    row["share_of_ceiling_in_l1"] = number_text(in_l1_bound.ns / in_l1);
-    row["limiter"] = bound.limiter;
-    put_mix(part, parts, row);
-    records.push_back(row);
-  }
+  for (const RowPart& part : rows)
+    records.push_back(row_record(one, parts, part, step.level, traffic_ns(part, step.level), traffic_ns(part, "L1")));
+  const auto sum = [&](const std::function<double(const RowPart&)>& figure) {
+    double total = 0;
+    for (const RowPart& part : rows) total += part.count * figure(part);
+    return total;
+  };
+  const double explained = over_rounds(parts, [&](const RoundTimes& of) {
+    return sum([&](const RowPart& part) { return of(part.name); }) / of("step");
+  });
+  const double step_ns = over_rounds(parts, [](const RoundTimes& of) { return of("step"); });
   Record rest = head_row(one, "rest");
   rest["count_per_step"] = "1";
-  rest["measured_ns_per_element_step"] = number_text(step_ns * (1 - sum_over_step));
-  rest["share_of_step"] = number_text(1 - sum_over_step);
+  rest["measured_ns_per_element_step"] = number_text(step_ns * (1 - explained));
+  rest["share_of_step"] = number_text(1 - explained);
   rest["limiter"] =
       "what the rows by themselves do not explain; below zero: the step finds more in nearer caches than they do";
   records.push_back(rest);
@@ -258,9 +271,11 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
   whole["share_of_step"] = "1";
   whole["flops_per_element_step"] = number_text(step.flops);
   whole["share_of_peak"] =
-      number_text(over_rounds(parts, [&](auto&& of) { return step.flops * of("peak") / of("step"); }));
-  whole["share_of_ceiling"] = number_text(bound_ns / step_ns);
-  whole["sum_over_step"] = number_text(sum_over_step);
+      number_text(over_rounds(parts, [&](const RoundTimes& of) { return step.flops * of("peak") / of("step"); }));
+  whole["share_of_ceiling"] = number_text(over_rounds(parts, [&](const RoundTimes& of) {
+    return sum([&](const RowPart& part) { return bound_ns(of, part, traffic_ns(part, step.level)); }) / of("step");
+  }));
+  whole["sum_over_step"] = number_text(explained);
   whole["limiter"] = records.front().at("limiter");
   records.push_back(whole);
   return records;

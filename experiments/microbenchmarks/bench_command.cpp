@@ -50,7 +50,7 @@ void add_bench_command(CLI::App& app, Chosen& chosen) {
       app.add_subcommand("bench", "Time single kernels: microbenchmarks, each checked against long double");
   const auto arguments = std::make_shared<BenchArguments>();
   const auto list = [&](const char* option, auto& value, const char* what) {
-    command->add_option(option, value, what)->delimiter(',');
+    return command->add_option(option, value, what)->delimiter(',');
   };
   list("--kernel", arguments->kernels,
        "Kernels of `dssbench list kernels`, and rk4_step: whole steps; default: what the study says");
@@ -58,10 +58,11 @@ void add_bench_command(CLI::App& app, Chosen& chosen) {
   list("--precision", arguments->precisions, "f64, f32");
   list("--variant", arguments->variants, "Variants, * for all that have kernels");
   list("--level", arguments->levels, "Where the operands lie: L1, L2, L3, memory, * for all");
-  list("--threads", arguments->threads, "Threads, each with operands of its own");
-  list("--n", arguments->sizes, "Of rk4_step: elements a side of the plate");
-  command->add_option("--repetitions", arguments->repetitions, "Of each; `compare` wants nine");
-  command->add_option("--min-time", arguments->sample_s, "Least time of a repetition [s]");
+  list("--threads", arguments->threads, "Threads, each with operands of its own")->check(CLI::PositiveNumber);
+  list("--n", arguments->sizes, "Of rk4_step: elements a side of the plate")->check(CLI::Range(2, 100000));
+  command->add_option("--repetitions", arguments->repetitions, "Of each; `compare` wants nine")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--min-time", arguments->sample_s, "Least time of a repetition [s]")->check(CLI::PositiveNumber);
   command->add_option("--study", arguments->study, "Whose sets are timed")->capture_default_str();
   command->add_option("--scale", arguments->scale, "A scale of the study")->capture_default_str();
   command->add_option("--out", arguments->out, "Directory of raw/ and tables/")->capture_default_str();

@@ -194,7 +194,9 @@ double peak_flops(const std::vector<Ceiling>& ceilings, const std::string& isa, 
 }
 
 double bandwidth(const std::vector<Ceiling>& ceilings, const std::string& level, int threads) {
-  return best(ceilings, [&](const Ceiling& c) { return !c.is_flops && c.level == level && c.threads == threads; });
+  return best(ceilings, [&](const Ceiling& c) {
+    return !c.is_flops && c.isa != "opencl" && c.level == level && c.threads == threads;
+  });
 }
 
 std::string why_no_counters() {

@@ -30,7 +30,7 @@ std::vector<Ceiling> measure_ceilings(const std::vector<int>& threads,
 Table ceiling_table(const std::vector<Ceiling>& ceilings);
 std::vector<Ceiling> read_ceilings(const Table& table);
 
-/// Best flops/s of an instruction set, and best bytes/s of a level; NaN where not measured.
+/// Best flops/s of an instruction set, and best bytes/s of a level of the processor; NaN where not measured.
 double peak_flops(const std::vector<Ceiling>& ceilings, const std::string& isa, const std::string& precision,
                   int threads);
 double bandwidth(const std::vector<Ceiling>& ceilings, const std::string& level, int threads);

@@ -26,7 +26,7 @@ using Executions = std::map<std::uint64_t, long>; ///< by address in the module
 
 /// What the traced process does: a stop before and after each of two rows.
 [[noreturn]] void run_stops(KernelWork& first, KernelWork& second) {
-  ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+  if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) ::_exit(1);
   for (KernelWork* work : {&first, &second}) {
     work->pass(); // what is done once, as binding symbols, is done
     ::raise(SIGSTOP);
@@ -43,6 +43,8 @@ void step_to_stop(pid_t child, std::uint64_t base, std::uint64_t size, long sign
         !WIFSTOPPED(status))
       throw InputError("instruction mix: the traced process ended");
     if (WSTOPSIG(status) == SIGSTOP) return;
+    if (WSTOPSIG(status) != SIGTRAP)
+      throw InputError(fmt::format("instruction mix: the traced process got signal {}", WSTOPSIG(status)));
     user_regs_struct registers{};
     ::ptrace(PTRACE_GETREGS, child, nullptr, &registers);
     if (registers.rip - base < size) executions[registers.rip - base] += sign;
@@ -68,6 +70,7 @@ Executions trace(const CompiledKernel& kernel, std::uint64_t base, std::uint64_t
   try {
     if (::waitpid(child, &status, 0) != child || !WIFSTOPPED(status))
       throw InputError("instruction mix: this system does not let a process be traced");
+    ::ptrace(PTRACE_SETOPTIONS, child, nullptr, PTRACE_O_EXITKILL);
     step_to_stop(child, base, size, -1, executions);
     continue_to_stop(child);
     step_to_stop(child, base, size, 1, executions);

@@ -48,7 +48,9 @@ KernelWork::KernelWork(const CompiledKernel& kernel, const KernelShape& shape)
   in_.reset(allocate((shape.elements * std::size_t(kernel.inputs) + slack) * size_));
   out_.reset(allocate((shape.elements * std::size_t(kernel.outputs) + carry) * size_));
   std::fill_n(in_.get(), (shape.elements * std::size_t(kernel.inputs) + slack) * size_, std::byte{0});
-  std::fill_n(out_.get(), (shape.elements * std::size_t(kernel.outputs) + carry) * size_, std::byte{0});
+  const std::size_t results = shape.elements * std::size_t(kernel.outputs) * size_;
+  std::fill_n(out_.get(), results, std::byte{0xff}); // NaN
+  std::fill_n(out_.get() + results, carry * size_, std::byte{0});
   const std::size_t period = std::min(operand_rows * shape.row_elements, shape.elements);
   for (std::size_t e = 0; e < period; ++e)
     for (int n = 0; n < kernel.inputs; ++n) set_number(in_.get(), place(n, e, kernel.inputs), operand(n, e));
@@ -108,9 +110,10 @@ double kernel_error(const CompiledKernel& kernel) {
       const long double right = exact[e * std::size_t(kernel.outputs) + std::size_t(n)];
       scale = std::max(scale, double(std::abs(right)));
       const double error = std::abs(double((long double)(work.result(n, e)) - right));
-      difference = std::isnan(error) ? error : std::max(difference, error);
+      if (std::isnan(error)) return error;
+      difference = std::max(difference, error);
     }
-    if (const double relative = difference / scale; !(relative <= most)) most = relative;
+    most = std::max(most, difference / scale);
   }
   return most;
 }

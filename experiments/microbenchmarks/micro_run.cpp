@@ -1,5 +1,6 @@
 #include "experiments/microbenchmarks/micro_run.hpp"
 #include "experiments/runner/context.hpp"
+#include "solver/error.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -21,6 +22,7 @@ struct Prepared {
   long passes = 0;
   double error = 0;
   std::string check;
+  std::string cannot; ///< why it cannot run here, or empty
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -106,9 +108,13 @@ Record measured_record(const std::string& experiment, const MicroCase& one, cons
 
 Prepared prepare_case(const MicroCase& one, double sample_s) {
   Prepared prepared;
-  prepared.error = one.error ? one.error() : 0;
-  prepared.check = prepared.error <= one.tolerance() ? "passed" : "failed"; // NaN fails
-  prepared.passes = passes_for(one, sample_s);
+  try {
+    prepared.error = one.error ? one.error() : 0;
+    prepared.check = prepared.error <= one.tolerance() ? "passed" : "failed"; // NaN fails
+    prepared.passes = passes_for(one, sample_s);
+  } catch (const InputError& error) {
+    prepared.cannot = error.what();
+  }
   return prepared;
 }
 
@@ -171,6 +177,14 @@ void run_micro_cases(const std::string& experiment, const std::vector<MicroCase>
       if (present.contains({one->cell(), fmt::format("{}", repetition)})) continue;
       const auto [place, is_new] = prepared.try_emplace(one->cell());
       if (is_new) place->second = prepare_case(*one, rules.sample_s);
+      if (!place->second.cannot.empty()) { // a device without double precision, say: the others go on
+        if (is_new && !present.contains({one->cell(), ""})) {
+          Record record = head_of(experiment, *one);
+          record["status"] = "skipped", record["reason"] = place->second.cannot;
+          records.append(record);
+        }
+        continue;
+      }
       benchmark::ClearRegisteredBenchmarks();
       benchmark::RegisterBenchmark(one->cell().c_str(), [one](benchmark::State& state) { run_case(state, *one); })
           ->Iterations(place->second.passes)

@@ -113,7 +113,8 @@ bool run_micro_study(const MicroStudy& study, const std::string& directory, bool
     std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
   Study circumstances;
   circumstances.name = study.name, circumstances.title = study.title, circumstances.scale.name = study.scale;
-  if (resumes && std::filesystem::exists(paths.raw)) require_same_circumstances(paths.context, circumstances);
+  const std::vector<MicroCase> cases = all_cases(study); // wrong names are refused before anything is moved
+  make_room_for_records(paths.raw, paths.context, circumstances, resumes);
   flush_denormals();
   Progress progress;
   RecordFile records(paths.raw, micro_columns(), resumes);
@@ -126,16 +127,17 @@ bool run_micro_study(const MicroStudy& study, const std::string& directory, bool
     note_resumption(paths.context);
 
   std::vector<Ceiling> ceilings;
-  if (resumes && std::filesystem::exists(table_of("ceilings")))
+  if (std::filesystem::exists(table_of("ceilings")) && (resumes || !study.has_ceilings))
     ceilings = read_ceilings(read_csv(table_of("ceilings")));
-  else if (study.has_ceilings)
+  if (ceilings.empty() && study.has_ceilings) {
     ceilings = measure_ceilings(ceiling_threads(), [&](const std::string& line) { progress.note(line); });
-  write_csv(table_of("ceilings"), ceiling_table(ceilings));
-  run_micro_cases(study.name, all_cases(study), study.rules, records,
+    write_csv(table_of("ceilings"), ceiling_table(ceilings));
+  }
+  run_micro_cases(study.name, cases, study.rules, records,
                   [&](double done, double total, const std::string& what) { progress.show(done, total, what); });
   const Table kernels = kernel_table(read_csv(paths.raw).rows, ceilings);
   write_csv(paths.table, kernels);
-  write_csv(table_of("attribution"), attribution_table(study, ceilings, progress));
+  if (!study.attribution.empty()) write_csv(table_of("attribution"), attribution_table(study, ceilings, progress));
   fmt::print("{} ({})\n{}Table: {}\n", study.title, study.name, kernel_text(kernels), paths.table);
   return std::ranges::none_of(kernels.rows, [](const Record& row) { return text_in(row, "status") == "wrong"; });
 }

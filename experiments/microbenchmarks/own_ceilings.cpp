@@ -24,13 +24,16 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Shortest time of a pass on all threads at once; make_work is called on each.
+/// Shortest time of a pass on all threads at once, each with work of its own.
 double best_pass_s(int threads, const std::function<Work()>& make_work) {
   long passes = 1;
   double best = std::numeric_limits<double>::infinity();
   std::barrier together(threads);
-  const auto run = [&](bool is_first) {
-    const Work work = make_work();
+  std::vector<Work> works; // made here, where an error can be told
+  for (int thread = 0; thread < threads; ++thread) works.push_back(make_work());
+  const auto run = [&](std::size_t thread) {
+    const Work& work = works[thread];
+    const bool is_first = thread == 0;
     if (is_first)
       while (seconds_of([&] { work(passes); }) < least_stream_s) passes *= 2;
     for (int timing = 0; timing < timings; ++timing) {
@@ -43,8 +46,8 @@ double best_pass_s(int threads, const std::function<Work()>& make_work) {
     }
   };
   std::vector<std::thread> others;
-  for (int thread = 1; thread < threads; ++thread) others.emplace_back(run, false);
-  run(true);
+  for (int thread = 1; thread < threads; ++thread) others.emplace_back(run, std::size_t(thread));
+  run(0);
   for (std::thread& other : others) other.join();
   return best;
 }

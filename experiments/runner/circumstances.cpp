@@ -3,6 +3,7 @@
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <functional>
 
@@ -44,6 +45,18 @@ void note_resumption(const std::string& path) {
   AtomicFile file(path);
   file.write(json.dump(2) + "\n");
   file.commit();
+}
+
+void make_room_for_records(const std::string& raw, const std::string& context, const Study& study, bool resumes) {
+  if (!std::filesystem::exists(raw)) return;
+  const nlohmann::json old =
+      std::filesystem::exists(context) ? nlohmann::json::parse(read_text(context), nullptr, false) : nlohmann::json();
+  const std::string scale = old.is_object() ? old.value("scale", "") : "";
+  if (!scale.empty() && scale != study.scale.name)
+    throw InputError(fmt::format("{}: holds records of scale \"{}\", this is scale \"{}\"; give another --out", raw,
+                                 scale, study.scale.name));
+  if (resumes) return require_same_circumstances(context, study);
+  std::filesystem::rename(raw, raw + ".previous");
 }
 
 void require_same_circumstances(const std::string& path, const Study& study) {

@@ -17,6 +17,11 @@ void write_circumstances(const std::string& path, const nlohmann::json& context,
 /// Adds the present time to `resumed_utc` of the file: its records were gone on with.
 void note_resumption(const std::string& path);
 
+/// Makes room for the records of a study that keeps no cells of several scales in one file: with `resumes` those present must be of the same scale and
+/// circumstances; else they are of the same scale and move to PATH.previous, so that a run that is cut off before its first record cannot be gone on with as if they were its own.
+/// @throws InputError if they are not
+void make_room_for_records(const std::string& raw, const std::string& context, const Study& study, bool resumes);
+
 /// Repetitions of one cell must be of one program, machine and scene.
 /// @throws InputError if those of the file are not those of now
 void require_same_circumstances(const std::string& path, const Study& study);

@@ -61,6 +61,7 @@ std::optional<ChainStudy> load_chain(const std::string& study, const std::string
   ChainLink link{"", load_variant("auto").name, "rk4", Model::spatial, Precision::f64, usable_cores(), 0};
   chain.solution = link;
   read_link(work["solution"], chain.solution);
+  if (chain.solution.steps_an_interval < 2) work["solution"].fail("names fewer than two steps_an_interval");
   for (const JsonPlace& place : work["links"].items()) {
     read_link(place, link);
     chain.links.push_back(link);

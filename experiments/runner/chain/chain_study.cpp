@@ -60,9 +60,8 @@ void time_links(const ChainStudy& study, const Scene& scene, RecordFile& records
       const ChainLink& link = study.links[n];
       progress.show(done++, double(study.repetitions) * double(runs.size()), link.label);
       if (present.contains({chain_cell(n, link), fmt::format("{}", repetition)})) continue;
-      const UsageMeter meter;
       runs[n]->advance(steps[n]);
-      const Usage usage = meter.read();
+      const Usage usage = runs[n]->usage();
       const double wall_s = runs[n]->wall_s(),
                    tolerance = link.precision == Precision::f64 ? state_tolerance : single_state_tolerance;
       const bool is_right = differences[n] <= tolerance;
@@ -104,7 +103,7 @@ bool run_chain(const ChainStudy& study, const std::string& directory, bool resum
   Study circumstances;
   circumstances.name = study.name, circumstances.title = study.title, circumstances.scale.name = study.scale;
   circumstances.cells = {cell};
-  if (resumes && std::filesystem::exists(paths.raw)) require_same_circumstances(paths.context, circumstances);
+  make_room_for_records(paths.raw, paths.context, circumstances, resumes);
   flush_denormals();
   Progress progress;
   const Scene scene = load_scene(study.scene, study.set);

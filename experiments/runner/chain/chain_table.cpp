@@ -107,10 +107,12 @@ Table chain_table(const ChainStudy& study, const std::vector<Record>& records, C
       row["measured_wall_low_s"] = number_text(wall.interval->low);
       row["measured_wall_high_s"] = number_text(wall.interval->high);
     }
-    if (row["status"] == "ok") {
+    // No factor over a base that is wrong, or of threads that share a core.
+    if (row["status"] == "ok" && sample_of(0).status() == "ok" && !sample.is_oversubscribed()) {
       const auto steps_of = [&](std::size_t k) { return double(study.links[k].steps_an_interval); };
       put_factor(row, "factor_vs_reference", factor_over(sample_of(0), steps_of(0), sample, steps_of(n)));
-      if (n > 0) put_factor(row, "factor_of_link", factor_over(sample_of(n - 1), steps_of(n - 1), sample, steps_of(n)));
+      if (n > 0 && sample_of(n - 1).status() == "ok")
+        put_factor(row, "factor_of_link", factor_over(sample_of(n - 1), steps_of(n - 1), sample, steps_of(n)));
     }
     table.rows.push_back(std::move(row));
   }

@@ -25,9 +25,11 @@ void LinkRun::advance(long steps) {
     done_ = 0;
   }
   const std::vector<double> signals = signal_rows(scene_.problem, method_, dt_, done_, steps);
+  const UsageMeter meter;
   const auto start = std::chrono::steady_clock::now();
   const Outcome outcome = executor_->advance(steps, signals);
   wall_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  usage_ = meter.read();
   if (!outcome.is_finite)
     throw InputError(
         fmt::format("chain: {} at dt = {:g} s: {} in step {}", method_.name, dt_, outcome.what, done_ + outcome.step));
@@ -58,7 +60,8 @@ static double largest_error(const States& states, const States& solution) {
     for (std::size_t k = 0; k < states[time].size(); ++k) {
       if (int(k % field_count) > uz) continue;
       const double error = std::abs(states[time][k] - solution[time][k]);
-      difference = std::isnan(error) ? error : std::max(difference, error);
+      if (std::isnan(error)) return error;
+      difference = std::max(difference, error);
       largest = std::max(largest, std::abs(solution[time][k]));
     }
   return difference / largest;

@@ -1,6 +1,7 @@
 #pragma once
 /// A link of the chain as an executor, and the errors of whole runs.
 #include "experiments/runner/chain/chain_study.hpp"
+#include "experiments/runner/usage.hpp"
 #include "solver/numerics/method.hpp"
 #include "solver/scene/scene.hpp"
 #include "variants/api.hpp"
@@ -18,13 +19,15 @@ public:
   double dt() const { return dt_; } ///< [s]
   /// From where it is, or from the start where the run would pass its end. @throws InputError if it goes non-finite
   void advance(long steps);
-  double wall_s() const { return wall_s_; } ///< of the last advance [s]
+  double wall_s() const { return wall_s_; }     ///< of the last advance [s]
+  const Usage& usage() const { return usage_; } ///< the same
   std::vector<double> state();
 
 private:
   const Scene& scene_;
   const Method& method_;
   double dt_, wall_s_ = 0;
+  Usage usage_;
   long done_ = 0;
   std::unique_ptr<Executor> executor_;
   const long end_;

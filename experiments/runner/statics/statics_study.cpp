@@ -183,7 +183,9 @@ double displacement_difference(const std::vector<double>& state, const std::vect
   double most = 0, largest = 0;
   for (std::size_t n = 0; n < state.size(); ++n) {
     if (int(n % field_count) > uz) continue;
-    most = std::max(most, std::abs(state[n] - reference[n]));
+    const double difference = std::abs(state[n] - reference[n]);
+    if (std::isnan(difference)) return difference;
+    most = std::max(most, difference);
     largest = std::max(largest, std::abs(reference[n]));
   }
   return largest > 0 ? most / largest : most;
