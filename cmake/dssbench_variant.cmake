@@ -20,9 +20,16 @@ function(dssbench_variant_module target)
   set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${arg_NAME} LINK_DEPENDS ${arg_EXPORTS})
 endfunction()
 
-# CPU features, as __builtin_cpu_supports names them, that code compiled with -march=native uses.
-function(dss_native_needs out)
-  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -dM -E -x c++ /dev/null OUTPUT_VARIABLE macros)
+# dss_march_needs(OUT isa [flag...]): CPU features, as __builtin_cpu_supports names them, that code compiled with -march=isa, and with those of the flags
+# that are -m..., uses.
+function(dss_march_needs out march)
+  set(flags ${ARGN})
+  list(FILTER flags INCLUDE REGEX "^-m")
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=${march} ${flags} -dM -E -x c++ /dev/null
+    OUTPUT_VARIABLE macros ERROR_VARIABLE complaint RESULT_VARIABLE result)
+  if(result)
+    message(FATAL_ERROR "-march=${march} ${flags}: the compiler does not take it\n${complaint}")
+  endif()
   set(needs "")
   foreach(feature sse4.2 avx avx2 fma bmi bmi2 avx512f avx512dq avx512bw avx512vl avx512cd avx512vbmi avx512ifma avx512vnni)
     string(TOUPPER ${feature} macro)

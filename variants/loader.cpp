@@ -36,6 +36,9 @@ void require_interface(const Plugin& plugin, const VariantStatus& variant, const
     throw InputError(fmt::format("variant {}: {} was compiled with other headers, or another standard library, than "
                                  "this program; {}",
                                  variant.name, path, remedy));
+  if (plugin.name == nullptr || plugin.isa == nullptr || plugin.create == nullptr)
+    throw InputError(fmt::format("variant {}: {} gives no name, isa or create in its Plugin; see variants/api.hpp",
+                                 variant.name, path));
   if (plugin.name != variant.name)
     throw InputError(fmt::format("variant {}: {} holds variant {}", variant.name, path, plugin.name));
 }
@@ -47,9 +50,11 @@ const Plugin& open_module(const VariantStatus& variant) {
   const auto entry = reinterpret_cast<PluginEntry>(dlsym(module, plugin_symbol));
   if (entry == nullptr)
     throw InputError(fmt::format("variant {}: {} does not export {}", variant.name, path, plugin_symbol));
-  const Plugin& plugin = *entry();
-  require_interface(plugin, variant, path);
-  return plugin;
+  const Plugin* plugin = entry();
+  if (plugin == nullptr)
+    throw InputError(fmt::format("variant {}: {} of {} gives no Plugin", variant.name, plugin_symbol, path));
+  require_interface(*plugin, variant, path);
+  return *plugin;
 }
 
 /// A library that a module needs may be missing, or a device.
@@ -76,10 +81,14 @@ const std::vector<VariantStatus>& variants() {
       list.push_back({entry.name, entry.isa, why_not_here(entry.needs, entry.missing), entry.is_by_name});
     for (const OutsideVariant& outside : outside_variants()) {
       const auto known = std::ranges::find(list, outside.name, &VariantStatus::name);
+      if (known != list.end() && !outside.unusable.empty()) {
+        list.push_back({outside.path, outside.isa, outside.unusable, true, outside.path}); // its name is another's
+        continue;
+      }
       if (known != list.end())
         throw InputError(fmt::format("{}: variant {} exists already, {}; give it another name", outside.path,
                                      outside.name, known->is_outside() ? "in " + known->path : "in this program"));
-      list.push_back({outside.name, outside.isa, why_not_here(outside.needs, ""), true, outside.path});
+      list.push_back({outside.name, outside.isa, why_not_here(outside.needs, outside.unusable), true, outside.path});
     }
     return list;
   }();

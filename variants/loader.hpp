@@ -20,7 +20,8 @@ struct VariantStatus {
 };
 
 /// Every variant of the registry that CMake generated, slowest first, then those built outside. Needs no module to be
-/// opened. @throws InputError where outside variants are not as they should be, or have the name of another
+/// opened. One built outside that is not as it should be is unusable. @throws InputError where a sound one has the name
+/// of another
 const std::vector<VariantStatus>& variants();
 /// The same, where modules that need more than a CPU (a library, a device) have been opened and asked.
 const std::vector<VariantStatus>& asked_variants();

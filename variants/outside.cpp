@@ -18,21 +18,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void add_once(std::vector<std::string>& all, const std::string& directory) {
+  if (std::find(all.begin(), all.end(), directory) == all.end()) all.push_back(directory);
+}
+
+/// The environment's directories that are there: an exported path may be older than what it names.
 std::vector<std::string> variant_path() {
   const char* text = std::getenv(variant_path_variable);
   std::istringstream parts(text == nullptr ? "" : text);
   std::vector<std::string> directories;
-  for (std::string part; std::getline(parts, part, ':');)
-    if (!part.empty()) directories.push_back(part);
+  for (std::string part; std::getline(parts, part, ':');) {
+    std::error_code error;
+    const std::string absolute = part.empty() ? "" : fs::canonical(part, error).string();
+    if (part.empty() || error || !fs::is_directory(absolute, error)) continue;
+    add_once(directories, absolute.find(':') == std::string::npos ? absolute : part);
+  }
   return directories;
 }
 
-void require_directory(const std::string& directory) {
+std::string given_directory(const std::string& directory) {
   std::error_code error;
-  if (!fs::is_directory(directory, error))
+  const std::string absolute = fs::canonical(directory, error).string();
+  if (error || !fs::is_directory(absolute, error))
     throw InputError(fmt::format("--variant-path {}: no such directory; give one that holds modules, NAME.so with "
-                                 "NAME.json (also from {})",
-                                 directory, variant_path_variable));
+                                 "NAME.json",
+                                 directory));
+  if (absolute.find(':') != std::string::npos)
+    throw InputError(fmt::format("--variant-path {}: a colon separates directories; give one without", directory));
+  return absolute;
 }
 
 [[noreturn]] void refuse_description(const fs::path& path, const std::string& why) {
@@ -55,52 +68,64 @@ std::string joined_needs(const nlohmann::json& needs, const fs::path& path) {
 }
 
 /// Names stand in lists, in keys of cells and before a colon.
-void require_name(const std::string& name, const fs::path& path) {
+bool is_name(const std::string& name) {
   const bool is_sound = name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string::npos;
-  if (name.empty() || !is_sound || name == "auto")
-    throw InputError(fmt::format("{}: \"{}\" is no name for a variant; take lower-case letters, digits, - and _",
-                                 path.string(), name));
+  return !name.empty() && is_sound && name != "auto";
 }
 
-OutsideVariant described(const fs::path& module) {
-  fs::path description = module;
-  description.replace_extension(".json");
-  std::ifstream file(description);
-  if (!file) refuse_description(description, "cannot be read, so nobody knows what CPU its module needs");
+void read_description(OutsideVariant& variant) {
+  const fs::path path = fs::path(variant.path).replace_extension(".json");
+  std::ifstream file(path);
+  if (!file) refuse_description(path, "cannot be read, so nobody knows what CPU its module needs");
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
   const auto has_text = [&](const char* key) { return json.contains(key) && json[key].is_string(); };
   if (!json.is_object() || !has_text("variant") || !has_text("isa"))
-    refuse_description(description, "lacks \"variant\" or \"isa\", or is no JSON");
+    refuse_description(path, "lacks \"variant\" or \"isa\", or is no JSON");
+  const std::string name = json["variant"];
+  if (!is_name(name))
+    throw InputError(fmt::format("{}: \"{}\" is no name for a variant; take lower-case letters, digits, - and _",
+                                 path.string(), name));
+  variant.name = name;
+  variant.isa = json["isa"];
   if (!json.contains("needs") || !json["needs"].is_array())
-    refuse_description(description, "\"needs\" is no list of CPU features");
-  require_name(json["variant"], description);
-  return {json["variant"], json["isa"], joined_needs(json["needs"], description), module.string()};
+    refuse_description(path, "\"needs\" is no list of CPU features");
+  variant.needs = joined_needs(json["needs"], path);
+}
+
+/// A module that is not chosen must not keep others from running, whatever is wrong with it.
+OutsideVariant described(const fs::path& module) {
+  const std::string stem = module.stem().string();
+  OutsideVariant variant{is_name(stem) ? stem : module.string(), "", "", module.string(), ""};
+  try {
+    read_description(variant);
+  } catch (const InputError& error) {
+    variant.unusable = error.what();
+  }
+  return variant;
 }
 
 } // namespace
 
 void add_variant_path(const std::vector<std::string>& directories) {
   std::vector<std::string> all = variant_path();
-  for (const std::string& directory : directories) {
-    require_directory(directory);
-    if (directory.find(':') != std::string::npos)
-      throw InputError(fmt::format("--variant-path {}: a colon separates directories; give one without", directory));
-    const std::string absolute = fs::canonical(directory).string();
-    if (std::find(all.begin(), all.end(), absolute) == all.end()) all.push_back(absolute);
-  }
-  if (!directories.empty()) ::setenv(variant_path_variable, fmt::format("{}", fmt::join(all, ":")).c_str(), 1);
+  for (const std::string& directory : directories) add_once(all, given_directory(directory));
+  if (all.empty())
+    ::unsetenv(variant_path_variable);
+  else
+    ::setenv(variant_path_variable, fmt::format("{}", fmt::join(all, ":")).c_str(), 1);
 }
 
 std::vector<OutsideVariant> outside_variants() {
   std::vector<OutsideVariant> variants;
   for (const std::string& directory : variant_path()) {
-    require_directory(directory);
     std::vector<fs::path> modules;
-    for (const fs::directory_entry& entry : fs::directory_iterator(directory))
-      if (entry.path().extension() == ".so") modules.push_back(entry.path());
+    std::error_code error; // who may not read a directory, or a file, has none there
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory, error))
+      if (entry.path().extension() == ".so" && entry.is_regular_file(error)) modules.push_back(entry.path());
     std::sort(modules.begin(), modules.end());
     for (const fs::path& module : modules) variants.push_back(described(module));
   }
+  std::ranges::stable_partition(variants, [](const OutsideVariant& variant) { return variant.unusable.empty(); });
   return variants;
 }
 

@@ -2,6 +2,7 @@
 
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/names.hpp"
+#include "experiments/runner/study.hpp"
 #include "solver/scene/scene.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ using Words = std::vector<std::string>;
 /// What was typed before the word to be completed.
 struct CommandLine {
   const CLI::App* command; ///< the program itself before a command
-  int positionals = 0;
+  Words positionals;
   Words before;
 };
 
@@ -31,7 +32,7 @@ bool takes_next(const CLI::Option* option, const std::string& word) {
 }
 
 CommandLine read_line(const CLI::App& app, const Words& before) {
-  CommandLine line{&app, 0, before};
+  CommandLine line{&app, {}, before};
   for (std::size_t place = 0; place < before.size(); ++place) {
     const std::string& word = before[place];
     if (word.starts_with("-")) {
@@ -39,10 +40,10 @@ CommandLine read_line(const CLI::App& app, const Words& before) {
       ++place;
     } else if (line.command == &app) {
       const CLI::App* command = find_command(app, word);
-      if (command == nullptr) return {nullptr, 0, before};
+      if (command == nullptr) return {nullptr, {}, before};
       line.command = command;
     } else {
-      ++line.positionals;
+      line.positionals.push_back(word);
     }
   }
   return line;
@@ -57,9 +58,16 @@ Words parameters_of(const CommandLine& line) {
   return keys;
 }
 
+/// Scales of the study on the line; where none is named, those that most studies have.
+Words scales_of(const CommandLine& line) {
+  const Words scales = line.positionals.empty() ? Words{} : scale_names(line.positionals.front());
+  return scales.empty() ? names_of("SCALE") : scales;
+}
+
 Words values_of(const CLI::Option& option, const CommandLine& line) {
   const std::string kind = option.get_positional() ? option.get_name(true) : option.get_type_name();
   if (kind == "KEY=VALUE") return parameters_of(line);
+  if (kind == "SCALE") return scales_of(line);
   if (kind != "COMMAND") return names_of(kind);
   return command_names(*line.command->get_parent());
 }
@@ -75,9 +83,9 @@ Words options_of(const CLI::App* command) {
 }
 
 const CLI::Option* positional_of(const CommandLine& line) {
-  int place = 0;
+  std::size_t place = 0;
   for (const CLI::Option* option : line.command->get_options())
-    if (option->get_positional() && (place++ == line.positionals || option->get_items_expected_max() > 1))
+    if (option->get_positional() && (place++ == line.positionals.size() || option->get_items_expected_max() > 1))
       return option;
   return nullptr;
 }

@@ -79,7 +79,7 @@ Json library_versions() {
 Json digests_of_outside_variants() {
   Json digests;
   for (const VariantStatus& variant : variants())
-    if (variant.is_outside())
+    if (variant.is_outside() && variant.is_usable())
       digests[variant.name] = fmt::format("{:016x}", std::hash<std::string>{}(read_text(variant.path)));
   return digests;
 }

@@ -10,8 +10,8 @@ struct EnvironmentVariable {
 
 inline constexpr std::array environment_variables = {
     EnvironmentVariable{"DSSBENCH_VARIANT_PATH",
-                        "Directories of variants built outside the source tree, separated by colons; --variant-path "
-                        "adds to them."},
+                        "Directories of variants built outside the source tree, separated by colons; those that are "
+                        "not there count for nothing. --variant-path adds to them."},
     EnvironmentVariable{"DSSBENCH_SCENES", "The directory of scenes in place of the shipped one."},
     EnvironmentVariable{"DSSBENCH_EXPERIMENTS", "The directory of experiments in place of the shipped one."},
     EnvironmentVariable{"DSSBENCH_HIDE_CPU_FEATURES",

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <new>
@@ -106,12 +107,34 @@ void describe(CLI::App& app, std::vector<std::string>& variant_path, Chosen& cho
   for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough(); // to --variant-path
 }
 
+/// Directories of outside variants in a line that is being typed, as shells hand it on: bash with a word "=" between
+/// option and value, all with ~ as it was typed.
+std::vector<std::string> typed_variant_path(std::vector<std::string> words) {
+  std::erase(words, "=");
+  const std::string option = "--variant-path", prefix = option + "=";
+  const char* home = std::getenv("HOME");
+  std::vector<std::string> directories;
+  for (std::size_t place = 0; place < words.size(); ++place) {
+    std::string directory;
+    if (words[place].starts_with(prefix))
+      directory = words[place].substr(prefix.size());
+    else if (words[place] == option && place + 1 < words.size())
+      directory = words[++place];
+    if (home != nullptr && (directory == "~" || directory.starts_with("~/"))) directory.replace(0, 1, home);
+    if (!directory.empty()) directories.push_back(directory);
+  }
+  return directories;
+}
+
 /// What completion scripts ask for: one completion a line. `words` begin with "complete".
 int complete(const CLI::App& app, const std::vector<std::string>& words) {
-  std::vector<std::string> directories;
-  for (std::size_t place = 1; place + 2 < words.size(); ++place)
-    if (words[place] == "--variant-path") directories.push_back(words[place + 1]);
-  add_variant_path(directories);
+  const std::vector<std::string> before(words.begin() + 1, words.end() - (words.size() > 1 ? 1 : 0));
+  for (const std::string& directory : typed_variant_path(before)) {
+    try {
+      add_variant_path({directory});
+    } catch (const InputError&) { // the line is refused when it is run; until then it can be completed
+    }
+  }
   for (const std::string& completion : completions(app, {words.begin() + 1, words.end()}))
     fmt::print("{}\n", completion);
   return exit_success;

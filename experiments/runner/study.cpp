@@ -158,6 +158,17 @@ std::string study_path(const std::string& name_or_path) {
   throw InputError(fmt::format("{}: no such experiment; {}", name_or_path, nearest_name(name_or_path, names)));
 }
 
+std::vector<std::string> scale_names(const std::string& name_or_path) {
+  std::vector<std::string> names;
+  try {
+    const nlohmann::json json = parse_json_file(study_path(name_or_path));
+    if (json.is_object() && json.contains("scales"))
+      for (const auto& [name, scale] : json["scales"].items()) names.push_back(name);
+  } catch (const InputError&) {
+  }
+  return names;
+}
+
 Study load_study(const std::string& name_or_path, const std::string& scale, int cores) {
   Study study;
   study.path = study_path(name_or_path);

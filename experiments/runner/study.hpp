@@ -104,6 +104,9 @@ std::vector<StudyListing> list_studies();
 /// Path of a study by its name or path. @throws InputError naming the nearest
 std::string study_path(const std::string& name_or_path);
 
+/// Names of the scales of a study, by its name or path; none where there is no such study, or it has none.
+std::vector<std::string> scale_names(const std::string& name_or_path);
+
 /// Loads a study by name or path and resolves it for a scale and a number of cores.
 /// Every scene is loaded with its overrides, so that a study with a wrong one is refused before it measures.
 /// @throws InputError: file, JSON pointer, what is wrong and what would be right

@@ -44,6 +44,8 @@ std::vector<const Plugin*> chosen_plugins(const std::vector<std::string>& asked,
   std::vector<const Plugin*> plugins;
   for (const VariantStatus& status : asked_variants()) {
     if (!asked.empty() && std::find(asked.begin(), asked.end(), status.name) == asked.end()) continue;
+    if (!asked.empty() && status.is_outside() && !status.is_usable()) // to skip it would prove nothing
+      throw InputError(fmt::format("variant {} cannot run here: {}", status.name, status.unusable));
     if (status.is_usable())
       plugins.push_back(&load_variant(status.name));
     else

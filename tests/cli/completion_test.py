@@ -13,6 +13,11 @@ def offered(*words):
     return dssbench("complete", *words).stdout.split()
 
 
+def study_file(name):
+    listed = json.loads(dssbench("list", "experiments", "--json").stdout)
+    return next(study["path"] for study in listed if study["experiment"] == name)
+
+
 def in_bash(line):
     """What bash offers after this line, by the script that the program prints."""
     words = line.split(" ")
@@ -55,7 +60,7 @@ class Completion(ProgramTest):
         lines = [("run",), ("list",), ("experiment",), ("help",), ("completion",), (*run, "--variant"), (*run, "--model"), (*run, "--precision"), (*run, "--integrator"),
                  (*run, "--rotation"), (*run, "--halo"), (*run, "--decomposition"), (*run, "--shares"), (*run, "--on-bound"), (*run, "--analysis"),
                  (*statics, "--solver"), (*statics, "--solver", "cg", "--preconditioner"), (*statics, "--solver", "relaxation", "--masses"),
-                 ("advise", "two_elements", "--tolerance", "1e-3", "--quantity"), ("experiment", "table1_host", "--scale"),
+                 ("advise", "two_elements", "--tolerance", "1e-3", "--quantity"), ("experiment", "table1_host", "--scale"), ("experiment", "table3", "--scale"),
                  ("decompose", "two_elements", "--parts", "2", "--method"), (*simulate, "--halo"), (*simulate, "--platform"), (*simulate, "--precision")]
         for line in lines:
             refusal = dssbench(*line, "zzz")
@@ -74,8 +79,28 @@ class Completion(ProgramTest):
 
     def test_outside_variants_of_the_line_and_faults_in_it_are_no_error(self):
         self.assertEqual(offered("--variant-path", self.directory, "ru"), ["run"])
-        self.assertEqual(offered("--variant-path", self.path("none"), "ru"), [])
+        self.assertEqual(offered("--variant-path", self.path("none"), "ru"), ["run"])
         self.assertEqual(offered("nothing", "known", ""), [])
+
+    def test_a_directory_of_outside_variants_is_known_however_it_is_typed(self):
+        os.mkdir(self.path("m"))
+        self.write("m/wider.so", "")
+        self.write("m/wider.json", '{"variant": "wider", "isa": "x86-64", "needs": []}')
+        home = {**os.environ, "HOME": self.directory}
+        for typed in (("--variant-path", self.path("m")), (f"--variant-path={self.path('m')}",), ("--variant-path", "=", self.path("m")),
+                      ("--variant-path", "~/m"), ("--variant-path=~/m",), ("--variant-path", "=", "~/m")):
+            result = dssbench("complete", *typed, "run", "two_elements", "--variant", "wid", env=home)
+            self.assertEqual((result.returncode, result.stdout.split(), result.stderr), (0, ["wider"], ""), typed)
+
+    def test_scales_are_those_of_the_study_on_the_line(self):
+        with open(study_file("table3"), encoding="utf-8") as file:
+            scales = sorted(json.load(file)["scales"])
+        self.assertIn("gpu", scales)
+        self.assertEqual(sorted(offered("experiment", "table3", "--scale", "")), scales)
+        self.assertEqual(sorted(offered("experiment", study_file("table3"), "--scale", "")), scales)
+        self.assertEqual(in_bash("dssbench experiment table3 --scale = g"), ["gpu"])
+        self.assertNotIn("gpu", offered("experiment", "table1_host", "--scale", ""))
+        self.assertIn("host", offered("experiment", "--scale", ""))
 
     def test_the_listing_has_every_scene_that_is_offered(self):
         listed = [scene["scene"] for scene in json.loads(dssbench("list", "scenes", "--json").stdout)]

@@ -118,6 +118,25 @@ class Install(unittest.TestCase):
         named = {**os.environ, "DSSBENCH_VARIANT_PATH": self.modules}
         self.assertEqual(self.dssbench("run", "two_elements", "--steps", "10", "--variant", "wider", env=named).returncode, 0)
 
+    def test_one_directory_named_twice_is_one(self):
+        os.symlink(self.modules, self.directory + "/link")
+        for named in ("build/variants", "build/variants/:./build/../build/variants", self.modules, "link"):
+            result = self.dssbench("list", "variants", "--json", "--variant-path", "build/variants", env={**os.environ, "DSSBENCH_VARIANT_PATH": named})
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual([item["path"] for item in json.loads(result.stdout) if item["variant"] == "wider"], [self.modules + "/wider.so"])
+
+    def test_processes_know_relative_paths_of_the_environment(self):
+        study = {**STUDY, "experiment": "relative", "cells": [{"scene": "two_elements", "variants": ["wider"]}], "base": ["wider"], "twin": "wider"}
+        with open(self.directory + "/relative.json", "w", encoding="utf-8") as file:
+            json.dump(study, file)
+        result = self.dssbench("experiment", "relative.json", "--scale", "smoke", "--out", "results", env={**os.environ, "DSSBENCH_VARIANT_PATH": "build/variants"})
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_a_path_of_the_environment_that_is_no_longer_there_keeps_nothing_from_running(self):
+        stale = {**os.environ, "DSSBENCH_VARIANT_PATH": f"no/such:{self.modules}:/no/such"}
+        self.assertEqual(self.dssbench("run", "two_elements", "--steps", "10", "--variant", "reference", env=stale).returncode, 0)
+        self.assertEqual(self.dssbench("run", "two_elements", "--steps", "10", "--variant", "wider", env=stale).returncode, 0)
+
     def test_a_directory_that_is_not_there_is_refused(self):
         for arguments in (("list", "variants"), ("compare", "a", "b")):
             self.assertIn("--variant-path no/such: no such directory", self.refused(*arguments, "--variant-path", "no/such"))
@@ -130,7 +149,7 @@ class Install(unittest.TestCase):
 
     def test_a_name_that_means_something_else_is_refused(self):
         for folder, name in (("none", ""), ("auto", "auto"), ("colon", "mpi:wider"), ("comma", "a,b")):
-            self.assertIn("is no name for a variant", self.refused("list", "variants", "--variant-path", self.altered(folder, variant=name)))
+            self.assert_only_its_choice_is_refused("is no name for a variant", self.altered(folder, variant=name))
 
     def test_a_module_that_needs_another_cpu_is_not_opened(self):
         hidden = {**os.environ, "DSSBENCH_HIDE_CPU_FEATURES": "bmi2"}
@@ -139,35 +158,87 @@ class Install(unittest.TestCase):
             pass
         path = ("--variant-path", directory)
         self.assertIn("this CPU lacks bmi2", self.refused("run", "two_elements", "--variant", "wider", *path, env=hidden))
-        self.assertIn('did you mean "avx512f"', self.refused("list", "variants", "--variant-path", self.altered("odd", needs=["avx512g"])))
+        self.assert_only_its_choice_is_refused('did you mean "avx512f"', self.altered("odd", needs=["avx512g"]))
+
+    def assert_only_its_choice_is_refused(self, words, directory):
+        """The outside variant is listed as unusable, and others run beside it."""
+        path = ("--variant-path", directory)
+        listed = {item["variant"]: item for item in self.listed("variants", *path)}
+        self.assertIn(words, listed["wider"]["status"])
+        self.assertEqual(listed["reference"]["status"], "usable")
+        self.assertEqual(self.dssbench("run", "two_elements", "--steps", "10", "--variant", "reference", *path).returncode, 0)
+        for command in ("run", "verify"):
+            self.assertIn(words, self.refused(command, "two_elements", "--variant", "wider", *path))
 
     def test_a_module_without_description_is_refused_with_what_would_be_right(self):
         directory = self.altered("mute")
         os.remove(directory + "/wider.json")
-        self.assertRegex(self.refused("list", "variants", "--variant-path", directory), r'wider\.json: cannot be read.*"needs"')
+        self.assert_only_its_choice_is_refused("wider.json: cannot be read, so nobody knows what CPU its module needs; right is", directory)
         for text in ("{", "[]", '{"variant": "wider"}', '{"variant": "wider", "isa": "x", "needs": "bmi2"}'):
             with open(directory + "/wider.json", "w", encoding="utf-8") as file:
                 file.write(text)
-            self.assertIn("wider.json: ", self.refused("list", "variants", "--variant-path", directory))
+            self.assert_only_its_choice_is_refused("wider.json: ", directory)
 
-    def with_plugin(self, name, abi, layout):
+    def test_folders_are_no_modules_and_a_broken_one_takes_no_name(self):
+        directory = self.altered("mixed")
+        os.mkdir(directory + "/d.so")
+        for name in ("scalar", "wider2", "auto"):
+            with open(f"{directory}/{name}.so", "w", encoding="utf-8"):
+                pass
+        with open(directory + "/wider2.json", "w", encoding="utf-8") as file: # sound but for this, and named as a sound one
+            json.dump({"variant": "wider", "isa": "x86-64", "needs": "none"}, file)
+        path = ("--variant-path", directory)
+        listed = {item["variant"]: item for item in self.listed("variants", *path)}
+        self.assertEqual([name for name in listed if name.startswith(directory)], [f"{directory}/{name}.so" for name in ("auto", "scalar", "wider2")])
+        for name in ("scalar", "wider", "auto"):
+            self.assertEqual(self.dssbench("run", "two_elements", "--steps", "10", "--variant", name, *path).returncode, 0, name)
+
+    def test_a_program_that_is_not_in_bin_is_not_an_installed_one(self):
+        os.mkdir(self.prefix + "/tools")
+        shutil.copy(self.prefix + "/bin/dssbench", self.prefix + "/tools")
+        for item in json.loads(must(self.prefix + "/tools/dssbench", "list", "scenes", "--json")):
+            self.assertTrue(item["path"].startswith(SOURCE), item["path"])
+
+    def test_what_march_and_options_use_is_needed_without_being_said(self):
+        directory = self.directory + "/needs"
+        os.mkdir(directory)
+        with open(directory + "/CMakeLists.txt", "w", encoding="utf-8") as file:
+            file.write("cmake_minimum_required(VERSION 3.25)\nproject(needs LANGUAGES CXX)\nfind_package(dssbench REQUIRED)\n"
+                       "dssbench_add_variant(least MARCH x86-64 SOURCES plugin.cpp)\n"
+                       "dssbench_add_variant(v4 MARCH x86-64-v4 SOURCES plugin.cpp)\n"
+                       "dssbench_add_variant(more MARCH x86-64-v3 NEEDS avx512vnni avx2 OPTIONS -O3 -mavx512f SOURCES plugin.cpp)\n")
+        shutil.copy(self.directory + "/variant/plugin.cpp", directory)
+        must(CMAKE, "-S", directory, "-B", directory + "/build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        needs = {}
+        for name in ("least", "v4", "more"):
+            with open(f"{directory}/build/variants/{name}.json", encoding="utf-8") as file:
+                needs[name] = json.load(file)["needs"]
+        self.assertEqual(needs["least"], [])
+        self.assertLessEqual({"avx2", "fma", "bmi2", "avx512f", "avx512dq", "avx512bw", "avx512vl"}, set(needs["v4"]))
+        self.assertLessEqual({"avx2", "fma", "bmi2", "avx512f", "avx512vnni"}, set(needs["more"]))
+        self.assertEqual(len(needs["more"]), len(set(needs["more"])))
+
+    def with_plugin(self, name, abi, layout, own_name='"wider"', result="&plugin"):
         """A module that says this of itself, and can do nothing."""
         directory = self.altered(name)
         with open(directory + "/plugin.cpp", "w", encoding="utf-8") as file:
             file.write('#include "variants/api.hpp"\n'
-                       'static constexpr dss::Plugin plugin{.abi = ' + abi + ', .name = "wider", .isa = "x", .has_fma = false, .is_threaded = false,\n'
+                       'static constexpr dss::Plugin plugin{.abi = ' + abi + ', .name = ' + own_name + ', .isa = "x", .has_fma = false, .is_threaded = false,\n'
                        '  .is_distributed = false, .create = nullptr, .kernels = nullptr, .layout = ' + layout + '};\n'
-                       'extern "C" const dss::Plugin* dss_plugin() { return &plugin; }\n')
+                       'extern "C" const dss::Plugin* dss_plugin() { return ' + result + '; }\n')
         must(os.environ["CXX"], "-std=c++20", "-shared", "-fPIC", f"-I{self.prefix}/include/dssbench", directory + "/plugin.cpp", "-o", directory + "/wider.so")
         return directory
 
     def test_a_module_of_another_interface_or_other_headers_is_refused(self):
         for name, abi, layout, words in (("abi", "dss::plugin_abi + 1", "dss::plugin_layout", "speaks interface"),
                                          ("layout", "dss::plugin_abi", "1", "was compiled with other headers")):
-            directory = self.with_plugin(name, abi, layout)
-            self.assertIn(words, self.refused("run", "two_elements", "--variant", "wider", "--variant-path", directory))
-            listed = {item["variant"]: item for item in self.listed("variants", "--variant-path", directory)}
-            self.assertIn(words, listed["wider"]["status"])
+            self.assert_only_its_choice_is_refused(words, self.with_plugin(name, abi, layout))
+
+    def test_a_module_that_gives_null_is_refused(self):
+        right = ("dss::plugin_abi", "dss::plugin_layout")
+        self.assert_only_its_choice_is_refused("gives no name, isa or create", self.with_plugin("no_create", *right))
+        self.assert_only_its_choice_is_refused("gives no name, isa or create", self.with_plugin("no_name", *right, own_name="nullptr"))
+        self.assert_only_its_choice_is_refused("gives no Plugin", self.with_plugin("no_plugin", *right, result="plugin.abi == 0 ? &plugin : nullptr"))
 
 
 if __name__ == "__main__":
