@@ -47,7 +47,7 @@ def other_grids(results):
     """(grid, age, command, folder) of Table 3 on other machines."""
     for other in results.others():
         ages = Ages(other.directory)
-        yield paper_tables.other_table3(other), ages.line("table3", "table3"), command_text(other, ages, "table3"), f"{other.directory.name}/"
+        yield paper_tables.other_table3(other), ages.line("table3"), command_text(other, ages, "table3"), f"{other.directory.name}/"
 
 
 def revision():
@@ -80,6 +80,8 @@ def old_and_missing(missing, ages):
     """The section that says both."""
     lines = [f"{escaped(titles)}: {escaped(reason)}; run {page.command(study, '')}." for titles, study, reason in by_study(missing)]
     lines += [f'{escaped(name)} is <strong class="old">old</strong>: {escaped(why)}.' for name, why in ages.old()]
+    if ages.unknown():
+        lines.append(f'No record in raw/ says when these tables were made: {", ".join(page.link(f"tables/{name}.csv") for name in ages.unknown())}.')
     content = page.element("ul", "".join(page.element("li", line) for line in lines)) if lines else page.element("p", "Nothing.")
     return page.element("section", page.element("h2", "Old and missing") + content, id="old-and-missing")
 
@@ -87,18 +89,18 @@ def old_and_missing(missing, ages):
 def build(results, plotly):
     """(text of the page, text of REPORT.md)."""
     ages, missing, charts, sections = Ages(results.directory), [], {}, []
-    grids = [(grid, ages.line(study_of(table), table), command_text(results, ages, table), "")
+    grids = [(grid, ages.line(table), command_text(results, ages, table), "")
              for name, title, table, make in paper_tables.TABLES if (grid := attempt(missing, name, title, table, lambda: make(results)))]
     grids += other_grids(results)
     for name, title, table, make in CHARTS:
         chart = attempt(missing, name, title, table, lambda: make(results))
         if chart:
             charts[name] = chart
-            sections.append(page.chart_section(name, title, chart, ages.line(study_of(table), table), scale_of(results, ages, table), bool(plotly)))
+            sections.append(page.chart_section(name, title, chart, ages.line(table), scale_of(results, ages, table), bool(plotly)))
         else:
             sections.append(page.missing_section(*missing[-1]))
     names = {name for name, _, _, _ in paper_tables.TABLES}
-    sentences = summary.sentences(results, missing, ages.old(), len(ages.records))
+    sentences = summary.sentences(results, missing, ages)
     body = [page.element("section", page.element("h2", "Summary") + page.element("ol", "".join(page.element("li", prose(text)) for text in sentences), class_="summary"), id="summary"),
             old_and_missing(missing, ages), page.element("h2", "Tables of the paper", id="tables")]
     body += [page.grid_section(grid, age, page.element("code", escaped(made_by)), folder) for grid, age, made_by, folder in grids]

@@ -19,6 +19,9 @@ def write(sentences, grids, figures, missing, ages):
     lines += [*[f"{number}. {text}" for number, text in enumerate(sentences, 1)], "", "## Old and missing", ""]
     lines += [f"* {titles}: {reason}; run `dssbench experiment {study}`." for titles, study, reason in missing] or ["Nothing is missing."]
     lines += [""] + ([f"* {name} is old: {why}." for name, why in ages.old()] or ["No record is known to be old."])
+    if ages.unknown():
+        names = ", ".join(f"[{name}](tables/{name}.csv)" for name in ages.unknown())
+        lines.append(f"* No record in raw/ says when these tables were made: {names}.")
     lines += ["", "## Tables of the paper", ""]
     for grid, age, made_by in grids:
         lines += grid_lines(grid, age, made_by)

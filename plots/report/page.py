@@ -141,7 +141,7 @@ def tables_section(results, ages):
     """Every table, with what is known of its age."""
     rows = []
     for name in results.names():
-        is_old, text = ages.line(study_of(name), name)
+        is_old, text = ages.line(name)
         try:
             count = str(len(results.table(name)))
         except NotMeasured as reason:

@@ -56,7 +56,14 @@ def of_accuracy(results):
     return sentence[0].upper() + sentence[1:] + "."
 
 
-def of_trust(results, missing, old, records):
+def of_age(ages):
+    """How many records are old, and how many tables have none."""
+    old, count, unknown = len(ages.old()), len(ages.records), len(ages.unknown())
+    words = f"{old} of {count} records {'are' if old != 1 else 'is'} old, wholly or in part" if old else "no record is known to be old"
+    return words + (f", while {unknown} table{'s have' if unknown != 1 else ' has'} no record, so that {'their' if unknown != 1 else 'its'} age is unknown" if unknown else "")
+
+
+def of_trust(results, missing, ages):
     """What holds, what is missing and what is old."""
     parts = []
     for table, words in (("failures", "cells of the failure atlas are as theory says"), ("model_ladder", "rows of the model ladder are as expected"),
@@ -68,9 +75,8 @@ def of_trust(results, missing, old, records):
             pass
     held = ", ".join(parts) if parts else "nothing was held against theory"
     lack = f"{len(missing)} section{'s are' if len(missing) != 1 else ' is'} not measured" if missing else "nothing is missing"
-    age = f"{len(old)} of {records} records {'are' if len(old) != 1 else 'is'} old, wholly or in part" if old else "no record is known to be old"
-    return f"{held[0].upper()}{held[1:]}; in this report {lack}, and {age}."
+    return f"{held[0].upper()}{held[1:]}; in this report {lack}, and {of_age(ages)}."
 
 
-def sentences(results, missing, old, records):
-    return [of_speed(results), of_accuracy(results), of_trust(results, missing, old, records)]
+def sentences(results, missing, ages):
+    return [of_speed(results), of_accuracy(results), of_trust(results, missing, ages)]

@@ -68,6 +68,19 @@ class ReportTest(unittest.TestCase):
         host = page[page.index('id="table-1-host"'):page.index('id="table-1-host"') + 400]
         self.assertNotIn("old", host)
 
+    def test_a_table_without_a_record_is_of_unknown_age_whatever_the_time_of_its_file(self):
+        directory = self.directory / "unrecorded"
+        sample.write_sample(directory)
+        os.utime(directory / "tables" / "advise.csv", (0, 0))
+        os.utime(directory / "tables" / "statics.csv", (2e9, 2e9))
+        self.assertEqual(report.make_report(directory, self.directory / "no-directory" / "environment").returncode, 0)
+        page, text = [(directory / name).read_text(encoding="utf-8") for name in ("report.html", "REPORT.md")]
+        for study in ("advise", "statics"):
+            self.assertIn(f"age unknown: no raw/{study}.json says which commit made it", page.split('id="all-tables"')[1])
+        for written in (page.split('id="tables"')[0], text):
+            self.assertIn("3 of 4 records are old, wholly or in part, while 2 tables have no record", written)
+            self.assertRegex(written, "No record in raw/ says when these tables were made: .*advise.*statics")
+
     def test_every_record_is_in_the_environment_with_its_commit(self):
         environment = self.pages["committed"].split('id="environment"')[1]
         for path in (self.directory / "committed" / "raw").glob("*.json"):
