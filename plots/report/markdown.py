@@ -14,10 +14,10 @@ def grid_lines(grid, age, made_by):
 
 
 def write(sentences, grids, figures, missing, ages):
-    """The text of REPORT.md. grids: (grid, age, command); missing: (titles, study, reason)."""
+    """The text of REPORT.md. grids: (grid, age, command); missing: (titles, reason, study)."""
     lines = ["# Report", "", "Made by `plots/make_report.py` from the tables beside it; [report.html](report.html), where it was built, has the charts.", ""]
     lines += [*[f"{number}. {text}" for number, text in enumerate(sentences, 1)], "", "## Old and missing", ""]
-    lines += [f"* {titles}: {reason}; run `dssbench experiment {study}`." for titles, study, reason in missing] or ["Nothing is missing."]
+    lines += [f"* {titles}: {reason}{f'; run `dssbench experiment {study}`' if study else ''}." for titles, reason, study in missing] or ["Nothing is missing."]
     lines += [""] + ([f"* {name} is old: {why}." for name, why in ages.old()] or ["No record is known to be old."])
     if ages.unknown():
         names = ", ".join(f"[{name}](tables/{name}.csv)" for name in ages.unknown())

@@ -76,9 +76,9 @@ def chart_section(name, title, chart, age, scale, has_library):
     return element("section", "\n".join(body), class_="part", id=name)
 
 
-def missing_section(name, title, table, reason):
-    text = f"{escaped(reason[0].upper() + reason[1:])}: run {command(study_of(table), '')}"
-    return element("section", element("h3", escaped(title)) + element("p", text, class_="missing"), id=name, data_missing="yes")
+def missing_section(lack):
+    text = escaped(lack.reason[0].upper() + lack.reason[1:]) + ("" if lack.is_fault else f": run {command(study_of(lack.table), '')}")
+    return element("section", element("h3", escaped(lack.title)) + element("p", text, class_="missing"), id=lack.name, data_missing="yes")
 
 
 def grid_section(grid, age, made_by, folder=""):

@@ -1,5 +1,5 @@
 """Three sentences on the whole, with figures from the tables."""
-from .results import NotMeasured
+from .results import FAULTS, NotMeasured
 from .words import shown, with_interval
 
 
@@ -74,9 +74,20 @@ def of_trust(results, missing, ages):
         except NotMeasured:
             pass
     held = ", ".join(parts) if parts else "nothing was held against theory"
-    lack = f"{len(missing)} section{'s are' if len(missing) != 1 else ' is'} not measured" if missing else "nothing is missing"
+    faults = sum(lack.is_fault for lack in missing)
+    count = len(missing) - faults
+    lack = f"{count} section{'s are' if count != 1 else ' is'} not measured" if count else "nothing is missing"
+    lack += f", {faults} section{'s' if faults != 1 else ''} cannot be drawn" if faults else ""
     return f"{held[0].upper()}{held[1:]}; in this report {lack}, and {of_age(ages)}."
 
 
+def said(make, *of):
+    """A sentence; one on tables with values of an unexpected kind says that."""
+    try:
+        return make(*of)
+    except FAULTS as fault:
+        return f"This sentence cannot be made of its tables: {type(fault).__name__}: {fault}."
+
+
 def sentences(results, missing, ages):
-    return [of_speed(results), of_accuracy(results), of_trust(results, missing, ages)]
+    return [said(of_speed, results), said(of_accuracy, results), said(of_trust, results, missing, ages)]

@@ -1,6 +1,6 @@
 """Kernels under the ceilings that were measured in the same session."""
 from ..results import NotMeasured
-from ..words import choice
+from ..words import choice, shown
 from .chart import OKABE_ITO, SYMBOLS, Chart, Filter, by_order, logarithmic, plain, points
 
 COLUMNS = {"cell": "cell", "kernel": "kernel", "model": "model", "precision": "precision", "variant": "variant", "level": "level", "threads": "threads", "intensity_flop_per_byte": "flop/byte",
@@ -50,7 +50,10 @@ def roofline(results):
                              legendgroup=kernel, marker={"size": 9, "color": colours[kernel], "symbol": symbols[variant]}))
     marks = ", ".join(f"{symbol.replace('-', ' ')} {variant}" for variant, symbol in symbols.items())
     best = good.loc[good["share_of_roof"].idxmax()] if good["share_of_roof"].notna().any() else None
-    words = "" if best is None else f" Closest to its roof is {best['kernel']} of {best['variant']} in {best['precision']}, {best['level']}: {100 * best['share_of_roof']:.0f} %, held by {best['limiter']}."
+    words = ""
+    if best is not None:
+        limiter = f", held by {best['limiter']}" if shown(best["limiter"]) else ""
+        words = f" Closest to its roof is {best['kernel']} of {best['variant']} in {best['precision']}, {shown(best['level'])}: {100 * best['share_of_roof']:.0f} %{limiter}."
     roof = "Grey lines are ceilings as measured in this session, by memory level." if has_roof else "The ceilings were not measured: run `dssbench experiment kernels`."
     text = f"Declared flops over the measured time, against declared flops over bytes. A colour is a kernel, a mark a variant ({marks}). {roof}{words}"
     layout = {"xaxis": logarithmic("flop/byte"), "yaxis": logarithmic("flop/s")}
