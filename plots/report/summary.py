@@ -1,4 +1,5 @@
 """Three sentences on the whole, with figures from the tables."""
+from .charts.chain import best_link
 from .results import FAULTS, NotMeasured
 from .words import shown, with_interval
 
@@ -28,12 +29,10 @@ def of_accuracy(results):
     """What an accuracy costs."""
     parts = []
     try:
-        chain = results.table("chain", "link", "label", "factor_vs_reference", "error_max").sort_values("link")
-        chain = chain[chain["factor_vs_reference"].notna()]
-        if len(chain):
-            last = chain.iloc[-1]
-            parts.append(f"the chain from the reference to the cheapest method of the same error ends at {shown(last['factor_vs_reference'])} times ({last['label']}) "
-                         f"with an error of {shown(last['error_max'])}")
+        best = best_link(results.table("chain", "label", "factor_vs_reference", "error_max", "error_bar", "status"))
+        parts.append("no link of the chain keeps the allowed error" if best is None else
+                     f"the chain from the reference to the cheapest run within an error of {shown(best['error_bar'])} reaches {shown(best['factor_vs_reference'])} times ({best['label']}) "
+                     f"with an error of {shown(best['error_max'])}")
     except NotMeasured:
         pass
     try:
