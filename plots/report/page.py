@@ -42,14 +42,20 @@ def source_line(tables, made_by):
     return element("p", f"From {', '.join(link(f'tables/{name}.csv') for name in tables)}; made by {made_by}.", class_="source")
 
 
-def select(key, label, values, is_single):
+SEVERAL = "\n"  # between values of one choice, as page.js has it
+
+
+def select(key, label, values, is_single, first=()):
     options = [] if is_single else ['<option value="">all</option>']
+    several = [value for value in first[1] if value in values] if first else []
+    if several:
+        options.insert(0, element("option", escaped(first[0]), value=SEVERAL.join(several), selected="selected"))
     options += [element("option", escaped(value), value=value) for value in values]
     return f"<label>{escaped(label)}{element('select', ''.join(options), name=key)}</label>"
 
 
 def filters(choices, label):
-    """choices: (key, label, values, is_single) of each; one that has a single value filters nothing."""
+    """choices: what `select` takes, of each; one that has a single value filters nothing."""
     shown_ones = [select(*one) for one in choices if len(one[2]) > 1]
     return element("div", "".join(shown_ones) + "<output></output>", class_="filters", role="group", aria_label=f"Filters: {label}") if shown_ones else ""
 
@@ -67,7 +73,7 @@ def chart_table(chart):
 
 
 def chart_section(name, title, chart, age, scale, has_library):
-    choices = [(one.key, one.label, list(dict.fromkeys(choice(value) for value in chart.rows[one.key])), one.is_single) for one in chart.filters if one.key in chart.rows]
+    choices = [(one.key, one.label, list(dict.fromkeys(choice(value) for value in chart.rows[one.key])), one.is_single, one.first) for one in chart.filters if one.key in chart.rows]
     picture = element("div", "", class_="chart", role="img", aria_label=f"{title}. {chart.text}", data_chart=name)
     if not has_library:
         picture = element("p", "Without Plotly there is no chart; its table is below.", class_="missing")
