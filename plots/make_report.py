@@ -8,12 +8,12 @@ Example: plots/make_report.py --results results
 import argparse
 import pathlib
 import re
-import subprocess
 import sys
 
 from report import library, markdown, page, paper_tables, summary
 from report.age import Ages
 from report.charts import CHARTS
+from report.pictures import revision
 from report.results import FAULTS, ROOT, Lack, NotMeasured, Results, study_of
 from report.words import escaped, prose
 
@@ -52,15 +52,6 @@ def other_grids(results, missing):
         grid = attempt(missing, f"table-3-{folder}", f"Table 3 of {folder}", "table3", lambda: paper_tables.other_table3(other))
         if grid:
             yield grid, ages.line("table3"), command_text(other, ages, "table3"), f"{folder}/"
-
-
-def revision():
-    """The commit of this tree, if git knows."""
-    try:
-        result = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short=9", "HEAD"], capture_output=True, text=True)
-    except OSError:
-        return ""
-    return result.stdout.strip() if result.returncode == 0 else ""
 
 
 def origin_text(results, ages):

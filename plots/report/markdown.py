@@ -1,4 +1,5 @@
 """REPORT.md: the summary, Tables 1 to 3, the figures, what is old and what is missing."""
+from . import pictures
 
 
 def cell_text(cell):
@@ -25,5 +26,5 @@ def write(sentences, grids, figures, missing, ages):
     lines += ["", "## Tables of the paper", ""]
     for grid, age, made_by in grids:
         lines += grid_lines(grid, age, made_by)
-    lines += ["## Figures", "", *[f"* [{path.name}](figures/{path.name})" for path in figures]]
+    lines += ["## Figures", "", *[f"* [{path.name}](figures/{path.name}), {pictures.made_by(path)}" for path in figures]]
     return "\n".join(lines) + "\n"

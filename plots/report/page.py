@@ -4,6 +4,7 @@ import json
 import pathlib
 import string
 
+from . import pictures
 from .results import NotMeasured, study_of
 from .words import choice, escaped, is_missing, prose, shown
 
@@ -163,7 +164,7 @@ def pictures_section(results):
         path = results.directory / "figures" / name
         if path.exists():
             data = base64.b64encode(path.read_bytes()).decode("ascii")
-            parts.append(f'<figure><img src="data:image/png;base64,{data}" alt="{escaped(text)}"><figcaption>{escaped(text)}: {link(f"figures/{name}")}</figcaption></figure>')
+            parts.append(f'<figure><img src="data:image/png;base64,{data}" alt="{escaped(text)}"><figcaption>{escaped(text)}: {link(f"figures/{name}")}, {escaped(pictures.made_by(path))}</figcaption></figure>')
     if not parts:
         parts = [element("p", "Not drawn: run <code>make reproduce</code>.", class_="missing")]
     made = ("Made by `dssbench run plate_paper --set n=60 --steps 2000 --output plate_paper.vtu`, `dssbench run l_bracket --output l_bracket.vtu --frames 6` and "

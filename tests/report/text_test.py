@@ -4,6 +4,9 @@ import json
 import os
 import pathlib
 import re
+import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -158,6 +161,21 @@ class ReportTest(unittest.TestCase):
         self.assertEqual([path.name for path in environment.iterdir()], ["chapter.tex"])
         self.assertIn("neither empty nor a virtual environment", result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_pictures_say_what_made_them_or_that_their_age_is_unknown(self):
+        directory = self.directory / "pictures"
+        sample.write_sample(directory)
+        plots = report.ROOT / "plots"
+        result = subprocess.run([sys.executable, plots / "failure_atlas.py", directory / "tables" / "failures.csv", "--output", directory / "figures" / "failures.png"], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        shutil.copy(report.ROOT / "results" / "figures" / "table2.png", directory / "figures" / "plate_paper.png")  # of an earlier version, or drawn by others
+        draw = "import sys; sys.path.insert(0, sys.argv[1]); import body_picture, pathlib; body_picture.write(body_picture.plt.figure(), pathlib.Path(sys.argv[2]))"
+        subprocess.run([sys.executable, "-c", draw, plots, directory / "figures" / "l_bracket.png"], check=True)
+        self.assertEqual(report.make_report(directory, self.directory / "no-directory" / "environment").returncode, 0)
+        page, text = [(directory / name).read_text(encoding="utf-8") for name in ("report.html", "REPORT.md")]
+        self.assertIn("(figures/failures.png), measured by commit 111111111, 2030-01-01 12:00 UTC", text)
+        self.assertIn("figures/plate_paper.png</a>, age unknown</figcaption>", page)
+        self.assertRegex(page, r"figures/l_bracket.png</a>, drawn by commit \w+, \d{4}-\d\d-\d\d \d\d:\d\d UTC</figcaption>")
 
     def test_no_results_are_an_error_in_one_line(self):
         os.makedirs(self.directory / "empty", exist_ok=True)
