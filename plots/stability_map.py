@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 from matplotlib.colors import TwoSlopeNorm  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
-from report.pictures import measured, save  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision.
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#000000", "#999999"]
@@ -60,7 +60,7 @@ def draw_maps(path, table, theory, output):
     figure.colorbar(colours, ax=grid, label="spectral radius of one step", shrink=0.8, ticks=[0, 0.2, 0.4, 0.6, 0.8, 1, 1.2, 1.4])
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, 1), ncols=3, frameon=False, fontsize=9)
-    save(figure, output, measured(path), dpi=150, bbox_inches="tight")
+    save(figure, output, measured_by(path), dpi=150, bbox_inches="tight")
     plt.close(figure)
 
 
@@ -93,7 +93,7 @@ def draw_energy(path, energy, output):
         axes.spines[["top", "right"]].set_visible(False)
     above.legend(frameon=False, fontsize=9, loc="upper left", ncols=2)
     figure.suptitle("Stable is not accurate: energy of one undamped mode. Lines: theory; dots: runs", fontsize=10, x=0.01, ha="left")
-    save(figure, output, measured(path), dpi=150)
+    save(figure, output, measured_by(path), dpi=150)
     plt.close(figure)
 
 

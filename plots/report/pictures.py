@@ -24,7 +24,7 @@ def drawn_now():
     return f"drawn by commit {revision() or 'unknown'}, {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC"
 
 
-def measured(table):
+def measured_by(table):
     """What the record beside a table says, DIR/raw/NAME.json beside DIR/tables/NAME.csv; empty if there is none."""
     from .age import Record  # needs pandas, which pictures of bodies do without
     from .results import study_of

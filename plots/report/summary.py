@@ -45,8 +45,9 @@ def of_accuracy(results):
         pass
     try:
         advice = results.table("advise", "tolerance", "true_error", "time_over_cheapest")
+        most = shown(advice["time_over_cheapest"].max())
         kept = (advice["true_error"] <= advice["tolerance"]).sum()
-        parts.append(f"`dssbench advise` keeps {kept} of {len(advice)} tolerances at no more than {shown(advice['time_over_cheapest'].max())} times the cheapest that a full search finds")
+        parts.append(f"`dssbench advise` keeps {kept} of {len(advice)} tolerances" + (f" at no more than {most} times the cheapest that a full search finds" if most else ""))
     except NotMeasured:
         pass
     if not parts:
