@@ -12,6 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision.
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#000000", "#999999"]
@@ -46,7 +47,7 @@ def draw(path, output):
     ratios.set_ylim(bottom=0.9)
     gains.legend(*errors.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False, fontsize=9)
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=130)
+    save(figure, output, measured_by(path), dpi=130)
     plt.close(figure)
     return None
 

@@ -18,6 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
+from report.pictures import drawn_now, save  # noqa: E402
 
 TYPES = {"Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
 # Corners of the faces of a VTK hexahedron, anticlockwise as seen from outside.
@@ -93,9 +94,9 @@ def scale_of(bodies):
     return float(numpy.percentile(stress, 99)), unit, f"von Mises stress [{name}], largest {stress.max() / unit:.3g}"
 
 
-def save(figure, output):
+def write(figure, output):
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=130)
+    save(figure, output, drawn_now(), dpi=130)
     plt.close(figure)
 
 
@@ -113,7 +114,7 @@ def draw(path, output, wanted):
         axes.set_axis_off()  # aslant, its coordinates are on no axis
     axes.set_title(f"{len(body.stress)} elements; displacements x {magnification:.3g} (largest {body.largest:.3g} m)", fontsize=10)
     figure.colorbar(faces, ax=axes, label=label, extend="max")
-    save(figure, output)
+    write(figure, output)
 
 
 def states_of(series):
@@ -138,7 +139,7 @@ def draw_strip(states, output, wanted):
         axes.set_title(f"{1e3 * time:.3g} ms, largest {body.largest:.2g} m", fontsize=9)
     figure.suptitle(f"displacements x {magnification:.3g}", fontsize=9, x=0.01, ha="left")
     figure.colorbar(faces, ax=panels, label=label, extend="max")
-    save(figure, output)
+    write(figure, output)
 
 
 def draw_series(series, output, wanted):

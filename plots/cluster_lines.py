@@ -14,6 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 
+from report.pictures import measured_by, save  # noqa: E402
 from scaling_lines import OTHER_STYLE, STYLES  # noqa: E402
 
 NODES = {"paper": "the paper's node", "own": "one core of this machine"}
@@ -78,7 +79,7 @@ def draw(table, output):
         axes[1][-1].axis("off")
     figure.tight_layout()
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=130)
+    save(figure, output, measured_by(table), dpi=130)
     plt.close(figure)
     return None
 

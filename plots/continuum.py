@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
 import pandas  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7"]  # Okabe and Ito's
 COLUMNS = 3
@@ -68,7 +69,7 @@ def draw(path, output):
         if place >= len(checks) - COLUMNS:
             axis.set_xlabel("edge of an element, m")
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=150)
+    save(figure, output, measured_by(path), dpi=150)
     plt.close(figure)
     return None
 

@@ -14,6 +14,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
+from report.pictures import drawn_now, save  # noqa: E402
 
 # Okabe and Ito: told apart with any colour vision. More parts repeat them, never beside each other if that can be.
 COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999")
@@ -129,7 +130,7 @@ def draw(content, output):
     figure.suptitle(f"{content['scene']}: {content['elements']} elements in {len(colours)} parts by {content['method']}; "
                     f"darker: sent to others, halo of {content['depth']}", fontsize=10)
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=150)
+    save(figure, output, drawn_now(), dpi=150)
     plt.close(figure)
 
 

@@ -12,6 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours by kind of source.
 COLOURS = {"time": "#0072B2", "space": "#D55E00", "rounding": "#009E73", "model": "#E69F00", "rotation": "#CC79A7"}
@@ -64,7 +65,7 @@ def draw(path, output):
     panels[-1, 0].set_xlim(LEAST, 1e6)
     panels[-1, 0].set_xlabel("relative error of displacements, largest over the saved times")
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=110)
+    save(figure, output, measured_by(path), dpi=110)
     plt.close(figure)
     return None
 

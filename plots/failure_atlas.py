@@ -16,6 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 from matplotlib.patches import Patch, Rectangle  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # After Okabe and Ito, lightened so that black text stands on them: told apart with any colour vision.
 COLOURS = {"ok": "#7FCDB5", "inaccurate": "#F2C75C", "drifts": "#9AD1F0", "unstable": "#E8915A", "refused": "#C9C9C9"}
@@ -96,7 +97,7 @@ def draw(path, output):
     if footnotes:
         figure.supxlabel("\n".join(footnotes), fontsize=7, x=0.01, ha="left")
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=150)
+    save(figure, output, measured_by(path), dpi=150)
     plt.close(figure)
     return None
 

@@ -8,13 +8,13 @@ Example: plots/make_report.py --results results
 import argparse
 import pathlib
 import re
-import subprocess
 import sys
 
 from report import library, markdown, page, paper_tables, summary
 from report.age import Ages
 from report.charts import CHARTS
-from report.results import ROOT, NotMeasured, Results, study_of
+from report.pictures import revision
+from report.results import FAULTS, ROOT, Lack, NotMeasured, Results, study_of
 from report.words import escaped, prose
 
 MOST_BYTES = 10_000_000
@@ -39,24 +39,19 @@ def attempt(missing, name, title, table, make):
     try:
         return make()
     except NotMeasured as reason:
-        missing.append((name, title, table, str(reason)))
-        return None
+        missing.append(Lack(name, title, table, str(reason)))
+    except FAULTS as fault:  # one odd table takes no page from the others
+        missing.append(Lack(name, title, table, f"tables/{table}.csv cannot be drawn: {type(fault).__name__}: {fault}", is_fault=True))
+    return None
 
 
-def other_grids(results):
+def other_grids(results, missing):
     """(grid, age, command, folder) of Table 3 on other machines."""
     for other in results.others():
-        ages = Ages(other.directory)
-        yield paper_tables.other_table3(other), ages.line("table3", "table3"), command_text(other, ages, "table3"), f"{other.directory.name}/"
-
-
-def revision():
-    """The commit of this tree, if git knows."""
-    try:
-        result = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short=9", "HEAD"], capture_output=True, text=True)
-    except OSError:
-        return ""
-    return result.stdout.strip() if result.returncode == 0 else ""
+        ages, folder = Ages(other.directory), other.directory.name
+        grid = attempt(missing, f"table-3-{folder}", f"Table 3 of {folder}", "table3", lambda: paper_tables.other_table3(other))
+        if grid:
+            yield grid, ages.line("table3"), command_text(other, ages, "table3"), f"{folder}/"
 
 
 def origin_text(results, ages):
@@ -69,45 +64,51 @@ def origin_text(results, ages):
 
 
 def by_study(missing):
-    """(titles, study, reason) of sections that one study would fill."""
+    """(titles, reason, study) of sections that one study would fill; no study if its tables are there."""
     groups = {}
-    for _, title, table, reason in missing:
-        groups.setdefault((study_of(table), reason), []).append(title)
-    return [("; ".join(titles), study, reason) for (study, reason), titles in groups.items()]
+    for lack in missing:
+        groups.setdefault((lack.reason, "" if lack.is_fault else study_of(lack.table)), []).append(lack.title)
+    return [("; ".join(titles), reason, study) for (reason, study), titles in groups.items()]
 
 
 def old_and_missing(missing, ages):
     """The section that says both."""
-    lines = [f"{escaped(titles)}: {escaped(reason)}; run {page.command(study, '')}." for titles, study, reason in by_study(missing)]
+    lines = [f"{escaped(titles)}: {escaped(reason)}{f'; run {page.command(study, str())}' if study else ''}." for titles, reason, study in by_study(missing)]
     lines += [f'{escaped(name)} is <strong class="old">old</strong>: {escaped(why)}.' for name, why in ages.old()]
+    if ages.unknown():
+        lines.append(f'No record in raw/ says when these tables were made: {", ".join(page.link(f"tables/{name}.csv") for name in ages.unknown())}.')
     content = page.element("ul", "".join(page.element("li", line) for line in lines)) if lines else page.element("p", "Nothing.")
     return page.element("section", page.element("h2", "Old and missing") + content, id="old-and-missing")
 
 
+def chart_of(results, ages, plotly, name, title, table, make):
+    """A chart and its section."""
+    chart = make(results)
+    return chart, page.chart_section(name, title, chart, ages.line(table), scale_of(results, ages, table), bool(plotly))
+
+
 def build(results, plotly):
-    """(text of the page, text of REPORT.md)."""
+    """(text of the page, text of REPORT.md, what is missing)."""
     ages, missing, charts, sections = Ages(results.directory), [], {}, []
-    grids = [(grid, ages.line(study_of(table), table), command_text(results, ages, table), "")
+    grids = [(grid, ages.line(table), command_text(results, ages, table), "")
              for name, title, table, make in paper_tables.TABLES if (grid := attempt(missing, name, title, table, lambda: make(results)))]
-    grids += other_grids(results)
+    grids += other_grids(results, missing)
     for name, title, table, make in CHARTS:
-        chart = attempt(missing, name, title, table, lambda: make(results))
-        if chart:
-            charts[name] = chart
-            sections.append(page.chart_section(name, title, chart, ages.line(study_of(table), table), scale_of(results, ages, table), bool(plotly)))
-        else:
-            sections.append(page.missing_section(*missing[-1]))
-    names = {name for name, _, _, _ in paper_tables.TABLES}
-    sentences = summary.sentences(results, missing, ages.old(), len(ages.records))
+        drawn = attempt(missing, name, title, table, lambda: chart_of(results, ages, plotly, name, title, table, make))
+        if drawn:
+            charts[name] = drawn[0]
+        sections.append(drawn[1] if drawn else page.missing_section(missing[-1]))
+    drawn_later = {name for name, _, _, _ in CHARTS}
+    sentences = summary.sentences(results, missing, ages)
     body = [page.element("section", page.element("h2", "Summary") + page.element("ol", "".join(page.element("li", prose(text)) for text in sentences), class_="summary"), id="summary"),
             old_and_missing(missing, ages), page.element("h2", "Tables of the paper", id="tables")]
     body += [page.grid_section(grid, age, page.element("code", escaped(made_by)), folder) for grid, age, made_by, folder in grids]
-    body += [page.missing_section(*lacking) for lacking in missing if lacking[0] in names]
+    body += [page.missing_section(lack) for lack in missing if lack.name not in drawn_later]
     body += [page.element("h2", "Charts", id="charts-of-studies"), *sections, page.pictures_section(results), page.environment_section(ages), page.tables_section(results, ages)]
     contents = [("summary", "Summary"), ("old-and-missing", "Old and missing"), ("tables", "Tables 1-3")] + [(name, title) for name, title, _, _ in CHARTS]
     contents += [("pictures", "Pictures"), ("environment", "Environment"), ("all-tables", "All tables")]
     text = markdown.write(sentences, [grid[:3] for grid in grids], results.figures(), by_study(missing), ages)
-    return page.assemble(origin_text(results, ages), contents, body, charts, plotly), text
+    return page.assemble(origin_text(results, ages), contents, body, charts, plotly), text, missing
 
 
 def plotly_text(environment):
@@ -129,7 +130,7 @@ def main():
     results = Results(arguments.results.resolve())
     if not results.names():
         sys.exit(f"{arguments.results}: no tables/*.csv; run `dssbench experiment` first")
-    html, text = build(results, plotly_text(arguments.environment))
+    html, text, missing = build(results, plotly_text(arguments.environment))
     size = len(html.encode("utf-8"))
     if size > MOST_BYTES:
         sys.exit(f"{arguments.results}/report.html would have {size / 1e6:.1f} MB; at most {MOST_BYTES / 1e6:.0f} MB are allowed: thin out what plots/report/charts draws")
@@ -138,6 +139,8 @@ def main():
         unfinished.write_text(content, encoding="utf-8")
         unfinished.replace(results.directory / name)
     print(f"{arguments.results / 'report.html'} ({size / 1e6:.1f} MB)\n{arguments.results / 'REPORT.md'}")
+    if any(lack.is_fault for lack in missing):
+        sys.exit("\n".join(f"{lack.title}: {lack.reason}" for lack in missing if lack.is_fault))
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ import pandas  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.ticker import NullFormatter  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours, from the least work to the most.
 COLOURS = {"axial": "#56B4E9", "bending": "#E69F00", "planar": "#009E73", "linear": "#CC79A7", "small": "#D55E00", "spatial": "#0072B2"}
@@ -78,7 +79,7 @@ def draw(path, output):
     figure.supxlabel("time of a run [s]", fontsize=9)
     figure.supylabel("relative error against the spatial oracle", fontsize=9)
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=110)
+    save(figure, output, measured_by(path), dpi=110)
     plt.close(figure)
     return None
 

@@ -12,6 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision; markers differ too.
 STYLES = {
@@ -138,7 +139,7 @@ def draw(path, output):
     panels[0, -1].legend(labels.values(), labels.keys(), loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False, fontsize=9, title="halo")
     figure.suptitle("Medians of paired ratios, 95 % intervals; hollow: more workers than cores, ratio of median rates", fontsize=9, x=0.01, ha="left")
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=150)
+    save(figure, output, measured_by(path), dpi=150)
     plt.close(figure)
     return None
 

@@ -13,6 +13,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision.
 COLOURS = {
@@ -102,7 +103,7 @@ def draw(path, base, output):
         note += "\nhatched: scaled from fewer steps"
     all_axes[-1, 0].set_xlabel(note, fontsize=9)
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=150)
+    save(figure, output, measured_by(path), dpi=150)
     plt.close(figure)
     return None
 

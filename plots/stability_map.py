@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 from matplotlib.colors import TwoSlopeNorm  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision.
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#000000", "#999999"]
@@ -43,7 +44,7 @@ def draw_map(axes, theory, measured):
     return colours
 
 
-def draw_maps(table, theory, output):
+def draw_maps(path, table, theory, output):
     methods = list(dict.fromkeys(theory["integrator"]))
     columns = min(3, len(methods))
     rows = -(-len(methods) // columns)
@@ -59,11 +60,11 @@ def draw_maps(table, theory, output):
     figure.colorbar(colours, ax=grid, label="spectral radius of one step", shrink=0.8, ticks=[0, 0.2, 0.4, 0.6, 0.8, 1, 1.2, 1.4])
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", bbox_to_anchor=(0.5, 1), ncols=3, frameon=False, fontsize=9)
-    figure.savefig(output, dpi=150, bbox_inches="tight")
+    save(figure, output, measured_by(path), dpi=150, bbox_inches="tight")
     plt.close(figure)
 
 
-def draw_energy(energy, output):
+def draw_energy(path, energy, output):
     """Above: what is lost or won a step, linear. Below: its size, logarithmic, to the precision of methods at small steps."""
     figure, (above, below) = plt.subplots(2, 1, figsize=(8, 7.5), sharex=True, layout="constrained", height_ratios=[1, 1.1])
     for place, (method, rows) in enumerate(energy.groupby("integrator", sort=False)):
@@ -92,7 +93,7 @@ def draw_energy(energy, output):
         axes.spines[["top", "right"]].set_visible(False)
     above.legend(frameon=False, fontsize=9, loc="upper left", ncols=2)
     figure.suptitle("Stable is not accurate: energy of one undamped mode. Lines: theory; dots: runs", fontsize=10, x=0.01, ha="left")
-    figure.savefig(output, dpi=150)
+    save(figure, output, measured_by(path), dpi=150)
     plt.close(figure)
 
 
@@ -107,8 +108,8 @@ def draw(path, output):
             return f"{other}: no such file; run `dssbench experiment stability`"
     table["is_mode"] = table["set"].fillna("").str.startswith("zeta=")
     output.parent.mkdir(parents=True, exist_ok=True)
-    draw_maps(table, pandas.read_csv(beside["map"]), output)
-    draw_energy(pandas.read_csv(beside["energy"]), output.with_name(output.stem.removesuffix("_map") + "_energy" + output.suffix))
+    draw_maps(path, table, pandas.read_csv(beside["map"]), output)
+    draw_energy(path, pandas.read_csv(beside["energy"]), output.with_name(output.stem.removesuffix("_map") + "_energy" + output.suffix))
     return None
 
 

@@ -13,6 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import pandas  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 COLOURS = ["#000000", "#0072B2", "#56B4E9", "#009E73", "#E69F00", "#D55E00", "#CC79A7"]  # Okabe and Ito's
 LEAST = 1e-16  # a difference below it is drawn there
@@ -57,7 +58,7 @@ def draw(path, output):
     failed = int((table["status"] == "failed").sum())
     axes[1].set_title("all within the bar" if failed == 0 else f"{failed} FAILED", fontsize=9, loc="left")
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=150)
+    save(figure, output, measured_by(path), dpi=150)
     plt.close(figure)
     return None
 

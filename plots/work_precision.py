@@ -15,6 +15,7 @@ import pandas  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 from matplotlib.ticker import NullFormatter  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
+from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision. Methods that come later take those that are left.
 COLOURS = {"rk4": "#0072B2", "velocity_verlet": "#D55E00", "midpoint": "#009E73", "symplectic_euler": "#CC79A7", "dopri5": "#E69F00", "dopri5 adaptive": "#8B6100", "rkc2": "#56B4E9",
@@ -108,7 +109,7 @@ def draw(path, output):
     figure.get_layout_engine().set(rect=(0, 0, 0.83, 1))
     figure.legend(handles=legend_of(table, markers), loc="upper right", frameon=False, fontsize=8.5).set_in_layout(False)
     output.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(output, dpi=110)
+    save(figure, output, measured_by(path), dpi=110)
     plt.close(figure)
     return None
 

@@ -1,14 +1,16 @@
 """What made the records, when, and which of them are old.
 
 raw/NAME.json says which program measured raw/NAME.csv, each row there when. A record is old if another commit made it than the newest ones, or another machine, or
-if it is of an earlier session. Studies that leave no raw/NAME.json do not say; their tables are old for sure only if the file was written before the newest session.
+if it is of an earlier session. Of a table without a record nothing is known: the time of its file is when it was checked out or copied.
 """
 import datetime
 import json
 
 import pandas
 
-# Studies of one session follow each other; those without raw records take up to an hour in between.
+from .results import study_of
+
+# Studies of one session follow each other; those that leave only their last time take up to an hour in between.
 SESSION_GAP = datetime.timedelta(hours=2)
 # Within a study one repetition follows the other: a longer pause is a run that was cut off, and one with --resume after it.
 PAUSE = datetime.timedelta(minutes=2)
@@ -65,7 +67,7 @@ class Ages:
         for path in sorted((directory / "raw").glob("*.json")):
             try:
                 record = Record(path)
-            except (ValueError, KeyError, TypeError):
+            except (ValueError, KeyError, TypeError, AttributeError):
                 self.unreadable.append(path.name)  # such as devices.json, which no study wrote
                 continue
             self.records[record.name] = record
@@ -94,26 +96,20 @@ class Ages:
             reasons.append(f"of an earlier session than the newest ({newest.name}, {day(newest.last)})")
         return reasons
 
-    def line(self, study, table):
+    def line(self, table):
         """(is it old, one line on what made a table)."""
+        study = study_of(table)
         record = self.records.get(study)
         if record is None:
-            return self._line_without_record(table)
+            return False, f"age unknown: no raw/{study}.json says which commit made it, and when."
         text = [f"old: of {day(record.first)}; {'; '.join(record.reasons)}." if record.reasons else f"Made by {record.made_by()}."]
         if record.kept:
             text.append(record.kept_text() + ".")
         return bool(record.reasons or record.kept), " ".join(text)
 
-    def _line_without_record(self, table):
-        path = self.directory / "tables" / f"{table}.csv"
-        unknown = "Its commit and date are not recorded (no raw/NAME.json)."
-        if self.newest is None or not path.exists():
-            return False, unknown
-        written, newest = pandas.Timestamp(path.stat().st_mtime, unit="s", tz="UTC"), f"the newest records ({self.newest.name}, {day(self.newest.last)})"
-        if written < self.session_start - SESSION_GAP:
-            return True, f"old: written {day(written)}, before {newest}; its commit is not recorded."
-        # Git writes files when it checks them out, long after they were measured.
-        return False, f"Written {day(written)}, with {newest}." if written < self.newest.last + SESSION_GAP else unknown
+    def unknown(self):
+        """Tables that no record tells of."""
+        return [name for name in sorted(path.stem for path in (self.directory / "tables").glob("*.csv")) if study_of(name) not in self.records]
 
     def old(self):
         """(name, why) of each record that is old, wholly or in part."""

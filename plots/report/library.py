@@ -14,7 +14,9 @@ def installed(environment):
 
 
 def install(environment):
-    """Installs it, by hash. @returns its file, and else a line that says why not"""
+    """Installs it, by hash, in place of what the environment has. @returns its file, and else a line that says why not"""
+    if environment.is_dir() and any(environment.iterdir()) and not (environment / "pyvenv.cfg").exists():
+        return None, f"{environment} is neither empty nor a virtual environment: nothing there is touched"
     commands = [[sys.executable, "-m", "venv", "--clear", str(environment)],
                 [str(environment / "bin" / "pip"), "install", "--quiet", "--disable-pip-version-check", "--retries", "1", "--timeout", "10", "--no-deps", "--no-compile", "--require-hashes",
                  "--requirement", str(REQUIREMENTS)]]

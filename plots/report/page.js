@@ -9,9 +9,9 @@
   const isDark = () => (root.dataset.theme || (system.matches ? "dark" : "light")) === "dark";
   const colour = (name) => getComputedStyle(root).getPropertyValue("--" + name).trim();
 
-  // Choices of a section's filters, by key; "" is all.
+  // Choices of a section's filters, by key; "" is all, and a choice of several values has a line for each.
   const chosenIn = (section) => Object.fromEntries([...section.querySelectorAll("select")].map((select) => [select.name, select.value]));
-  const fits = (keys, chosen) => Object.entries(chosen).every(([key, value]) => !value || keys[key] === undefined || keys[key] === value);
+  const fits = (keys, chosen) => Object.entries(chosen).every(([key, value]) => !value || keys[key] === undefined || value.split("\n").includes(keys[key]));
 
   // The layout that all charts share, in the theme's colours; a chart's own goes on top.
   function layoutOf(spec, node, entries) {

@@ -4,6 +4,7 @@ import json
 import pathlib
 import string
 
+from . import pictures
 from .results import NotMeasured, study_of
 from .words import choice, escaped, is_missing, prose, shown
 
@@ -42,14 +43,20 @@ def source_line(tables, made_by):
     return element("p", f"From {', '.join(link(f'tables/{name}.csv') for name in tables)}; made by {made_by}.", class_="source")
 
 
-def select(key, label, values, is_single):
+SEVERAL = "\n"  # between values of one choice, as page.js has it
+
+
+def select(key, label, values, is_single, first=()):
     options = [] if is_single else ['<option value="">all</option>']
+    several = [value for value in first[1] if value in values] if first else []
+    if several:
+        options.insert(0, element("option", escaped(first[0]), value=SEVERAL.join(several), selected="selected"))
     options += [element("option", escaped(value), value=value) for value in values]
     return f"<label>{escaped(label)}{element('select', ''.join(options), name=key)}</label>"
 
 
 def filters(choices, label):
-    """choices: (key, label, values, is_single) of each; one that has a single value filters nothing."""
+    """choices: what `select` takes, of each; one that has a single value filters nothing."""
     shown_ones = [select(*one) for one in choices if len(one[2]) > 1]
     return element("div", "".join(shown_ones) + "<output></output>", class_="filters", role="group", aria_label=f"Filters: {label}") if shown_ones else ""
 
@@ -67,7 +74,7 @@ def chart_table(chart):
 
 
 def chart_section(name, title, chart, age, scale, has_library):
-    choices = [(one.key, one.label, list(dict.fromkeys(choice(value) for value in chart.rows[one.key])), one.is_single) for one in chart.filters if one.key in chart.rows]
+    choices = [(one.key, one.label, list(dict.fromkeys(choice(value) for value in chart.rows[one.key])), one.is_single, one.first) for one in chart.filters if one.key in chart.rows]
     picture = element("div", "", class_="chart", role="img", aria_label=f"{title}. {chart.text}", data_chart=name)
     if not has_library:
         picture = element("p", "Without Plotly there is no chart; its table is below.", class_="missing")
@@ -76,9 +83,9 @@ def chart_section(name, title, chart, age, scale, has_library):
     return element("section", "\n".join(body), class_="part", id=name)
 
 
-def missing_section(name, title, table, reason):
-    text = f"{escaped(reason[0].upper() + reason[1:])}: run {command(study_of(table), '')}"
-    return element("section", element("h3", escaped(title)) + element("p", text, class_="missing"), id=name, data_missing="yes")
+def missing_section(lack):
+    text = escaped(lack.reason[0].upper() + lack.reason[1:]) + ("" if lack.is_fault else f": run {command(study_of(lack.table), '')}")
+    return element("section", element("h3", escaped(lack.title)) + element("p", text, class_="missing"), id=lack.name, data_missing="yes")
 
 
 def grid_section(grid, age, made_by, folder=""):
@@ -141,7 +148,7 @@ def tables_section(results, ages):
     """Every table, with what is known of its age."""
     rows = []
     for name in results.names():
-        is_old, text = ages.line(study_of(name), name)
+        is_old, text = ages.line(name)
         try:
             count = str(len(results.table(name)))
         except NotMeasured as reason:
@@ -157,7 +164,7 @@ def pictures_section(results):
         path = results.directory / "figures" / name
         if path.exists():
             data = base64.b64encode(path.read_bytes()).decode("ascii")
-            parts.append(f'<figure><img src="data:image/png;base64,{data}" alt="{escaped(text)}"><figcaption>{escaped(text)}: {link(f"figures/{name}")}</figcaption></figure>')
+            parts.append(f'<figure><img src="data:image/png;base64,{data}" alt="{escaped(text)}"><figcaption>{escaped(text)}: {link(f"figures/{name}")}, {escaped(pictures.made_by(path))}</figcaption></figure>')
     if not parts:
         parts = [element("p", "Not drawn: run <code>make reproduce</code>.", class_="missing")]
     made = ("Made by `dssbench run plate_paper --set n=60 --steps 2000 --output plate_paper.vtu`, `dssbench run l_bracket --output l_bracket.vtu --frames 6` and "

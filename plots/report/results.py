@@ -1,4 +1,5 @@
 """A directory of results as the report reads it: tables with the line of each row, and what is not there."""
+import dataclasses
 import pathlib
 
 import pandas
@@ -8,6 +9,20 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 class NotMeasured(Exception):
     """Why a part of the report cannot be shown, in words."""
+
+
+# What a table with values of an unexpected kind makes of the code that draws it.
+FAULTS = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError)
+
+
+@dataclasses.dataclass(frozen=True)
+class Lack:
+    """A section that is not there. `is_fault`: its table is, and cannot be drawn."""
+    name: str
+    title: str
+    table: str
+    reason: str
+    is_fault: bool = False
 
 
 class Results:

@@ -1,5 +1,6 @@
 """Three sentences on the whole, with figures from the tables."""
-from .results import NotMeasured
+from .charts.chain import best_link
+from .results import FAULTS, NotMeasured
 from .words import shown, with_interval
 
 
@@ -28,12 +29,10 @@ def of_accuracy(results):
     """What an accuracy costs."""
     parts = []
     try:
-        chain = results.table("chain", "link", "label", "factor_vs_reference", "error_max").sort_values("link")
-        chain = chain[chain["factor_vs_reference"].notna()]
-        if len(chain):
-            last = chain.iloc[-1]
-            parts.append(f"the chain from the reference to the cheapest method of the same error ends at {shown(last['factor_vs_reference'])} times ({last['label']}) "
-                         f"with an error of {shown(last['error_max'])}")
+        best = best_link(results.table("chain", "label", "factor_vs_reference", "error_max", "error_bar", "status"))
+        parts.append("no link of the chain keeps the allowed error" if best is None else
+                     f"the chain from the reference to the cheapest run within an error of {shown(best['error_bar'])} reaches {shown(best['factor_vs_reference'])} times ({best['label']}) "
+                     f"with an error of {shown(best['error_max'])}")
     except NotMeasured:
         pass
     try:
@@ -46,8 +45,9 @@ def of_accuracy(results):
         pass
     try:
         advice = results.table("advise", "tolerance", "true_error", "time_over_cheapest")
+        most = shown(advice["time_over_cheapest"].max())
         kept = (advice["true_error"] <= advice["tolerance"]).sum()
-        parts.append(f"`dssbench advise` keeps {kept} of {len(advice)} tolerances at no more than {shown(advice['time_over_cheapest'].max())} times the cheapest that a full search finds")
+        parts.append(f"`dssbench advise` keeps {kept} of {len(advice)} tolerances" + (f" at no more than {most} times the cheapest that a full search finds" if most else ""))
     except NotMeasured:
         pass
     if not parts:
@@ -56,7 +56,14 @@ def of_accuracy(results):
     return sentence[0].upper() + sentence[1:] + "."
 
 
-def of_trust(results, missing, old, records):
+def of_age(ages):
+    """How many records are old, and how many tables have none."""
+    old, count, unknown = len(ages.old()), len(ages.records), len(ages.unknown())
+    words = f"{old} of {count} records {'are' if old != 1 else 'is'} old, wholly or in part" if old else "no record is known to be old"
+    return words + (f", while {unknown} table{'s have' if unknown != 1 else ' has'} no record, so that {'their' if unknown != 1 else 'its'} age is unknown" if unknown else "")
+
+
+def of_trust(results, missing, ages):
     """What holds, what is missing and what is old."""
     parts = []
     for table, words in (("failures", "cells of the failure atlas are as theory says"), ("model_ladder", "rows of the model ladder are as expected"),
@@ -67,10 +74,20 @@ def of_trust(results, missing, old, records):
         except NotMeasured:
             pass
     held = ", ".join(parts) if parts else "nothing was held against theory"
-    lack = f"{len(missing)} section{'s are' if len(missing) != 1 else ' is'} not measured" if missing else "nothing is missing"
-    age = f"{len(old)} of {records} records {'are' if len(old) != 1 else 'is'} old, wholly or in part" if old else "no record is known to be old"
-    return f"{held[0].upper()}{held[1:]}; in this report {lack}, and {age}."
+    faults = sum(lack.is_fault for lack in missing)
+    count = len(missing) - faults
+    lack = f"{count} section{'s are' if count != 1 else ' is'} not measured" if count else "nothing is missing"
+    lack += f", {faults} section{'s' if faults != 1 else ''} cannot be drawn" if faults else ""
+    return f"{held[0].upper()}{held[1:]}; in this report {lack}, and {of_age(ages)}."
 
 
-def sentences(results, missing, old, records):
-    return [of_speed(results), of_accuracy(results), of_trust(results, missing, old, records)]
+def said(make, *of):
+    """A sentence; one on tables with values of an unexpected kind says that."""
+    try:
+        return make(*of)
+    except FAULTS as fault:
+        return f"This sentence cannot be made of its tables: {type(fault).__name__}: {fault}."
+
+
+def sentences(results, missing, ages):
+    return [said(of_speed, results), said(of_accuracy, results), said(of_trust, results, missing, ages)]

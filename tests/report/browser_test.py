@@ -124,6 +124,26 @@ class BrowserTest(unittest.TestCase):
         self.assertGreaterEqual(self.drawn("attribution")["marks"], 6)
         self.assertGreaterEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "section[data-missing]")), 10)
 
+    def test_the_roofline_opens_with_whole_rows_and_steps_and_shows_every_kernel_when_asked(self):
+        self.open("sample")
+        kernels, rows = "return [...new Set(arguments[0].data.map((trace) => trace.meta.kernel).filter((name) => name))].sort()", self.rows("roofline")
+        self.assertEqual(self.browser.execute_script(kernels, self.chart("roofline")), ["rk4_step", "stage_row"])
+        choice = self.select("roofline", "kernel")
+        choice.select_by_value("")
+        self.assertEqual(self.browser.execute_script(kernels, self.chart("roofline")), ["rk4_step", "rotation", "stage_row"])
+        self.assertGreater(self.rows("roofline"), rows)
+        choice.select_by_value("rotation")
+        self.assertEqual(self.browser.execute_script(kernels, self.chart("roofline")), ["rotation"])
+        choice.select_by_index(0)
+        self.assertEqual(self.rows("roofline"), rows)
+
+    def test_a_rest_below_zero_points_to_the_left_and_the_step_itself_is_marked(self):
+        self.open("sample")
+        chart = self.chart("attribution")
+        self.assertLess(self.browser.execute_script("return arguments[0].layout.xaxis.range[0]", chart), -20)
+        self.assertEqual(self.browser.execute_script("return arguments[0].data.filter((trace) => trace.name === 'the step itself').map((trace) => trace.x[0])", chart), [1000, 100])
+        self.assertIn("bound: its instructions [ns]: 462", self.browser.execute_script("return arguments[0].data.flatMap((trace) => trace.hovertext || []).join()", chart))
+
     def test_a_filter_changes_what_the_chart_and_its_table_show(self):
         self.open("committed")
         for section, key, value in (("atlas", "verdict", "unstable"), ("work-precision-time", "problem", "tumbling_box damping_ratio=0"),

@@ -4,6 +4,9 @@ import json
 import os
 import pathlib
 import re
+import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -47,7 +50,8 @@ class ReportTest(unittest.TestCase):
         best = max(float(row["speedup_vs_reference"] or row["extrapolated_speedup_vs_reference"] or 0) for row in rows)
         self.assertIn(f"{best:.3g} [", self.pages["committed"].split('id="old-and-missing"')[0])
         self.assertIn("16 times as fast", self.pages["sample"])
-        self.assertIn("ends at 1024 times", self.pages["sample"])
+        self.assertIn("within an error of 8.9e-05 reaches 1024 times (f32)", self.pages["sample"])  # the last link is farther, and off by more
+        self.assertIn("The fastest link within the allowed error is 1024 times the reference (f32)", self.pages["sample"])
         self.assertIn("1 of 3 cells of the failure atlas", self.pages["sample"])
 
     def test_what_is_missing_is_said_with_the_command(self):
@@ -67,6 +71,19 @@ class ReportTest(unittest.TestCase):
         self.assertIn("kept by --resume", chain)
         host = page[page.index('id="table-1-host"'):page.index('id="table-1-host"') + 400]
         self.assertNotIn("old", host)
+
+    def test_a_table_without_a_record_is_of_unknown_age_whatever_the_time_of_its_file(self):
+        directory = self.directory / "unrecorded"
+        sample.write_sample(directory)
+        os.utime(directory / "tables" / "advise.csv", (0, 0))
+        os.utime(directory / "tables" / "statics.csv", (2e9, 2e9))
+        self.assertEqual(report.make_report(directory, self.directory / "no-directory" / "environment").returncode, 0)
+        page, text = [(directory / name).read_text(encoding="utf-8") for name in ("report.html", "REPORT.md")]
+        for study in ("advise", "statics"):
+            self.assertIn(f"age unknown: no raw/{study}.json says which commit made it", page.split('id="all-tables"')[1])
+        for written in (page.split('id="tables"')[0], text):
+            self.assertIn("3 of 4 records are old, wholly or in part, while 2 tables have no record", written)
+            self.assertRegex(written, "No record in raw/ says when these tables were made: .*advise.*statics")
 
     def test_every_record_is_in_the_environment_with_its_commit(self):
         environment = self.pages["committed"].split('id="environment"')[1]
@@ -109,12 +126,69 @@ class ReportTest(unittest.TestCase):
         for link in set(links) - {"report.html"}:
             self.assertTrue((directory / link).exists(), link)
 
+    def odd_page(self, name, table, columns):
+        """The sample with columns of a table that have no value: the command's result and the page."""
+        directory, path = self.directory / name, self.directory / name / "tables" / f"{table}.csv"
+        sample.write_sample(directory)
+        with open(path, encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        sample.write_table(directory, table, ",".join(rows[0]), [["" if column in columns else value for column, value in row.items()] for row in rows])
+        result = report.make_report(directory, self.directory / "no-directory" / "environment")
+        return result, (directory / "report.html").read_text(encoding="utf-8")
+
+    def test_one_odd_table_leaves_the_other_sections_and_ends_with_an_error(self):
+        result, page = self.odd_page("odd", "kernels", ["kernel"])
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("Roofline: tables/kernels.csv cannot be drawn: KeyError: ", result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+        self.assertIn("Tables/kernels.csv cannot be drawn: KeyError: nan</p>", page)
+        self.assertIn("1 section cannot be drawn", page)
+        self.assertIn('<details><summary>As a table', page[page.index('id="chain"'):page.index('id="roofline"')])
+        self.assertIn("Roofline: tables/kernels.csv cannot be drawn", (self.directory / "odd" / "REPORT.md").read_text(encoding="utf-8"))
+
+    def test_a_column_without_a_value_is_left_out_of_the_words(self):
+        result, page = self.odd_page("blank", "kernels", ["limiter"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        roofline = page[page.index('id="roofline"'):page.index('id="attribution"')]
+        self.assertRegex(roofline, r"Closest to its roof is [^:]*: \d+ %\.")
+        self.assertNotIn("nan", roofline)
+
+    def test_a_directory_that_is_no_virtual_environment_is_left_as_it_is(self):
+        environment = self.directory / "thesis"
+        environment.mkdir()
+        (environment / "chapter.tex").write_text("years of work", encoding="utf-8")
+        result = report.make_report(self.directory / "sample", environment)
+        self.assertEqual([path.name for path in environment.iterdir()], ["chapter.tex"])
+        self.assertIn("neither empty nor a virtual environment", result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_pictures_say_what_made_them_or_that_their_age_is_unknown(self):
+        directory = self.directory / "pictures"
+        sample.write_sample(directory)
+        plots = report.ROOT / "plots"
+        result = subprocess.run([sys.executable, plots / "failure_atlas.py", directory / "tables" / "failures.csv", "--output", directory / "figures" / "failures.png"], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        shutil.copy(report.ROOT / "results" / "figures" / "table2.png", directory / "figures" / "plate_paper.png")  # of an earlier version, or drawn by others
+        draw = "import sys; sys.path.insert(0, sys.argv[1]); import body_picture, pathlib; body_picture.write(body_picture.plt.figure(), pathlib.Path(sys.argv[2]))"
+        subprocess.run([sys.executable, "-c", draw, plots, directory / "figures" / "l_bracket.png"], check=True)
+        self.assertEqual(report.make_report(directory, self.directory / "no-directory" / "environment").returncode, 0)
+        page, text = [(directory / name).read_text(encoding="utf-8") for name in ("report.html", "REPORT.md")]
+        self.assertIn("(figures/failures.png), measured by commit 111111111, 2030-01-01 12:00 UTC", text)
+        self.assertIn("figures/plate_paper.png</a>, age unknown</figcaption>", page)
+        self.assertRegex(page, r"figures/l_bracket.png</a>, drawn by commit \w+, \d{4}-\d\d-\d\d \d\d:\d\d UTC</figcaption>")
+
     def test_no_results_are_an_error_in_one_line(self):
         os.makedirs(self.directory / "empty", exist_ok=True)
         result = report.make_report(self.directory / "empty")
         self.assertEqual(result.returncode, 1)
         self.assertEqual(result.stderr.count("\n"), 1)
         self.assertIn("no tables", result.stderr)
+
+
+class Documents(unittest.TestCase):
+    def test_no_figure_waits_to_be_filled_in(self):
+        for name in ("README.md", "ARTIFACT.md", "HACKING.md"):
+            self.assertEqual(re.findall(r"\b(?:CHAIN|ATTR)_[A-Z0-9]+\b", (report.ROOT / name).read_text(encoding="utf-8")), [], name)
 
 
 class Artifact(unittest.TestCase):

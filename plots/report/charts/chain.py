@@ -8,8 +8,14 @@ COLUMNS = {"link": "link", "label": "label", "scene": "scene", "set": "set", "va
            "factor_vs_reference_low": "from", "factor_vs_reference_high": "to", "error_max": "error", "error_bar": "error allowed", "status": "status", "reason": "reason"}
 
 
+def best_link(frame):
+    """The fastest of the links that keep the allowed error; none if none does."""
+    within = frame[(frame["status"] == "ok") & (frame["error_max"] <= frame["error_bar"]) & frame["factor_vs_reference"].notna()]
+    return within.loc[within["factor_vs_reference"].idxmax()] if len(within) else None
+
+
 def chain(results):
-    frame = results.table("chain", "link", "label", "factor_of_link", "factor_vs_reference", "factor_vs_reference_low", "factor_vs_reference_high", "error_max", "status").sort_values("link")
+    frame = results.table("chain", "link", "label", "factor_of_link", "factor_vs_reference", "factor_vs_reference_low", "factor_vs_reference_high", "error_max", "error_bar", "status").sort_values("link")
     good = frame[frame["factor_vs_reference"].notna()]
     if good.empty:
         raise NotMeasured("no link of the chain has a factor")
@@ -23,12 +29,12 @@ def chain(results):
     errors = points(good, "chain", "label", "error_max", [], COLUMNS, mode="lines+markers", name="error (right)", yaxis="y2", marker={"color": "#D55E00", "size": 9, "symbol": "diamond"},
                     line={"color": "#D55E00", "dash": "dot"})
     traces = [factors, errors]
-    if "error_bar" in good and good["error_bar"].notna().any():
+    if good["error_bar"].notna().any():
         traces.append({"type": "scatter", "x": labels, "y": [float(value) if value == value else None for value in good["error_bar"]], "mode": "lines", "yaxis": "y2", "name": "error allowed (right)",
                        "line": {"color": "soft", "dash": "dash"}, "meta": {}, "hoverinfo": "skip"})
-    within = good[good["error_max"] <= good["error_bar"]] if "error_bar" in good and good["error_bar"].notna().any() else good
-    best = (within if len(within) else good).loc[lambda rows: rows["factor_vs_reference"].idxmax()]
-    text = (f"Each bar is one link more: how many times faster than the reference, all in one interleaved run; on top, what the link itself brings. The farthest link within "
-            f"the allowed error is {shown(best['factor_vs_reference'])} times the reference ({best['label']}), with an error of {shown(best['error_max'])}.")
+    best = best_link(frame)
+    words = "No link keeps the allowed error." if best is None else (f"The fastest link within the allowed error is {shown(best['factor_vs_reference'])} times the reference ({best['label']}), "
+                                                                     f"with an error of {shown(best['error_max'])}.")
+    text = f"Each bar is one link more: how many times faster than the reference, all in one interleaved run; on top, what the link itself brings. {words}"
     layout = {"xaxis": linear("", type="category", automargin=True), "yaxis": logarithmic("times the reference"), "yaxis2": logarithmic("error, relative", overlaying="y", side="right", showgrid=False)}
     return Chart(text, "chain", traces, layout, frame, COLUMNS, height=540)

@@ -17,10 +17,14 @@ DASHES = {"f64": "solid", "f32": "dot", "f32c": "dash"}
 
 @dataclasses.dataclass
 class Filter:
-    """A choice of the reader's: traces and rows whose `key` is another one are not shown. `is_single`: one is always chosen."""
+    """A choice of the reader's: traces and rows whose `key` is another one are not shown. `is_single`: one is always chosen.
+
+    `first`: (name, values) of a choice of several at once, which is made when the page opens.
+    """
     key: str
     label: str
     is_single: bool = False
+    first: tuple = ()
 
 
 @dataclasses.dataclass

@@ -1,4 +1,5 @@
 """What a stable step does to the energy of an undamped mode."""
+from ..results import NotMeasured
 from .chart import OKABE_ITO, SYMBOLS, Chart, Filter, by_order, linear, plain, points
 
 COLUMNS = {"integrator": "method", "h_omega": "h omega", "theory_energy_change_per_step": "theory", "measured_energy_change_per_step": "measured", "steps": "steps"}
@@ -12,6 +13,8 @@ def energy(results):
                              marker={"color": colours[method], "symbol": symbols[method], "size": 7}))
         traces.append({"type": "scatter", "mode": "lines", "x": plain(rows["h_omega"]), "y": plain(rows["theory_energy_change_per_step"]), "line": {"color": colours[method], "width": 1.3},
                        "name": method, "legendgroup": method, "meta": {"integrator": method}, "hoverinfo": "skip"})
+    if frame["measured_energy_change_per_step"].isna().all():
+        raise NotMeasured("tables/stability_energy.csv has no change of energy that was measured")
     worst = frame.loc[frame["measured_energy_change_per_step"].idxmin()]
     text = (f"Change of energy in one step, below the stability limit: lines are theory, marks are runs. Most is lost by {worst['integrator']} at h omega = {worst['h_omega']:.3g}: "
             f"{100 * worst['measured_energy_change_per_step']:.0f} % in a step, and stable.")

@@ -1,12 +1,13 @@
 """Kernels under the ceilings that were measured in the same session."""
 from ..results import NotMeasured
-from ..words import choice
+from ..words import choice, shown
 from .chart import OKABE_ITO, SYMBOLS, Chart, Filter, by_order, logarithmic, plain, points
 
 COLUMNS = {"cell": "cell", "kernel": "kernel", "model": "model", "precision": "precision", "variant": "variant", "level": "level", "threads": "threads", "intensity_flop_per_byte": "flop/byte",
            "flops_per_s": "flop/s", "bytes_per_s": "byte/s", "measured_ns_per_element": "ns an element", "measured_ns_per_element_low": "from", "measured_ns_per_element_high": "to",
            "share_of_roof": "share of its roof", "limiter": "limiter", "check": "check", "status": "status", "reason": "reason"}
-FILTERS = [Filter("precision", "Precision", is_single=True), Filter("threads", "Threads", is_single=True), Filter("variant", "Variant"), Filter("kernel", "Kernel"), Filter("level", "Level"),
+WHOLE = ["rk4_step", "stage_row", "stage_row_last"]  # what a step is made of; the other kernels are parts of these
+FILTERS = [Filter("precision", "Precision", is_single=True), Filter("threads", "Threads", is_single=True), Filter("variant", "Variant"), Filter("kernel", "Kernel", first=("whole rows and steps", WHOLE)), Filter("level", "Level"),
            Filter("model", "Model")]
 # Whose instructions a variant is made of; others are of their own name.
 ISA_OF = {"scalar-native": "scalar", "reference": "scalar", "opencl-rhs": "opencl"}
@@ -23,8 +24,8 @@ def ceilings(results, variants, least, most):
     traces, levels = [], by_order(bandwidths["level"].unique(), ["solid", "dash", "dashdot", "dot"])
     for _, peak in peaks.loc[peaks.groupby(["isa", "precision", "threads"])["measured_per_s"].idxmax()].iterrows():
         own = bandwidths[bandwidths["threads"] == peak["threads"]]
-        if (own["isa"] == peak["isa"]).any():
-            own = own[own["isa"] == peak["isa"]]
+        # Levels of the processor are everybody's; a device's are its own.
+        own = own[own["isa"] == peak["isa"]] if (own["isa"] == peak["isa"]).any() else own[own["isa"] != "opencl"]
         for variant in [name for name in variants if ISA_OF.get(name, name) == peak["isa"]]:
             for level, rows in own.groupby("level", sort=False):
                 slope = rows.loc[rows["measured_per_s"].idxmax()]
@@ -42,7 +43,8 @@ def roofline(results):
     good = frame[frame["flops_per_s"].notna() & frame["intensity_flop_per_byte"].notna()]
     if good.empty:
         raise NotMeasured("no kernel has a rate")
-    colours, symbols = by_order(good["kernel"].unique(), OKABE_ITO), by_order(good["variant"].unique(), SYMBOLS)
+    kernels = list(dict.fromkeys([name for name in WHOLE if name in set(good["kernel"])] + list(good["kernel"])))
+    colours, symbols = by_order(kernels, OKABE_ITO), by_order(good["variant"].unique(), SYMBOLS)
     traces = ceilings(results, list(symbols), 0.5 * good["intensity_flop_per_byte"].min(), 2 * good["intensity_flop_per_byte"].max())
     has_roof = bool(traces)
     for (kernel, variant, *_), rows in good.groupby(["kernel", "variant", "precision", "threads", "level", "model"], sort=False, dropna=False):
@@ -50,8 +52,11 @@ def roofline(results):
                              legendgroup=kernel, marker={"size": 9, "color": colours[kernel], "symbol": symbols[variant]}))
     marks = ", ".join(f"{symbol.replace('-', ' ')} {variant}" for variant, symbol in symbols.items())
     best = good.loc[good["share_of_roof"].idxmax()] if good["share_of_roof"].notna().any() else None
-    words = "" if best is None else f" Closest to its roof is {best['kernel']} of {best['variant']} in {best['precision']}, {best['level']}: {100 * best['share_of_roof']:.0f} %, held by {best['limiter']}."
+    words = ""
+    if best is not None:
+        limiter = f", held by {best['limiter']}" if shown(best["limiter"]) else ""
+        words = f" Closest to its roof is {best['kernel']} of {best['variant']} in {best['precision']}, {shown(best['level'])}: {100 * best['share_of_roof']:.0f} %{limiter}."
     roof = "Grey lines are ceilings as measured in this session, by memory level." if has_roof else "The ceilings were not measured: run `dssbench experiment kernels`."
-    text = f"Declared flops over the measured time, against declared flops over bytes. A colour is a kernel, a mark a variant ({marks}). {roof}{words}"
+    text = f"Declared flops over the measured time, against declared flops over bytes. A colour is a kernel (of all at once some share one), a mark a variant ({marks}). {roof}{words}"
     layout = {"xaxis": logarithmic("flop/byte"), "yaxis": logarithmic("flop/s")}
     return Chart(text, "kernels", traces, layout, frame, COLUMNS, FILTERS, height=540)

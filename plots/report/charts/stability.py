@@ -42,7 +42,7 @@ def stability(results):
     for (_, kind, _), rows in measured.groupby(["integrator", "kind", "status"], sort=False):
         traces.append(points(rows, "stability", "measured_h_omega", "shown_zeta", ["integrator", "status"], COLUMNS, mode="markers", name=f"measured: {kind}", legendgroup=kind,
                              marker={"size": 10, "symbol": "circle" if kind == "one mode" else "diamond", "color": "#000000" if kind == "one mode" else "#FFFFFF", "line": {"width": 1.5, "color": "#000000"}}))
-    ratios = measured.loc[(measured["status"] == "ok") & measured["prediction"].str.startswith("exact", na=False), "ratio"].dropna()
+    ratios = measured.loc[(measured["status"] == "ok") & measured["prediction"].astype(str).str.startswith("exact"), "ratio"].dropna()
     words = f" Of {len(ratios)} limits with an exact prediction the farthest is off by {100 * (ratios - 1).abs().max():.2g} %." if len(ratios) else ""
     text = (f"Blue: a step shrinks every motion; red: some motion grows; the line is the limit in theory, the marks are limits as runs show them (undamped ones at the lower edge).{words} "
             f"The map has {len(theory)} points of theory, which are in tables/stability_map.csv; the table below has the limits.")

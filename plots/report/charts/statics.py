@@ -13,7 +13,7 @@ def statics(results):
     for (solver, _, _, _), rows in frame.groupby(["solver", "problem", "model", "status"], sort=False):
         traces.append(points(rows, "statics", "unknowns", "wall_s", ["solver", "problem", "model", "status"], COLUMNS, mode="markers", name=solver, legendgroup=solver,
                              marker={"size": 9, "color": colours[solver], "symbol": symbols[solver]}))
-    held = frame.loc[frame["status"] == "passed", "difference"]
+    held = frame.loc[frame["status"] == "passed", "difference"].dropna()
     words = f" {len(held)} comparisons agree within {held.max():.2g} of the largest displacement (bar {frame['bar'].max():g})." if len(held) else ""
     text = f"Time of each solver over the number of unknowns.{words}"
     return Chart(text, "statics", traces, {"xaxis": logarithmic("unknowns"), "yaxis": logarithmic("time [s]")}, frame, COLUMNS,
