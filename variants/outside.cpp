@@ -125,7 +125,8 @@ std::vector<OutsideVariant> outside_variants() {
     std::sort(modules.begin(), modules.end());
     for (const fs::path& module : modules) variants.push_back(described(module));
   }
-  std::ranges::stable_partition(variants, [](const OutsideVariant& variant) { return variant.unusable.empty(); });
+  std::stable_partition(variants.begin(), variants.end(),
+                        [](const OutsideVariant& variant) { return variant.unusable.empty(); });
   return variants;
 }
 

@@ -32,7 +32,7 @@ std::vector<Exact> exact_row(const CompiledKernel& kernel, std::size_t elements,
   with_physics<Exact>(kernel.model, [&]<class Physics>() {
     constexpr Terms terms{.is_damped = true};
     run_row_case(RowCase{kernel.is_last, int(fields), 1}, in.data(), out.data(), elements, row_elements,
-                 [](const RowTask<Exact>& task) {
+                 [&](const RowTask<Exact>& task) {
                    const StageRow<Physics, Exact, terms> row{task};
                    RowUpdate<Physics, Exact> update(task, row.turn_scale());
                    row.run(update);

@@ -1,4 +1,5 @@
 #include "experiments/microbenchmarks/micro_run.hpp"
+#include "experiments/microbenchmarks/likwid_markers.hpp"
 #include "experiments/runner/context.hpp"
 #include "solver/error.hpp"
 
@@ -46,9 +47,12 @@ long passes_for(const MicroCase& one, double sample_s) {
 void run_case(benchmark::State& state, const MicroCase& one) {
   const auto work = one.make();
   work->pass();
-  for (auto _ : state) {
-    work->pass();
-    benchmark::ClobberMemory();
+  {
+    const MarkedRegion region(one.cell());
+    for (auto _ : state) {
+      work->pass();
+      benchmark::ClobberMemory();
+    }
   }
   const double a_thread = one.elements / (one.is_threaded_inside ? 1 : one.threads);
   state.counters["elements_per_s"] =
@@ -175,23 +179,24 @@ void run_micro_cases(const std::string& experiment, const std::vector<MicroCase>
     for (const MicroCase* one : order) {
       done(finished++, total, one->cell());
       if (present.contains({one->cell(), fmt::format("{}", repetition)})) continue;
-      const auto [place, is_new] = prepared.try_emplace(one->cell());
-      if (is_new) place->second = prepare_case(*one, rules.sample_s);
-      if (!place->second.cannot.empty()) { // a device without double precision, say: the others go on
+      const bool is_new = !prepared.contains(one->cell());
+      Prepared& own = prepared[one->cell()];
+      if (is_new) own = prepare_case(*one, rules.sample_s);
+      if (!own.cannot.empty()) { // a device without double precision, say: the others go on
         if (is_new && !present.contains({one->cell(), ""})) {
           Record record = head_of(experiment, *one);
-          record["status"] = "skipped", record["reason"] = place->second.cannot;
+          record["status"] = "skipped", record["reason"] = own.cannot;
           records.append(record);
         }
         continue;
       }
       benchmark::ClearRegisteredBenchmarks();
       benchmark::RegisterBenchmark(one->cell().c_str(), [one](benchmark::State& state) { run_case(state, *one); })
-          ->Iterations(place->second.passes)
+          ->Iterations(own.passes)
           ->Threads(one->is_threaded_inside ? 1 : one->threads)
           ->UseRealTime();
       Recorder recorder(
-          [&](const auto& run) { records.append(measured_record(experiment, *one, place->second, repetition, run)); });
+          [&](const auto& run) { records.append(measured_record(experiment, *one, own, repetition, run)); });
       benchmark::RunSpecifiedBenchmarks(&recorder);
     }
   }

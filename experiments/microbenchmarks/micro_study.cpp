@@ -1,4 +1,5 @@
 #include "experiments/microbenchmarks/micro_study.hpp"
+#include "experiments/microbenchmarks/likwid_markers.hpp"
 #include "experiments/microbenchmarks/micro_tables.hpp"
 #include "experiments/runner/circumstances.hpp"
 #include "experiments/runner/context.hpp"
@@ -121,6 +122,7 @@ bool run_micro_study(const MicroStudy& study, const std::string& directory, bool
   nlohmann::json context = measurement_context();
   const std::string no_counters = why_no_counters();
   context["hardware_counters"] = no_counters.empty() ? "available" : "unavailable: " + no_counters;
+  context["likwid_markers"] = why_no_markers().empty() ? "counted" : "unavailable: " + why_no_markers();
   if (records.present().empty())
     write_circumstances(paths.context, context, circumstances);
   else
