@@ -1,5 +1,6 @@
 #include "experiments/microbenchmarks/micro_case.hpp"
 #include "experiments/microbenchmarks/kernel_work.hpp"
+#include "experiments/runner/statics/statics_study.hpp"
 #include "kernels/stage_row/cost.hpp"
 #include "solver/error.hpp"
 #include "solver/model/fields.hpp"
@@ -76,15 +77,7 @@ double step_error(const Plugin& plugin, Model model, Precision precision, int n,
   if (expected.empty())
     expected = fields_after(load_variant("reference"), Model::spatial, Precision::f64, scene, steps, 1);
   const std::vector<double> fields = fields_after(plugin, model, precision, scene, steps, threads);
-  double difference = 0, largest = 0;
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (k % field_count > uz) continue;
-    const double error = std::abs(fields[k] - expected[k]);
-    if (std::isnan(error)) return error;
-    difference = std::max(difference, error);
-    largest = std::max(largest, std::abs(expected[k]));
-  }
-  return difference / largest;
+  return displacement_difference(fields, expected);
 }
 
 bool has_name(const std::vector<std::string>& names, std::string_view name) {
@@ -106,11 +99,10 @@ std::vector<std::string> kernel_names(const std::vector<const Plugin*>& plugins)
 }
 
 void require_known_names(const MicroSet& set, const std::vector<const Plugin*>& plugins) {
-  std::vector<std::string> model_list, variant_list;
-  for (const Model model : models) model_list.emplace_back(name(model));
+  std::vector<std::string> variant_list;
   for (const VariantStatus& variant : variants()) variant_list.push_back(variant.name);
   require_known(set.kernels, "kernel", kernel_names(plugins));
-  require_known(set.models, "model", model_list);
+  require_known(set.models, "model", model_names());
   require_known(set.precisions, "precision", {"f64", "f32"});
   require_known(set.variants, "variant", variant_list);
   require_known(set.levels, "level", memory_levels);

@@ -6,12 +6,14 @@
 #include "experiments/runner/experiment.hpp"
 #include "experiments/runner/keyed_study.hpp"
 #include "experiments/runner/progress.hpp"
+#include "experiments/runner/study_sets.hpp"
 #include "solver/numerics/denormals.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <set>
 
 namespace dss {
 namespace {
@@ -38,29 +40,22 @@ MicroSet read_micro_set(const JsonPlace& place) {
   return set;
 }
 
-Model model_in(const JsonPlace& place) {
-  for (const Model model : models)
-    if (name(model) == place.text()) return model;
-  place.fail(fmt::format("\"{}\" is not a model", place.text()));
-}
-
 void read_attribution(const JsonPlace& place, std::vector<AttributionCase>& cases) {
   place.require_keys({"variants", "models", "precisions", "n"});
   for (const std::string& variant : place["variants"].texts())
     for (const JsonPlace& model : place["models"].items())
-      for (const std::string& precision : place["precisions"].texts())
+      for (const JsonPlace& precision : place["precisions"].items())
         for (const JsonPlace& n : place["n"].items())
-          cases.push_back(
-              {variant, model_in(model), precision == "f32" ? Precision::f32 : Precision::f64, int(n.count(2))});
+          cases.push_back({variant, model_in(model), precision_in(precision), int(n.count(2))});
 }
 
 /// Every case once, though several sets may ask for it.
 std::vector<MicroCase> all_cases(const MicroStudy& study) {
   std::vector<MicroCase> cases;
+  std::set<std::string> known;
   for (const MicroSet& set : study.sets)
     for (MicroCase& one : micro_cases(set))
-      if (std::ranges::none_of(cases, [&](const MicroCase& known) { return known.cell() == one.cell(); }))
-        cases.push_back(std::move(one));
+      if (known.insert(one.cell()).second) cases.push_back(std::move(one));
   return cases;
 }
 

@@ -1,4 +1,5 @@
 #include "experiments/runner/study_sets.hpp"
+#include "solver/nearest_name.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -39,6 +40,18 @@ std::vector<Override> one_set(const JsonPlace& overrides) {
   const Sets sets = combinations(overrides);
   if (sets.size() != 1) overrides.fail("has several values for a key; give one each");
   return sets.front();
+}
+
+Model model_in(const JsonPlace& place) {
+  if (const auto model = find_model(place.text())) return *model;
+  place.fail(fmt::format("unknown model \"{}\"; {}", place.text(), nearest_name(place.text(), model_names())));
+}
+
+Precision precision_in(const JsonPlace& place) {
+  if (const auto precision = find_precision(place.text())) return *precision;
+  std::vector<std::string> names;
+  for (const Precision precision : precisions) names.emplace_back(name(precision));
+  place.fail(fmt::format("unknown precision \"{}\"; {}", place.text(), nearest_name(place.text(), names)));
 }
 
 std::string scene_beside(const std::string& study_path, const std::string& scene) {

@@ -1,34 +1,19 @@
 #include "experiments/runner/chain/chain_study.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/keyed_study.hpp"
-#include "solver/nearest_name.hpp"
 #include "solver/numerics/method.hpp"
 #include "variants/loader.hpp"
 
 namespace dss {
 namespace {
 
-template <class Value, class Name>
-Value named(const JsonPlace& place, const std::vector<Value>& values, const char* kind, Name&& name_of) {
-  std::vector<std::string> known;
-  for (const Value& value : values) {
-    known.emplace_back(name_of(value));
-    if (known.back() == place.text()) return value;
-  }
-  place.fail(fmt::format("\"{}\" is not a {}; {}", place.text(), kind, nearest_name(place.text(), known)));
-}
-
 /// What a link names; the rest it has from the one before.
 void read_link(const JsonPlace& place, ChainLink& link) {
   place.require_keys({"label", "variant", "model", "precision", "integrator", "steps_an_interval", "threads"});
   if (place.has("label")) link.label = place["label"].text();
   if (place.has("variant")) link.variant = load_variant(place["variant"].text()).name;
-  if (place.has("model"))
-    link.model = named(place["model"], std::vector<Model>(models.begin(), models.end()), "model",
-                       [](Model model) { return std::string(name(model)); });
-  if (place.has("precision"))
-    link.precision = named(place["precision"], std::vector<Precision>{Precision::f64, Precision::f32}, "precision",
-                           [](Precision precision) { return std::string(name(precision)); });
+  if (place.has("model")) link.model = model_in(place["model"]);
+  if (place.has("precision")) link.precision = precision_in(place["precision"]);
   if (place.has("integrator")) {
     link.integrator = place["integrator"].text();
     const Method* method = find_method(link.integrator);

@@ -1,17 +1,11 @@
 #include "experiments/runner/keyed_study.hpp"
 #include "experiments/runner/model/ladder_study.hpp"
 #include "experiments/runner/study_sets.hpp"
-#include "solver/nearest_name.hpp"
 
 #include <algorithm>
 
 namespace dss {
 namespace {
-
-Model model_at(const JsonPlace& place) {
-  if (const auto model = find_model(place.text())) return *model;
-  place.fail(fmt::format("unknown model \"{}\"; {}", place.text(), nearest_name(place.text(), model_names_and_auto())));
-}
 
 LadderScene read_ladder_scene(const JsonPlace& place, const std::string& path) {
   place.require_keys({"scene", "set", "steps", "precision", "auto", "fails"});
@@ -19,13 +13,10 @@ LadderScene read_ladder_scene(const JsonPlace& place, const std::string& path) {
   scene.scene = scene_beside(path, place["scene"].text());
   if (place.has("set")) scene.set = one_set(place["set"]);
   if (place.has("steps")) scene.steps = place["steps"].count(1);
-  if (place.has("precision")) scene.precision = place["precision"].text();
-  if (!find_precision(scene.precision))
-    place["precision"].fail(fmt::format("unknown precision \"{}\"; {}", scene.precision,
-                                        nearest_name(scene.precision, {"f64", "f32", "f32c"})));
-  scene.ends_with = model_at(place["auto"]);
+  if (place.has("precision")) scene.precision = name(precision_in(place["precision"]));
+  scene.ends_with = model_in(place["auto"]);
   if (place.has("fails"))
-    for (const JsonPlace& item : place["fails"].items()) scene.fails.push_back(model_at(item));
+    for (const JsonPlace& item : place["fails"].items()) scene.fails.push_back(model_in(item));
   try {
     load_scene(scene.scene, scene.set);
   } catch (const InputError& error) {
