@@ -10,14 +10,12 @@ namespace dss {
 template <class T, int W = simd::lanes<T>>
 class Blocks {
 public:
-  /// @param cuts  first row of each own block, and the end  @param halo  rows that blocks publish for one another
-  void make(const PackedRows<T, W>& packed, const Method& method, const std::vector<int>& cuts, int fields, int halo,
-            bool is_alone) {
-    const int rows = int(packed.rows.size());
+  /// @param cuts  first row of each own block, and the end  @param steps  of a pass
+  void make(const PackedRows<T, W>& packed, const Method& method, const std::vector<int>& cuts, int fields, int steps) {
+    const int rows = int(packed.rows.size()), halo = steps * method.stages * packed.reach;
     if (packed.own_begin > 0) blocks_.emplace_back(packed, 0, packed.own_begin, fields, halo);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-      blocks_.emplace_back(packed, method, cuts[b], cuts[b + 1], fields, halo,
-                           WavefrontStep<T, W>::sweeps(packed, method, is_alone));
+      blocks_.emplace_back(packed, method, cuts[b], cuts[b + 1], fields, halo, steps);
     if (packed.own_end < rows) blocks_.emplace_back(packed, packed.own_end, rows, fields, halo);
   }
   std::vector<Block<T, W>>& all() { return blocks_; }

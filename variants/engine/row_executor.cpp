@@ -33,12 +33,13 @@ void RowExecutor<T>::make_blocks() {
   if (const int edge = packed_.own_end - halo; is_part() && part_->is_overlapped && threads_ == 1 &&
                                                packed_.own_end < rows && edge - packed_.own_begin >= 2 * halo)
     cuts = {packed_.own_begin, edge, packed_.own_end};
-  const bool is_alone = cuts.size() == 2 && !is_part();
-  blocks_.make(packed_, method, cuts, stored_fields(), halo, is_alone);
+  steps_a_pass_ = WavefrontStep<T>::steps_a_pass(packed_, method, threads_);
+  blocks_.make(packed_, method, cuts, stored_fields(), steps_a_pass_);
   std::vector<Block<T>>& blocks = blocks_.all();
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (!blocks[b].is_remote())
-      steps_.emplace_back(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem), blocks, b);
+      steps_.emplace_back(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem), blocks, b,
+                          steps_a_pass_);
 }
 
 template <class T>
@@ -182,7 +183,7 @@ private:
 template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
   const std::size_t step_width = signal_count(setup_.problem) * std::size_t(setup_.method.stages);
-  const long at_once = WavefrontStep<T>::steps_a_pass(packed_, setup_.method, steps_.size() == 1 && !is_part());
+  const long at_once = steps_a_pass_, passes = (steps + at_once - 1) / at_once;
   std::vector<Block<T>>& blocks = blocks_.all();
   const std::size_t first_own = blocks_.first_own();
   const bool is_overlapped = is_part() && part_->is_overlapped && threads_ == 1;
@@ -190,10 +191,11 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
   if (is_part()) exchange(&Halo::send, parity_);
   const auto work = [&](int thread, auto&& synchronise) {
     const FlushDenormals guard;
-    for (long pass = 0, n = 0; n < steps; ++pass, n += at_once) {
+    for (long pass = 0; pass < passes; ++pass) {
+      const long n = pass * at_once;
       const double* const values = &signals[std::size_t(n) * step_width];
       const int parity = (parity_ + int(pass & 1)) & 1;
-      const bool is_last = n + at_once >= steps;
+      const bool is_last = pass + 1 == passes;
       for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
         blocks[first_own + b].failed_row = -1;
       if (is_overlapped) {
@@ -214,7 +216,7 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
     }
   };
   run_team(threads_, work);
-  parity_ = (parity_ + int(steps & 1)) & 1; // passes of several steps publish nothing
+  parity_ = (parity_ + int(passes & 1)) & 1;
   return failure.outcome(steps);
 }
 
@@ -259,7 +261,8 @@ std::string RowExecutor<T>::schedule() const {
     return setup_.method.has_error_stage        ? "stage by stage: adaptive steps"
            : setup_.problem.extra_links.empty() ? "stage by stage: halos are exchanged in between"
                                                 : "stage by stage: extra links break the order of rows";
-  return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place";
+  return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place" +
+         (steps_a_pass_ > 1 ? ", " + std::to_string(steps_a_pass_) + " steps a pass" : "");
 }
 
 template <class T>

@@ -61,7 +61,7 @@ private:
   StateRows<T> rows_;
   Blocks<T> blocks_;                    ///< wavefront
   std::vector<WavefrontStep<T>> steps_; ///< of each own block
-  int threads_ = 1;
+  int threads_ = 1, steps_a_pass_ = 1;
   std::optional<StagedRows<T>> staged_; ///< or stage by stage
   int parity_ = 0;
   bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before

@@ -70,15 +70,17 @@ int last_reader(const Method& method, int s) {
 
 template <class T, int W>
 Block<T, W>::Block(const PackedRows<T, W>& packed, const Method& method, int first, int last, int fields, int halo,
-                   int sweeps)
-    : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)),
-      row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo) {
-  const PackedRow<T>& last_row = packed.rows[std::size_t(end - 1)];
+                   int steps)
+    : begin(first), end(last), stored_begin(steps == 1 ? begin : std::max(0, begin - halo)),
+      stored_end(steps == 1 ? end : std::min(int(packed.rows.size()), end + halo)), packed_(&packed),
+      pack_size_(std::size_t(fields) * std::size_t(W)), row_size_(std::size_t(packed.max_packs + 1) * pack_size_),
+      halo_(halo) {
+  const PackedRow<T>& last_row = packed.rows[std::size_t(stored_end - 1)];
   const std::size_t packs =
-      last_row.pack_offset + std::size_t(last_row.packs) - packed.rows[std::size_t(begin)].pack_offset;
+      last_row.pack_offset + std::size_t(last_row.packs) - packed.rows[std::size_t(stored_begin)].pack_offset;
   state_ = Buffer<T>((packs + 1) * pack_size_, packed.memory); // one pack more: rows look one pack ahead
   make_published();
-  for (int s = 0; s < sweeps; ++s) carry.emplace_back(packed);
+  for (int s = 0; s < steps * method.stages; ++s) carry.emplace_back(packed);
   for (int stage = 0; stage + 1 < method.stages; ++stage) {
     // Y_{s + 1} is written by stage s and last read (reader - s) reaches behind; priming reads two reaches back.
     const int reaches = std::max(last_reader(method, stage) - stage, begin > 0 ? 2 : 1);
@@ -92,8 +94,8 @@ Block<T, W>::Block(const PackedRows<T, W>& packed, const Method& method, int fir
 
 template <class T, int W>
 Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fields, int halo)
-    : begin(first), end(last), packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)), row_size_(0),
-      halo_(halo) {
+    : begin(first), end(last), stored_begin(first), stored_end(first), packed_(&packed),
+      pack_size_(std::size_t(fields) * std::size_t(W)), row_size_(0), halo_(halo) {
   make_published();
 }
 
@@ -109,8 +111,7 @@ void Block<T, W>::make_published() {
 
 template <class T, int W>
 void Block<T, W>::publish(int r, int parity) {
-  const std::size_t packs = std::size_t(packed_->rows[std::size_t(r)].packs);
-  std::copy_n(row(r), packs * pack_size_, published(r, parity));
+  std::copy_n(row(r), row_length(r), published(r, parity));
 }
 
 template <class T, int W>
@@ -125,19 +126,18 @@ std::size_t Block<T, W>::bytes() const {
 template <class T, int W>
 WavefrontStep<T, W>::WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt,
                                    const RowStorage& storage, std::size_t signal_count,
-                                   std::vector<Block<T, W>>& blocks, std::size_t index)
-    : packed_(packed), fields_(storage.stored()), stages_(method.stages), block_(blocks[index]),
-      signals_(signal_count, sweeps(packed, method, blocks.size() == 1 && !packed.is_part())) {
-  find_state_rows(method, blocks);
+                                   std::vector<Block<T, W>>& blocks, std::size_t index, int steps)
+    : packed_(packed), fields_(storage.stored()), stages_(method.stages), steps_(steps), block_(blocks[index]),
+      signals_(signal_count, steps * method.stages) {
+  find_state_rows(blocks);
   const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, storage, W, dt);
-  const int steps = steps_a_pass(packed, method, blocks.size() == 1 && !packed.is_part());
-  sweeps_[0] = make_sweeps(steps, updates, 0);
-  if (blocks.size() > 1) sweeps_[1] = make_sweeps(steps, updates, 1);
+  sweeps_[0] = make_sweeps(updates, 0);
+  if (blocks.size() > 1 && steps == 1) sweeps_[1] = make_sweeps(updates, 1);
 }
 
 template <class T, int W>
-void WavefrontStep<T, W>::find_state_rows(const Method& method, std::vector<Block<T, W>>& blocks) {
-  const int halo = method.stages * packed_.reach;
+void WavefrontStep<T, W>::find_state_rows(std::vector<Block<T, W>>& blocks) {
+  const int halo = steps_ * stages_ * packed_.reach;
   for (int parity : {0, 1}) {
     std::vector<T*>& rows = state_rows_[std::size_t(parity)];
     rows.assign(packed_.rows.size(), nullptr);
@@ -148,11 +148,17 @@ void WavefrontStep<T, W>::find_state_rows(const Method& method, std::vector<Bloc
 }
 
 template <class T, int W>
-auto WavefrontStep<T, W>::make_sweeps(int steps, const std::vector<StageUpdate<T>>& updates, int parity)
-    -> std::vector<Sweep> {
+void WavefrontStep<T, W>::fetch_halo(int parity) {
+  for (int r = block_.stored_begin; r < block_.stored_end; ++r)
+    if (!block_.owns(r)) std::copy_n(state_row(r, parity), block_.row_length(r), block_.row(r));
+}
+
+template <class T, int W>
+auto WavefrontStep<T, W>::make_sweeps(const std::vector<StageUpdate<T>>& updates, int parity) -> std::vector<Sweep> {
   std::vector<Sweep> sweeps;
-  for (int n = 0; n < steps * stages_; ++n) {
-    const int s = n % stages_, halo = (stages_ - 1 - s) * packed_.reach;
+  const int count = steps_ * stages_;
+  for (int n = 0; n < count; ++n) {
+    const int s = n % stages_, halo = (count - 1 - n) * packed_.reach;
     const bool is_last = s + 1 == stages_;
     Sweep sweep{std::max(0, block_.begin - halo), std::min(int(packed_.rows.size()), block_.end + halo), {}};
     sweep.rows.reserve(std::size_t(sweep.end - sweep.begin));
@@ -161,7 +167,7 @@ auto WavefrontStep<T, W>::make_sweeps(int steps, const std::vector<StageUpdate<T
       set_row(task, packed_, r, fields_, block_.carry[std::size_t(n)],
               [&](int row) { return input_row(s, row, parity); });
       task.signals = signals_.stage(n);
-      T* const base = state_row(r, parity);
+      T* const base = stepped_row(r, parity);
       updates[std::size_t(s)].set(task, base, is_last ? base : block_.ring_row(s, r),
                                   [&](int m) { return block_.ring_row(m, r); });
       sweep.rows.push_back({packed_.is_computed(r, stages_ - 1 - s), task});
@@ -182,10 +188,12 @@ std::size_t WavefrontStep<T, W>::bytes() const {
 template <class T, int W>
 void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parity) {
   const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
-  int count = steps * stages_; // sweeps that run; after a failure only those of earlier steps, which may fail as well
+  const int last = steps * stages_ - 1;
+  int count = last + 1; // sweeps that run; after a failure only those of earlier steps, which may fail as well
   signals_.set(signals, count);
+  fetch_halo(parity);
   bool is_watched = watched_row_ >= 0;
-  const int lag = packed_.reach, end = sweeps[std::size_t(count - 1)].end + (count - 1) * lag;
+  const int lag = packed_.reach, end = sweeps[std::size_t(last)].end + last * lag;
   for (int t = sweeps[0].begin; t < end; ++t)
     for (int n = 0; n < count; ++n) {
       const Sweep& sweep = sweeps[std::size_t(n)];
@@ -195,15 +203,15 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
         prime_links(packed_, r, fields_, block_.carry[std::size_t(n)],
                     [&](int row) { return input_row(s, row, parity); });
       const RowStage& row = sweep.rows[std::size_t(r - sweep.begin)];
-      const bool is_last = s + 1 == stages_;
       if (!row.is_whole) {
         prime_uppers(packed_, r, row.task);
-      } else if (!packed_.rows[std::size_t(r)].kernels->stage(row.task) &&
+      } else if (!packed_.rows[std::size_t(r)].kernels->stage(row.task) && block_.owns(r) &&
                  packed_.first_failed(r, block_.row(r), fields_)) {
         block_.failed_row = r, block_.failed_step = n / stages_, count = n;
       }
-      if (is_last && block_.is_published(r)) block_.publish(r, parity ^ 1);
-      if (is_last && r == watched_row_) is_watched = false, watched_row_done_();
+      if (n != last || !block_.owns(r)) continue;
+      if (block_.is_published(r)) block_.publish(r, parity ^ 1);
+      if (r == watched_row_) is_watched = false, watched_row_done_();
     }
   if (is_watched) watched_row_done_(); // a failure ended the pass before; others wait for the row all the same
 }

@@ -5,26 +5,33 @@
 #include "variants/engine/row_storage.hpp"
 #include "variants/engine/schedule.hpp"
 
+#include <algorithm>
 #include <functional>
 
 namespace dss {
 
 /// A contiguous block of rows with its own storage. What other blocks need of it is published twice over, by parity of
-/// the step, so that one synchronisation a step is enough: while step n reads one copy, the other is written for step n
+/// the pass, so that one synchronisation a pass is enough: while pass n reads one copy, the other is written for pass n
 /// + 1. Halo rows of a part beside its own rows are a remote block: published by messages, computed elsewhere.
 template <class T, int W = simd::lanes<T>>
 class Block {
 public:
-  Block(const PackedRows<T, W>& packed, const Method& method, int begin, int end, int fields, int halo, int sweeps);
+  /// @param halo  rows that other blocks read of this one, and this one of them  @param steps  of a pass: with more than one, copies of
+  /// the halo's rows are stored beside the block's own, to be stepped with them
+  Block(const PackedRows<T, W>& packed, const Method& method, int begin, int end, int fields, int halo, int steps);
   /// A remote block.
   Block(const PackedRows<T, W>& packed, int begin, int end, int fields, int halo);
 
   int begin, end;
+  int stored_begin, stored_end; ///< rows with a place here: own rows, and copies of the halo's
   bool is_remote() const { return state_.empty(); }
   T* row(int r) {
     return state_.data() +
-           (packed_->rows[std::size_t(r)].pack_offset - packed_->rows[std::size_t(begin)].pack_offset) * pack_size_;
+           (packed_->rows[std::size_t(r)].pack_offset - packed_->rows[std::size_t(stored_begin)].pack_offset) *
+               pack_size_;
   }
+  /// Of a row [numbers].
+  std::size_t row_length(int r) const { return std::size_t(packed_->rows[std::size_t(r)].packs) * pack_size_; }
   bool owns(int r) const { return r >= begin && r < end; }
   bool is_published(int r) const {
     return (r < begin + halo_ && begin > 0) || (r >= end - halo_ && end < int(packed_->rows.size()));
@@ -101,27 +108,25 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage
 /// The last stage of a method that reads the output of stage s.
 int last_reader(const Method& method, int s);
 
-/// Steps one block; `blocks` are all blocks. A pass over the rows makes one sweep for each stage of a step or, with a method in place on
-/// one block, for several steps. What a sweep does to a row is the same in every pass but for the parity of what
+/// Steps one block; `blocks` are all blocks. A pass over the rows makes one sweep for each stage of a step or, with a method in place, for
+/// several steps. What a sweep does to a row is the same in every pass but for the parity of what
 /// neighbours publish, so all row tasks are made once: making them anew would cost as much as several packs of a row.
 template <class T, int W = simd::lanes<T>>
 class WavefrontStep {
 public:
+  /// @param steps  of a pass, as all its blocks have them
   WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt, const RowStorage& storage,
-                std::size_t signal_count, std::vector<Block<T, W>>& blocks, std::size_t index);
-  /// Sweeps that a block needs carry buffers for. `is_alone`: nothing but this block computes any of the problem.
-  static int sweeps(const PackedRows<T, W>& packed, const Method& method, bool is_alone) {
-    return method.stages * steps_a_pass(packed, method, is_alone);
-  }
+                std::size_t signal_count, std::vector<Block<T, W>>& blocks, std::size_t index, int steps);
   /// Some methods update in place, so a step can follow `reach` rows behind the one before: several steps for one trip
-  /// through memory. Measured: eight for a plate; four where a link reaches over a plane of rows, of which eight leave L2.
-  /// Several blocks would need halos as many times deeper, and take one step a pass.
-  static int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, bool is_alone) {
-    if (!method.is_in_place() || !is_alone) return 1;
-    return packed.reach == 1 ? 8 : 4;
+  /// through memory, and one meeting of the threads. Measured: eight for a plate; four where a link reaches over a plane of rows, of which
+  /// eight leave L2. A block of several recomputes reach * steps (steps - 1) / 2 rows a side: so few steps that this is a sixteenth at most.
+  static int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, int blocks) {
+    if (!method.is_in_place() || packed.is_part()) return 1;
+    const int most = packed.reach == 1 ? 8 : 4, block_rows = int(packed.rows.size()) / blocks;
+    return blocks == 1 ? most : std::clamp(1 + block_rows / (16 * packed.reach), 1, most);
   }
 
-  /// One pass of at most steps_a_pass steps, with the signals of their stages (signal_rows.hpp); `parity` says which published
+  /// One pass of at most so many steps, with the signals of their stages (signal_rows.hpp); `parity` says which published
   /// copies are current. The block's own rows end up updated in place and published under the other parity. Sets the block's
   /// failed_row and failed_step to the first row that the first failing step leaves non-finite.
   void operator()(const double* signals, int steps, int parity);
@@ -147,18 +152,25 @@ private:
     std::vector<RowStage> rows;
   };
   T* state_row(int r, int parity) const { return state_rows_[std::size_t(parity)][std::size_t(r)]; }
-  T* input_row(int stage, int r, int parity) {
-    return stage == 0 ? state_row(r, parity) : block_.ring_row(stage - 1, r);
+  /// Where a pass has the state of a row: here, or with a neighbour who published it.
+  T* stepped_row(int r, int parity) {
+    const bool is_here = r >= block_.stored_begin && r < block_.stored_end;
+    return is_here ? block_.row(r) : state_row(r, parity);
   }
-  void find_state_rows(const Method& method, std::vector<Block<T, W>>& blocks);
-  std::vector<Sweep> make_sweeps(int steps, const std::vector<StageUpdate<T>>& updates, int parity);
+  T* input_row(int stage, int r, int parity) {
+    return stage == 0 ? stepped_row(r, parity) : block_.ring_row(stage - 1, r);
+  }
+  void find_state_rows(std::vector<Block<T, W>>& blocks);
+  void fetch_halo(int parity);
+  std::vector<Sweep> make_sweeps(const std::vector<StageUpdate<T>>& updates, int parity);
 
   const PackedRows<T, W>& packed_;
-  const int fields_, stages_;
+  const int fields_, stages_, steps_;
   Block<T, W>& block_;
   StepSignals<T> signals_;
   std::array<std::vector<T*>, 2> state_rows_; ///< parity, row: the block's own rows and its neighbours' published ones
-  std::array<std::vector<Sweep>, 2> sweeps_;  ///< parity, sweep; a block without neighbours needs one parity
+  std::array<std::vector<Sweep>, 2>
+      sweeps_; ///< parity, sweep; one parity is enough where all that is read is the block's
   int watched_row_ = -1;
   std::function<void()> watched_row_done_;
 };

@@ -55,16 +55,17 @@ void ResidentExecutor<T, W>::make_blocks() {
   const int halo = method.stages * packed_.reach;
   const std::vector<int> cuts = cut_blocks();
   bands_ = int(cuts.size()) - 1;
-  const bool is_alone = bands_ == 1 && !is_part();
-  steps_a_pass_ = WavefrontStep<T, W>::steps_a_pass(packed_, method, is_alone);
-  blocks_.make(packed_, method, cuts, stored_fields(), halo, is_alone);
+  // Several bands would have to copy their halos on the device.
+  steps_a_pass_ = bands_ == 1 ? WavefrontStep<T, W>::steps_a_pass(packed_, method, 1) : 1;
+  blocks_.make(packed_, method, cuts, stored_fields(), steps_a_pass_);
   std::vector<Block<T, W>>& blocks = blocks_.all();
-  most_sweeps_ = WavefrontStep<T, W>::sweeps(packed_, method, is_alone);
+  most_sweeps_ = steps_a_pass_ * method.stages;
   if (!is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
   for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
     if (blocks[b].is_remote()) continue;
     add_neighbours(cuts, int(band++), halo);
-    WavefrontStep<T, W> step(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem), blocks, b);
+    WavefrontStep<T, W> step(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem), blocks, b,
+                             steps_a_pass_);
     for (const int parity : {0, 1}) {
       int n = 0;
       const auto is_last = [&] { return n % method.stages == 0; }; // n counts from 1 here
