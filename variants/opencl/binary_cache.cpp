@@ -21,14 +21,19 @@ std::string file_of(std::string_view key) {
 /// The whole key is in the file, so that no two programs with equal hashes are confused.
 std::string head_of(std::string_view key) { return fmt::format("dssbench binary 1\n{}\n{}\n", key.size(), key); }
 
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+constexpr const char* own_directory = "DSSBENCH_CACHE_DIR";
+
 } // namespace
 
+bool is_cache_asked_for() { return !environment(own_directory).empty(); }
+
 std::string cache_directory() {
-  const auto environment = [](const char* name) {
-    const char* value = std::getenv(name);
-    return std::string(value == nullptr ? "" : value);
-  };
-  if (const std::string own = environment("DSSBENCH_CACHE_DIR"); !own.empty()) return own;
+  if (is_cache_asked_for()) return environment(own_directory);
   if (const std::string caches = environment("XDG_CACHE_HOME"); !caches.empty()) return caches + "/dssbench/opencl";
   const std::string home = environment("HOME");
   return home.empty() ? "" : home + "/.cache/dssbench/opencl";

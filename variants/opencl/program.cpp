@@ -22,6 +22,13 @@ std::string all_options(const Device& device, const std::string& options) {
                      device.is_correctly_rounded_f32 ? " -cl-fp32-correctly-rounded-divide-sqrt" : "", options);
 }
 
+/// PoCL keeps what it compiles by itself, each kernel when it is first launched. Asked for a program's binary it compiles all of them once
+/// more, for work-groups of any size, which takes twice as long as what is launched.
+bool keeps_binaries(const Device& device) {
+  const cl::Platform platform(device.handle.getInfo<CL_DEVICE_PLATFORM>());
+  return platform.getInfo<CL_PLATFORM_NAME>() == "Portable Computing Language" && !is_cache_asked_for();
+}
+
 /// Everything that the binary depends on.
 std::string key_of(const Device& device, const std::string& source, const std::string& options) {
   const DeviceEntry& entry = device.entry;
@@ -74,7 +81,7 @@ cl::Program built_from_source(const Device& device, const std::string& source, c
   try {
     cl::Program program(context_of(device), source);
     program.build({device.handle}, options.c_str());
-    const std::string text = with_flushed_denormals(binary_of(program));
+    const std::string text = keeps_binaries(device) ? std::string() : with_flushed_denormals(binary_of(program));
     if (text.empty()) return program;
     cl::Program flushing(context_of(device), {device.handle}, {{text.begin(), text.end()}});
     flushing.build({device.handle}, options.c_str());
@@ -114,12 +121,15 @@ Program build_program(const Device& device, const std::string& source, const std
     const std::string key = key_of(device, source, full_options);
     cl::Program& program = programs[{device.handle(), key}];
     if (program() != nullptr) return {program, seconds_since(start), true};
-    if (const auto cached = built_from_binary(device, key, full_options)) {
-      program = *cached;
-      return {program, seconds_since(start), true};
+    const bool has_own_cache = keeps_binaries(device);
+    if (!has_own_cache) {
+      if (const auto cached = built_from_binary(device, key, full_options)) {
+        program = *cached;
+        return {program, seconds_since(start), true};
+      }
     }
     program = built_from_source(device, source, full_options);
-    store_binary(key, binary_of(program));
+    if (!has_own_cache) store_binary(key, binary_of(program));
     return {program, seconds_since(start), false};
   });
 }
