@@ -59,6 +59,9 @@ public:
   /// Time derivative of all fields of all elements at the present state. `signals`: one row, see
   /// solver/numerics/signal_rows.hpp.
   virtual void derivative(std::span<const double> signals, std::span<double> rates) = 0;
+  /// Evaluates what derivative() evaluated last as many times again, one launch of a device's kernel each, and leaves the rates there: what
+  /// that kernel takes by itself. Of variants on a device; others do nothing. @return whether it did
+  virtual bool repeat_derivative(long times) { return (void)times, false; }
   /// Advances by `steps` steps; stops at the first step that leaves a non-finite state.
   /// `signals`: steps * method.stages + 1 rows, see solver/numerics/signal_rows.hpp.
   virtual Outcome advance(long steps, std::span<const double> signals) = 0;
@@ -135,7 +138,7 @@ struct Plugin {
   std::size_t layout = plugin_layout;
 };
 
-constexpr int plugin_abi = 7; ///< to be raised with every change of Plugin or Executor
+constexpr int plugin_abi = 8; ///< to be raised with every change of Plugin or Executor
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

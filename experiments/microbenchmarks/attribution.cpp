@@ -2,6 +2,7 @@
 #include "experiments/microbenchmarks/executed_mix.hpp"
 #include "experiments/microbenchmarks/micro_case.hpp"
 #include "experiments/microbenchmarks/own_ceilings.hpp"
+#include "experiments/runner/context.hpp"
 #include "experiments/runner/statistics.hpp"
 #include "solver/error.hpp"
 #include "variants/loader.hpp"
@@ -92,15 +93,34 @@ void time_rounds(TimedParts& parts, int rounds, double sample_s) {
 /// Times of one round, by name; NaN for what was not timed.
 using RoundTimes = std::function<double(const std::string& name)>;
 
-/// Median over the rounds of a figure made from the times of a round.
-double over_rounds(const TimedParts& parts, const std::function<double(const RoundTimes&)>& figure) {
+/// A figure made from the times of a round.
+using Figure = std::function<double(const RoundTimes&)>;
+
+std::vector<double> figures(const TimedParts& parts, const Figure& figure) {
   std::vector<double> values;
   for (std::size_t round = 0; round < parts.begin()->second.ns.size(); ++round)
     values.push_back(figure([&](const std::string& name) {
       const auto found = parts.find(name);
       return found == parts.end() ? std::nan("") : found->second.ns[round];
     }));
+  return values;
+}
+
+/// Its median over the rounds; NaN for what was not timed.
+double over_rounds(const TimedParts& parts, const Figure& figure) {
+  const std::vector<double> values = figures(parts, figure);
   return std::isnan(values.front()) ? values.front() : median(values);
+}
+
+/// The median with its interval, in columns NAME, NAME_low and NAME_high.
+void put_figure(Record& row, const std::string& column, const TimedParts& parts, const Figure& figure) {
+  const std::vector<double> values = figures(parts, figure);
+  if (std::isnan(values.front())) return;
+  const Estimate found = estimate(values);
+  row[column] = number_text(found.median);
+  if (!found.interval) return;
+  row[column + "_low"] = number_text(found.interval->low);
+  row[column + "_high"] = number_text(found.interval->high);
 }
 
 /// What a row kernel needs at least, by the times of a round: for its flops, its mix of instructions, its traffic [ns].
@@ -133,6 +153,22 @@ Record head_row(const AttributionCase& one, const std::string& part) {
           {"status", "ok"}};
 }
 
+/// Everything that was timed, as measured.
+void record_rounds(const AttributionCase& one, const TimedParts& parts, RecordFile& raw) {
+  for (const auto& [name, timed] : parts)
+    for (std::size_t round = 0; round < timed.ns.size(); ++round) {
+      const double elements = timed.elements * double(timed.passes);
+      Record row = head_row(one, "");
+      row["timed"] = name;
+      row["round"] = fmt::format("{}", round);
+      row["passes"] = fmt::format("{}", timed.passes);
+      row["elements"] = number_text(elements);
+      row["wall_s"] = number_text(timed.ns[round] * elements * 1e-9);
+      row["time_utc"] = measurement_time();
+      raw.append(row);
+    }
+}
+
 void put_mix(const RowPart& part, const TimedParts& parts, Record& row) {
   const InstructionMix& m = part.mix;
   row["reason"] = part.mix_missing;
@@ -156,23 +192,20 @@ void put_mix(const RowPart& part, const TimedParts& parts, Record& row) {
 /// Times of a count of passes of a part; the record of a row kernel.
 Record row_record(const AttributionCase& one, const TimedParts& parts, const RowPart& part, const std::string& level,
                   double traffic_ns, double l1_traffic_ns) {
-  const auto figure = [&](const std::function<double(const RoundTimes&)>& of_round) {
-    return number_text(over_rounds(parts, of_round));
-  };
-  const double count = part.count;
   Record row = head_row(one, part.name);
+  const auto put = [&](const char* column, const Figure& figure) { put_figure(row, column, parts, figure); };
+  const double count = part.count;
   row["count_per_step"] = fmt::format("{}", part.count);
-  row["measured_ns_per_element_step"] = figure([&](const RoundTimes& of) { return count * of(part.name); });
-  row["measured_in_l1_ns"] = figure([&](const RoundTimes& of) { return count * of(part.name + " L1"); });
-  row["share_of_step"] = figure([&](const RoundTimes& of) { return count * of(part.name) / of("step"); });
+  put("measured_ns_per_element_step", [&](const RoundTimes& of) { return count * of(part.name); });
+  put("measured_in_l1_ns", [&](const RoundTimes& of) { return count * of(part.name + " L1"); });
+  put("share_of_step", [&](const RoundTimes& of) { return count * of(part.name) / of("step"); });
   row["flops_per_element_step"] = number_text(count * part.kernel->flops);
-  row["share_of_peak"] = figure([&](const RoundTimes& of) { return part.kernel->flops * of("peak") / of(part.name); });
-  row["peak_bound_ns"] = figure([&](const RoundTimes& of) { return count * part.kernel->flops * of("peak"); });
+  put("share_of_peak", [&](const RoundTimes& of) { return part.kernel->flops * of("peak") / of(part.name); });
+  put("peak_bound_ns", [&](const RoundTimes& of) { return count * part.kernel->flops * of("peak"); });
   row["traffic_bound_ns"] = number_text(count * traffic_ns);
-  row["share_of_ceiling"] =
-      figure([&](const RoundTimes& of) { return bound_ns(of, part, traffic_ns) / of(part.name); });
-  row["share_of_ceiling_in_l1"] =
-      figure([&](const RoundTimes& of) { return bound_ns(of, part, l1_traffic_ns) / of(part.name + " L1"); });
+  put("share_of_ceiling", [&](const RoundTimes& of) { return bound_ns(of, part, traffic_ns) / of(part.name); });
+  put("share_of_ceiling_in_l1",
+      [&](const RoundTimes& of) { return bound_ns(of, part, l1_traffic_ns) / of(part.name + " L1"); });
   row["limiter"] = limiter(parts, part, traffic_ns, level);
   put_mix(part, parts, row);
   return row;
@@ -190,18 +223,34 @@ const std::vector<std::string>& attribution_columns() {
                                                    "part",
                                                    "count_per_step",
                                                    "measured_ns_per_element_step",
+                                                   "measured_ns_per_element_step_low",
+                                                   "measured_ns_per_element_step_high",
                                                    "share_of_step",
+                                                   "share_of_step_low",
+                                                   "share_of_step_high",
                                                    "measured_in_l1_ns",
+                                                   "measured_in_l1_ns_low",
+                                                   "measured_in_l1_ns_high",
                                                    "flops_per_element_step",
                                                    "share_of_peak",
+                                                   "share_of_peak_low",
+                                                   "share_of_peak_high",
                                                    "peak_bound_ns",
+                                                   "peak_bound_ns_low",
+                                                   "peak_bound_ns_high",
                                                    "mix_bound_ns",
                                                    "mix_without_stack_bound_ns",
                                                    "traffic_bound_ns",
                                                    "share_of_ceiling",
+                                                   "share_of_ceiling_low",
+                                                   "share_of_ceiling_high",
                                                    "share_of_ceiling_in_l1",
+                                                   "share_of_ceiling_in_l1_low",
+                                                   "share_of_ceiling_in_l1_high",
                                                    "limiter",
                                                    "sum_over_step",
+                                                   "sum_over_step_low",
+                                                   "sum_over_step_high",
                                                    "fma",
                                                    "sums",
                                                    "products",
@@ -215,8 +264,14 @@ const std::vector<std::string>& attribution_columns() {
   return columns;
 }
 
+const std::vector<std::string>& attribution_raw_columns() {
+  static const std::vector<std::string> columns = {"variant", "model", "precision", "scene",    "n",      "threads",
+                                                   "timed",   "round", "passes",    "elements", "wall_s", "time_utc"};
+  return columns;
+}
+
 std::vector<Record> attribute_step(const AttributionCase& one, int rounds, double sample_s,
-                                   const std::vector<Ceiling>& ceilings) {
+                                   const std::vector<Ceiling>& ceilings, RecordFile& raw) {
   const Plugin& plugin = load_variant(one.variant);
   const MicroCase step = step_case(plugin, one.model, one.precision, one.n, 1);
   const auto steps = step.make();
@@ -242,6 +297,7 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
     parts.try_emplace(part.name + " lean", Timed{[&part] { part.without_stack->run(100); }, 100 * lanes * filled});
   }
   time_rounds(parts, rounds, sample_s);
+  record_rounds(one, parts, raw);
 
   const auto traffic_ns = [&](const RowPart& part, const std::string& level) {
     return 1e9 * part.bytes / bandwidth(ceilings, level, 1); // NaN, and no bound, where it was not measured
@@ -254,9 +310,10 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
     for (const RowPart& part : rows) total += part.count * figure(part);
     return total;
   };
-  const double explained = over_rounds(parts, [&](const RoundTimes& of) {
+  const Figure rows_over_step = [&](const RoundTimes& of) {
     return sum([&](const RowPart& part) { return of(part.name); }) / of("step");
-  });
+  };
+  const double explained = over_rounds(parts, rows_over_step);
   const double step_ns = over_rounds(parts, [](const RoundTimes& of) { return of("step"); });
   Record rest = head_row(one, "rest");
   rest["count_per_step"] = "1";
@@ -267,15 +324,14 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
   records.push_back(rest);
   Record whole = head_row(one, "step");
   whole["count_per_step"] = "1";
-  whole["measured_ns_per_element_step"] = number_text(step_ns);
+  put_figure(whole, "measured_ns_per_element_step", parts, [](const RoundTimes& of) { return of("step"); });
   whole["share_of_step"] = "1";
   whole["flops_per_element_step"] = number_text(step.flops);
-  whole["share_of_peak"] =
-      number_text(over_rounds(parts, [&](const RoundTimes& of) { return step.flops * of("peak") / of("step"); }));
-  whole["share_of_ceiling"] = number_text(over_rounds(parts, [&](const RoundTimes& of) {
+  put_figure(whole, "share_of_peak", parts, [&](const RoundTimes& of) { return step.flops * of("peak") / of("step"); });
+  put_figure(whole, "share_of_ceiling", parts, [&](const RoundTimes& of) {
     return sum([&](const RowPart& part) { return bound_ns(of, part, traffic_ns(part, step.level)); }) / of("step");
-  }));
-  whole["sum_over_step"] = number_text(explained);
+  });
+  put_figure(whole, "sum_over_step", parts, rows_over_step);
   whole["limiter"] = records.front().at("limiter");
   records.push_back(whole);
   return records;

@@ -18,11 +18,13 @@ struct AttributionCase {
 };
 
 /// Rows of tables/attribution.csv for one case: stage_row (three a step), stage_row_last (one), the rest, and the step.
-/// Times are medians over the rounds, in ns of an element and step; shares are medians of ratios within a round.
+/// Times are medians over the rounds, in ns of an element and step; shares are medians of ratios within a round; columns _low and _high are
+/// 95 % intervals. @param raw  gets the times of all rounds (of the peak, an element is a flop)
 /// @throws InputError if the variant has no kernels or cannot run here
 std::vector<Record> attribute_step(const AttributionCase& one, int rounds, double sample_s,
-                                   const std::vector<Ceiling>& ceilings);
+                                   const std::vector<Ceiling>& ceilings, RecordFile& raw);
 
 const std::vector<std::string>& attribution_columns();
+const std::vector<std::string>& attribution_raw_columns();
 
 } // namespace dss

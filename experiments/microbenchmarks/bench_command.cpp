@@ -53,13 +53,14 @@ void add_bench_command(CLI::App& app, Chosen& chosen) {
     return command->add_option(option, value, what)->delimiter(',');
   };
   list("--kernel", arguments->kernels,
-       "Kernels of `dssbench list kernels`, and rk4_step: whole steps; default: what the study says");
+       "Kernels of `dssbench list kernels`; rk4_step: whole steps; rates: the kernel of a device; default: what the "
+       "study says");
   list("--model", arguments->models, "Models, * for all");
   list("--precision", arguments->precisions, "f64, f32");
   list("--variant", arguments->variants, "Variants, * for all that have kernels");
   list("--level", arguments->levels, "Where the operands lie: L1, L2, L3, memory, * for all");
   list("--threads", arguments->threads, "Threads, each with operands of its own")->check(CLI::PositiveNumber);
-  list("--n", arguments->sizes, "Of rk4_step: elements a side of the plate")->check(CLI::Range(2, 100000));
+  list("--n", arguments->sizes, "Of rk4_step and rates: elements a side of the plate")->check(CLI::Range(2, 100000));
   command->add_option("--repetitions", arguments->repetitions, "Of each; `compare` wants nine")
       ->check(CLI::PositiveNumber);
   command->add_option("--min-time", arguments->sample_s, "Least time of a repetition [s]")->check(CLI::PositiveNumber);

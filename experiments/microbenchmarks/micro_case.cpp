@@ -1,5 +1,6 @@
 #include "experiments/microbenchmarks/micro_case.hpp"
 #include "experiments/microbenchmarks/kernel_work.hpp"
+#include "experiments/runner/state_access.hpp"
 #include "experiments/runner/statics/statics_study.hpp"
 #include "kernels/stage_row/cost.hpp"
 #include "solver/error.hpp"
@@ -19,7 +20,7 @@
 namespace dss {
 namespace {
 
-constexpr const char* step_kernel = "rk4_step";
+constexpr const char *step_kernel = "rk4_step", *rates_kernel = "rates";
 
 std::size_t precision_bytes(Precision precision) { return precision == Precision::f64 ? 8 : 4; }
 
@@ -80,6 +81,54 @@ double step_error(const Plugin& plugin, Model model, Precision precision, int n,
   return displacement_difference(fields, expected);
 }
 
+/// Nothing of what the model lacks.
+std::vector<double> restricted(std::vector<double> fields, Model model) {
+  const std::span<const Field> kept = model_layout(model).fields;
+  for (std::size_t n = 0; n < fields.size(); ++n)
+    if (std::ranges::find(kept, Field(n % field_count)) == kept.end()) fields[n] = 0;
+  return fields;
+}
+
+/// Rates of a plate in motion, as an executor gives them.
+std::vector<double> rates_of(Executor& executor, const Scene& scene, Model model) {
+  const std::size_t elements = scene.problem.lattice.element_count;
+  const std::vector<double> signals = signal_rows(scene.problem, *find_method("rk4"), scene.problem.dt, 0, 1);
+  std::vector<double> rates(elements * field_count);
+  executor.write(0, restricted(moving_state(elements), model));
+  executor.derivative(std::span(signals).first(signal_count(scene.problem)), rates);
+  return restricted(std::move(rates), model);
+}
+
+/// A device's kernel that computes all rates of a plate, one launch a pass.
+class DeviceRatesWork : public MicroWork {
+public:
+  DeviceRatesWork(const Plugin& plugin, Model model, Precision precision, int n, int threads)
+      : scene_(load_scene("plate_paper", {{"n", std::to_string(n)}})),
+        executor_(plugin.create({scene_.problem, *find_method("rk4"), model, precision, scene_.problem.dt, threads})) {
+    rates_of(*executor_, scene_, model);
+  }
+  void pass() override {
+    if (!executor_->repeat_derivative(launches_a_pass))
+      throw InputError("its executor computes rates on no device by themselves");
+  }
+  static constexpr long launches_a_pass = 10;
+
+private:
+  const Scene scene_;
+  std::unique_ptr<Executor> executor_;
+};
+
+/// Of all rates, against the reference variant's (state_error).
+double rates_error(const Plugin& plugin, Model model, Precision precision, int n, int threads) {
+  const Scene scene = load_scene("plate_paper", {{"n", std::to_string(n)}});
+  const Method& method = *find_method("rk4");
+  const auto rates = [&](const Plugin& by, Precision in, int team) {
+    return rates_of(*by.create({scene.problem, method, model, in, scene.problem.dt, team}), scene, model);
+  };
+  return state_error(scene.problem, rates(load_variant("reference"), Precision::f64, 1),
+                     rates(plugin, precision, threads));
+}
+
 bool has_name(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::any_of(names, [&](const std::string& one) { return one == "*" || one == name; });
 }
@@ -91,7 +140,7 @@ void require_known(const std::vector<std::string>& names, const std::string& wha
 }
 
 std::vector<std::string> kernel_names(const std::vector<const Plugin*>& plugins) {
-  std::set<std::string> names{step_kernel};
+  std::set<std::string> names{step_kernel, rates_kernel};
   for (const Plugin* plugin : plugins)
     if (plugin->kernels != nullptr)
       for (const CompiledKernel& kernel : plugin->kernels()) names.insert(kernel.name);
@@ -118,14 +167,21 @@ void add_kernels(const MicroSet& set, const Plugin& plugin, std::vector<MicroCas
           if (has_name(set.levels, level)) cases.push_back(kernel_case(plugin, kernel, level, threads));
 }
 
-void add_steps(const MicroSet& set, const Plugin& plugin, std::vector<MicroCase>& cases) {
-  if (!has_name(set.kernels, step_kernel) || plugin.is_distributed) return;
+/// Of plates: `make_case` makes a step_case or a rates_case.
+template <class MakeCase>
+void add_plates(const MicroSet& set, const Plugin& plugin, MakeCase&& make_case, std::vector<MicroCase>& cases) {
   for (const Model model : models)
     for (const Precision precision : {Precision::f64, Precision::f32})
       for (const int n : set.sizes)
         for (const int threads : set.threads)
           if (has_name(set.models, name(model)) && has_name(set.precisions, name(precision)))
-            cases.push_back(step_case(plugin, model, precision, n, threads));
+            cases.push_back(make_case(plugin, model, precision, n, threads));
+}
+
+void add_steps(const MicroSet& set, const Plugin& plugin, std::vector<MicroCase>& cases) {
+  if (has_name(set.kernels, step_kernel) && !plugin.is_distributed) add_plates(set, plugin, step_case, cases);
+  if (has_name(set.kernels, rates_kernel) && std::string_view(plugin.name) == "opencl")
+    add_plates(set, plugin, rates_case, cases);
 }
 
 } // namespace
@@ -151,21 +207,42 @@ MicroCase kernel_case(const Plugin& plugin, const CompiledKernel& kernel, const 
   return one;
 }
 
-MicroCase step_case(const Plugin& plugin, Model model, Precision precision, int n, int threads) {
+/// Of a plate, but for what is timed and how it is checked.
+static MicroCase plate_case(const Plugin& plugin, Model model, Precision precision, int n, int threads) {
   MicroCase one;
-  one.kernel = step_kernel, one.model = model, one.precision = precision, one.n = n;
+  one.model = model, one.precision = precision, one.n = n;
   one.variant = plugin.name, one.isa = plugin.isa, one.threads = threads;
-  one.flops = row_flops(model).rk4_step();
   one.bytes = 2 * double(model_layout(model).fields.size() * precision_bytes(precision));
+  one.is_threaded_inside = true;
+  return one;
+}
+
+MicroCase step_case(const Plugin& plugin, Model model, Precision precision, int n, int threads) {
+  MicroCase one = plate_case(plugin, model, precision, n, threads);
+  one.kernel = step_kernel;
+  one.flops = row_flops(model).rk4_step();
   one.working_set_bytes = std::size_t(n) * std::size_t(n) * std::size_t(one.bytes) / 2 / std::size_t(threads);
   one.level = level_of(one.working_set_bytes);
   one.elements = double(n) * n * double(PlateSteps::steps_a_call);
-  one.is_threaded_inside = true;
   one.make = [&plugin, model, precision, n, threads] {
     return std::make_unique<PlateSteps>(plugin, model, precision, n, threads);
   };
   if (one.variant != "reference")
     one.error = [&plugin, model, precision, n, threads] { return step_error(plugin, model, precision, n, threads); };
+  return one;
+}
+
+MicroCase rates_case(const Plugin& plugin, Model model, Precision precision, int n, int threads) {
+  MicroCase one = plate_case(plugin, model, precision, n, threads);
+  one.kernel = rates_kernel;
+  one.flops = row_flops(model).stage; // out = 0 + 1 f: a first stage's
+  one.working_set_bytes = std::size_t(n) * std::size_t(n) * std::size_t(one.bytes) / std::size_t(threads);
+  one.level = level_of(one.working_set_bytes);
+  one.elements = double(n) * n * double(DeviceRatesWork::launches_a_pass);
+  one.make = [&plugin, model, precision, n, threads] {
+    return std::make_unique<DeviceRatesWork>(plugin, model, precision, n, threads);
+  };
+  one.error = [&plugin, model, precision, n, threads] { return rates_error(plugin, model, precision, n, threads); };
   return one;
 }
 

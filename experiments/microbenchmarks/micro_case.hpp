@@ -18,14 +18,14 @@ public:
 };
 
 struct MicroCase {
-  std::string kernel; ///< as `list kernels` has it, or rk4_step
+  std::string kernel; ///< as `list kernels` has it, or rk4_step, or rates
   Model model = Model::spatial;
   Precision precision = Precision::f64;
   std::string variant, isa;
   std::string level;
   std::size_t working_set_bytes = 0; ///< of one thread
   int threads = 1;
-  int n = 0;                       ///< of rk4_step: elements a side
+  int n = 0;                       ///< of rk4_step and rates: elements a side
   double flops = 0, bytes = 0;     ///< an element and pass, declared
   double elements = 0;             ///< a pass, all threads
   bool is_threaded_inside = false; ///< the work itself has the threads
@@ -45,10 +45,13 @@ MicroCase kernel_case(const Plugin& plugin, const CompiledKernel& kernel, const 
 /// RK4 steps of the paper's plate with n x n elements. Bytes are those that a step must move: the state, read and written.
 MicroCase step_case(const Plugin& plugin, Model model, Precision precision, int n, int threads);
 
+/// The kernel of a device that computes the rates of all elements of the same plate, launched by itself.
+MicroCase rates_case(const Plugin& plugin, Model model, Precision precision, int n, int threads);
+
 /// What a set of a study asks for; "*" and -1 are all.
 struct MicroSet {
   std::vector<std::string> kernels, models, precisions, variants, levels;
-  std::vector<int> threads, sizes; ///< sizes: n of rk4_step
+  std::vector<int> threads, sizes; ///< sizes: n of rk4_step and rates
 };
 
 /// Every case of a set, in a fixed order; variants that cannot run here make one case each that is skipped.

@@ -59,13 +59,16 @@ std::vector<MicroCase> all_cases(const MicroStudy& study) {
   return cases;
 }
 
-Table attribution_table(const MicroStudy& study, const std::vector<Ceiling>& ceilings, Progress& progress) {
+/// Measured anew as a whole, resumed or not: its times are compared within rounds.
+Table attribution_table(const MicroStudy& study, const std::vector<Ceiling>& ceilings, const std::string& raw_path,
+                        Progress& progress) {
   Table table{attribution_columns(), {}};
+  RecordFile raw(raw_path, attribution_raw_columns(), false);
   for (const AttributionCase& one : study.attribution) {
     progress.note(
         fmt::format("attribution: {} {} {}, n = {}", one.variant, name(one.model), name(one.precision), one.n));
     try {
-      for (Record& row : attribute_step(one, study.attribution_rounds, study.attribution_sample_s, ceilings))
+      for (Record& row : attribute_step(one, study.attribution_rounds, study.attribution_sample_s, ceilings, raw))
         table.rows.push_back(std::move(row));
     } catch (const InputError& error) {
       table.rows.push_back({{"variant", one.variant},
@@ -134,7 +137,9 @@ bool run_micro_study(const MicroStudy& study, const std::string& directory, bool
                   [&](double done, double total, const std::string& what) { progress.show(done, total, what); });
   const Table kernels = kernel_table(read_csv(paths.raw).rows, ceilings);
   write_csv(paths.table, kernels);
-  if (!study.attribution.empty()) write_csv(table_of("attribution"), attribution_table(study, ceilings, progress));
+  if (!study.attribution.empty())
+    write_csv(table_of("attribution"),
+              attribution_table(study, ceilings, experiment_paths(directory, "attribution").raw, progress));
   fmt::print("{} ({})\n{}Table: {}\n", study.title, study.name, kernel_text(kernels), paths.table);
   return std::ranges::none_of(kernels.rows, [](const Record& row) { return text_in(row, "status") == "wrong"; });
 }

@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, ProgramTest, dssbench
+from program import PROGRAM, ProgramTest, dssbench, why_no_variant
 
 FEW = ("bench", "--kernel", "rotation,rk_update", "--variant", "scalar", "--model", "spatial,planar")
 SHORT = ("--min-time", "0.001")
@@ -63,6 +63,32 @@ class Bench(ProgramTest):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertEqual(result.stdout.count("slower"), 4, result.stdout)  # rotation: two models, two precisions
         self.assertIn("Mann-Whitney", result.stdout)
+
+    @unittest.skipIf(why_no_variant("opencl"), why_no_variant("opencl"))
+    def test_the_kernel_of_a_device_is_timed_by_itself(self):
+        result = dssbench("bench", "--kernel", "rates", "--variant", "opencl,scalar", "--model", "spatial,planar", "--n", 12, *SHORT, "--repetitions", 1, "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual({row["cell"].split("/", 1)[0] for row in self.records("out")}, {"rates_12"})
+        for row in self.records("out"):
+            self.assertEqual((row["variant"], row["check"], row["status"]), ("opencl", "passed", "ok"))
+        self.assertEqual(len(self.records("out")), 4)  # two models, two precisions
+
+    def test_attribution_keeps_the_times_of_its_rounds(self):
+        cases = {"variants": "scalar", "models": "planar", "precisions": "f64", "n": 20}
+        scale = {"repetitions": 1, "sample_s": 1e-4, "attribution_rounds": 7, "attribution_sample_s": 1e-4, "ceilings": False}
+        few = {"kernels": "rotation", "models": "planar", "precisions": "f64", "variants": "scalar", "levels": "L1"}
+        study = {"experiment": "tiny", "title": "Tiny", "microbenchmarks": {"sets": [few], "attribution": [cases]}, "scales": {"smoke": scale}}
+        result = dssbench("experiment", self.write("study.json", json.dumps(study)), "--scale", "smoke", "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rounds = self.records("out", "attribution")
+        with open(self.path("out/tables/attribution.csv"), encoding="utf-8", newline="") as file:
+            step = next(row for row in csv.DictReader(file) if row["part"] == "step")
+        of_step = sorted(1e9 * float(row["wall_s"]) / float(row["elements"]) for row in rounds if row["timed"] == "step")
+        self.assertEqual(len(of_step), 7)
+        self.assertAlmostEqual(float(step["measured_ns_per_element_step"]) / of_step[3], 1)
+        self.assertAlmostEqual(float(step["measured_ns_per_element_step_low"]) / of_step[0], 1)
+        self.assertLess(float(step["sum_over_step_low"]), float(step["sum_over_step_high"]))
+        self.assertTrue({"stage_row", "stage_row L1", "stage_row_last", "peak"} <= {row["timed"] for row in rounds})
 
     def test_unknown_names_are_refused_with_the_nearest(self):
         self.assert_refused(2, ["rotatoin", "rotation"], "bench", "--kernel", "rotatoin", "--out", self.path("out"))

@@ -3,7 +3,7 @@ import json
 import os
 import unittest
 
-from program import ProgramTest, dssbench
+from program import ProgramTest, dssbench, why_no_variant
 
 SMALL = ("run", "plate_paper", "--set", "n=10", "--steps", "10")
 NO_PLATFORM = {"env": {**os.environ, "OCL_ICD_VENDORS": "/nonexistent"}}
@@ -13,12 +13,6 @@ def devices():
     """All OpenCL devices that can be used."""
     listed = json.loads(dssbench("list", "devices", "--json").stdout)
     return [device for device in listed if device["status"] == "usable" and device["device"] != "host"]
-
-
-def why_no_variant(name):
-    listed = json.loads(dssbench("list", "variants", "--json").stdout)
-    status = {row["variant"]: row["status"] for row in listed}.get(name, "not built")
-    return None if status == "usable" else f"variant {name}: {status}"
 
 
 class Listing(ProgramTest):

@@ -1,4 +1,5 @@
 """Runs the program under test, whose path is in the environment variable DSSBENCH."""
+import json
 import os
 import subprocess
 import tempfile
@@ -10,6 +11,13 @@ PROGRAM = os.environ["DSSBENCH"]
 def dssbench(*arguments, **options):
     """The finished process, with its output as text."""
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+
+
+def why_no_variant(name):
+    """None if the variant runs here."""
+    listed = json.loads(dssbench("list", "variants", "--json").stdout)
+    status = {row["variant"]: row["status"] for row in listed}.get(name, "not built")
+    return None if status == "usable" else f"variant {name}: {status}"
 
 
 class ProgramTest(unittest.TestCase):

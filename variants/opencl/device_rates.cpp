@@ -49,6 +49,17 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
 }
 
 template <class T, int W>
+void DeviceRates<T, W>::launch() {
+  if (device_.has_extra_links()) device_.evaluate_extra_links(row_starts_);
+  cl_uint n = DeviceProblem<T, W>::table_arguments;
+  kernel_.set_one(n++, list_table_);
+  kernel_.set_one(n++, device_.signals());
+  kernel_.set_one(n++, failed_);
+  for (const cl_int value : {0, 0}) kernel_.set_one(n++, value); // first signal, step
+  device_.launch_rows(kernel_, bands());
+}
+
+template <class T, int W>
 void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals, T* rates) {
   Queue& queue = device_.queue;
   const auto place = [&](const dss::Buffer<T>& buffer) {
@@ -57,14 +68,14 @@ void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals
   const std::size_t bytes = plain_.bytes();
   device_.set_signals(signals, signals.size());
   queue.write(device_.arena(), place(plain_), {reinterpret_cast<const std::byte*>(plain), bytes});
-  if (device_.has_extra_links()) device_.evaluate_extra_links(row_starts_);
-  cl_uint n = DeviceProblem<T, W>::table_arguments;
-  kernel_.set_one(n++, list_table_);
-  kernel_.set_one(n++, device_.signals());
-  kernel_.set_one(n++, failed_);
-  for (const cl_int value : {0, 0}) kernel_.set_one(n++, value); // first signal, step
-  device_.launch_rows(kernel_, bands());
+  launch();
   queue.read(device_.arena(), place(rates_), {reinterpret_cast<std::byte*>(rates), bytes});
+}
+
+template <class T, int W>
+void DeviceRates<T, W>::repeat(long times) {
+  for (long n = 0; n < times; ++n) launch();
+  device_.queue.finish();
 }
 
 #define DSS_INSTANTIATE(T, W) template class DeviceRates<T, W>;

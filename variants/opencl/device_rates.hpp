@@ -17,8 +17,12 @@ public:
   std::size_t size() const { return plain_.size(); } ///< numbers of plain rows (StateRows::plain_size)
   /// To the device, evaluation there, and back. Plain rows in, plain rows out. @param signals  one row
   void evaluate(const T* plain, std::span<const double> signals, T* rates);
+  /// As many launches of the same again, without transfers.
+  void repeat(long times);
 
 private:
+  void launch();
+
   DeviceProblem<T, W> device_;
   dss::Buffer<T> plain_, rates_, zero_;
   std::vector<CarryRings<T>> carry_; ///< of each band

@@ -275,6 +275,13 @@ void ResidentExecutor<T, W>::derivative(std::span<const double> signals, std::sp
 }
 
 template <class T, int W>
+bool ResidentExecutor<T, W>::repeat_derivative(long times) {
+  if (rates_ == nullptr) return false;
+  rates_->repeat(times);
+  return true;
+}
+
+template <class T, int W>
 void ResidentExecutor<T, W>::stop_leapfrog() {
   if (!is_started_) return;
   std::vector<double> state(packed_.lattice.element_count * field_count);

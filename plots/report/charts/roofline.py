@@ -6,7 +6,7 @@ from .chart import OKABE_ITO, SYMBOLS, Chart, Filter, by_order, logarithmic, pla
 COLUMNS = {"cell": "cell", "kernel": "kernel", "model": "model", "precision": "precision", "variant": "variant", "level": "level", "threads": "threads", "intensity_flop_per_byte": "flop/byte",
            "flops_per_s": "flop/s", "bytes_per_s": "byte/s", "measured_ns_per_element": "ns an element", "measured_ns_per_element_low": "from", "measured_ns_per_element_high": "to",
            "share_of_roof": "share of its roof", "limiter": "limiter", "check": "check", "status": "status", "reason": "reason"}
-WHOLE = ["rk4_step", "stage_row", "stage_row_last"]  # what a step is made of; the other kernels are parts of these
+WHOLE = ["rk4_step", "rates", "stage_row", "stage_row_last"]  # what a step is made of; the other kernels are parts of these
 FILTERS = [Filter("precision", "Precision", is_single=True), Filter("threads", "Threads", is_single=True), Filter("variant", "Variant"), Filter("kernel", "Kernel", first=("whole rows and steps", WHOLE)), Filter("level", "Level"),
            Filter("model", "Model")]
 # Whose instructions a variant is made of; others are of their own name.
