@@ -26,12 +26,14 @@ test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium
 test: build
 	@ctest --preset $(PRESET)
 
+STUDIES := chain kernels table1_host table1 table2 table3 error_budget work_precision advise stability failures model_ladder continuum statics balance cluster
+
 # The program and its variants alone: no tests to build.
 reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(BUILD)/dssbench verify --quiet --device none
 	@$(BUILD)/dssbench verify --quiet plate_paper --variant scalar,opencl,opencl-rhs
-	@for study in chain kernels table1_host table1 table2 table3 error_budget work_precision advise stability failures model_ladder continuum statics balance cluster; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
+	@for study in $(STUDIES); do start=$$(date +%s); $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; echo "== $$study: $$(($$(date +%s) - start)) s"; done
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 --output $(OUT)/fields/plate_paper.vtu >/dev/null
 	@$(BUILD)/dssbench run l_bracket --output $(OUT)/fields/l_bracket.vtu --frames 6 >/dev/null
