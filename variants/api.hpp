@@ -59,9 +59,9 @@ public:
   /// Time derivative of all fields of all elements at the present state. `signals`: one row, see
   /// solver/numerics/signal_rows.hpp.
   virtual void derivative(std::span<const double> signals, std::span<double> rates) = 0;
-  /// Evaluates what derivative() evaluated last as many times again, one launch of a device's kernel each, and leaves the rates there: what
-  /// that kernel takes by itself. Of variants on a device; others do nothing. @return whether it did
-  virtual bool repeat_derivative(long times) { return (void)times, false; }
+  /// What a device's kernel of all rates takes by itself: what derivative() was asked for just before, as many times again, without
+  /// transfers; then the rates are read unless `rates` is empty. Of `opencl`. @return whether it did
+  virtual bool repeat_derivative(long times, std::span<double> rates) { return (void)times, (void)rates, false; }
   /// Advances by `steps` steps; stops at the first step that leaves a non-finite state.
   /// `signals`: steps * method.stages + 1 rows, see solver/numerics/signal_rows.hpp.
   virtual Outcome advance(long steps, std::span<const double> signals) = 0;

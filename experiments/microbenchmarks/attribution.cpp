@@ -24,6 +24,7 @@ struct Timed {
   double elements; ///< a pass
   long passes = 1;
   std::vector<double> ns{};
+  std::vector<std::string> time_utc{};
 };
 
 double seconds(Timed& timed) {
@@ -86,8 +87,10 @@ void time_rounds(TimedParts& parts, int rounds, double sample_s) {
     for (double time = seconds(timed); time < sample_s; time = seconds(timed))
       timed.passes = std::max(timed.passes + 1, long(double(timed.passes) * std::min(8.0, 1.1 * sample_s / time)));
   for (int round = 0; round < rounds; ++round)
-    for (auto& [name, timed] : parts)
+    for (auto& [name, timed] : parts) {
+      timed.time_utc.push_back(measurement_time());
       timed.ns.push_back(1e9 * seconds(timed) / (timed.elements * double(timed.passes)));
+    }
 }
 
 /// Times of one round, by name; NaN for what was not timed.
@@ -164,7 +167,7 @@ void record_rounds(const AttributionCase& one, const TimedParts& parts, RecordFi
       row["passes"] = fmt::format("{}", timed.passes);
       row["elements"] = number_text(elements);
       row["wall_s"] = number_text(timed.ns[round] * elements * 1e-9);
-      row["time_utc"] = measurement_time();
+      row["time_utc"] = timed.time_utc[round];
       raw.append(row);
     }
 }
@@ -173,20 +176,21 @@ void put_mix(const RowPart& part, const TimedParts& parts, Record& row) {
   const InstructionMix& m = part.mix;
   row["reason"] = part.mix_missing;
   if (part.as_executed == nullptr) return;
-  for (const auto& [column, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"fma", m.fma},
-           {"sums", m.sums},
-           {"products", m.products},
-           {"shuffles", m.shuffles},
-           {"loads", m.loads},
-           {"stores", m.stores},
-           {"stack_loads", m.stack_loads},
-           {"stack_stores", m.stack_stores},
-           {"mix_bound_ns",
-            part.count * over_rounds(parts, [&](const RoundTimes& of) { return of(part.name + " mix"); })},
-           {"mix_without_stack_bound_ns",
-            part.count * over_rounds(parts, [&](const RoundTimes& of) { return of(part.name + " lean"); })}})
+  for (const auto& [column, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"fma", m.fma},
+                                                             {"sums", m.sums},
+                                                             {"products", m.products},
+                                                             {"shuffles", m.shuffles},
+                                                             {"loads", m.loads},
+                                                             {"stores", m.stores},
+                                                             {"stack_loads", m.stack_loads},
+                                                             {"stack_stores", m.stack_stores}})
     row[column] = number_text(value);
+  const auto bound = [&](const char* column, const char* timed) {
+    put_figure(row, column, parts, [&](const RoundTimes& of) { return part.count * of(part.name + timed); });
+  };
+  bound("mix_bound_ns", " mix");
+  bound("mix_without_stack_bound_ns", " lean");
 }
 
 /// Times of a count of passes of a part; the record of a row kernel.
@@ -239,7 +243,11 @@ const std::vector<std::string>& attribution_columns() {
                                                    "peak_bound_ns_low",
                                                    "peak_bound_ns_high",
                                                    "mix_bound_ns",
+                                                   "mix_bound_ns_low",
+                                                   "mix_bound_ns_high",
                                                    "mix_without_stack_bound_ns",
+                                                   "mix_without_stack_bound_ns_low",
+                                                   "mix_without_stack_bound_ns_high",
                                                    "traffic_bound_ns",
                                                    "share_of_ceiling",
                                                    "share_of_ceiling_low",
@@ -313,12 +321,11 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
   const Figure rows_over_step = [&](const RoundTimes& of) {
     return sum([&](const RowPart& part) { return of(part.name); }) / of("step");
   };
-  const double explained = over_rounds(parts, rows_over_step);
-  const double step_ns = over_rounds(parts, [](const RoundTimes& of) { return of("step"); });
   Record rest = head_row(one, "rest");
   rest["count_per_step"] = "1";
-  rest["measured_ns_per_element_step"] = number_text(step_ns * (1 - explained));
-  rest["share_of_step"] = number_text(1 - explained);
+  put_figure(rest, "measured_ns_per_element_step", parts,
+             [&](const RoundTimes& of) { return of("step") * (1 - rows_over_step(of)); });
+  put_figure(rest, "share_of_step", parts, [&](const RoundTimes& of) { return 1 - rows_over_step(of); });
   rest["limiter"] =
       "what the rows by themselves do not explain; below zero: the step finds more in nearer caches than they do";
   records.push_back(rest);

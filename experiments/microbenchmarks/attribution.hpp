@@ -18,8 +18,8 @@ struct AttributionCase {
 };
 
 /// Rows of tables/attribution.csv for one case: stage_row (three a step), stage_row_last (one), the rest, and the step.
-/// Times are medians over the rounds, in ns of an element and step; shares are medians of ratios within a round; columns _low and _high are
-/// 95 % intervals. @param raw  gets the times of all rounds (of the peak, an element is a flop)
+/// Times are medians over the rounds, in ns of an element and step; shares are medians of ratios within a round; columns NAME_low and
+/// NAME_high are their 95 % intervals. @param raw  gets the times of all rounds, an element of `peak` being a flop
 /// @throws InputError if the variant has no kernels or cannot run here
 std::vector<Record> attribute_step(const AttributionCase& one, int rounds, double sample_s,
                                    const std::vector<Ceiling>& ceilings, RecordFile& raw);

@@ -89,44 +89,52 @@ std::vector<double> restricted(std::vector<double> fields, Model model) {
   return fields;
 }
 
-/// Rates of a plate in motion, as an executor gives them.
-std::vector<double> rates_of(Executor& executor, const Scene& scene, Model model) {
-  const std::size_t elements = scene.problem.lattice.element_count;
-  const std::vector<double> signals = signal_rows(scene.problem, *find_method("rk4"), scene.problem.dt, 0, 1);
-  std::vector<double> rates(elements * field_count);
-  executor.write(0, restricted(moving_state(elements), model));
-  executor.derivative(std::span(signals).first(signal_count(scene.problem)), rates);
-  return restricted(std::move(rates), model);
-}
+/// A plate in motion of which rates are computed.
+struct MovingPlate {
+  Scene scene;
+  std::vector<double> state, signals;
+  MovingPlate(Model model, int n) : scene(load_scene("plate_paper", {{"n", std::to_string(n)}})) {
+    state = restricted(moving_state(scene.problem.lattice.element_count), model);
+    signals = signal_rows(scene.problem, *find_method("rk4"), scene.problem.dt, 0, 1);
+    signals.resize(signal_count(scene.problem));
+  }
+  std::unique_ptr<Executor> executor(const Plugin& plugin, Model model, Precision precision, int threads) const {
+    auto made = plugin.create({scene.problem, *find_method("rk4"), model, precision, scene.problem.dt, threads});
+    made->write(0, state);
+    return made;
+  }
+};
 
-/// A device's kernel that computes all rates of a plate, one launch a pass.
-class DeviceRatesWork : public MicroWork {
+/// A device's kernel that computes all rates of a plate, ten launches a pass.
+class DeviceRates : public MicroWork {
 public:
-  DeviceRatesWork(const Plugin& plugin, Model model, Precision precision, int n, int threads)
-      : scene_(load_scene("plate_paper", {{"n", std::to_string(n)}})),
-        executor_(plugin.create({scene_.problem, *find_method("rk4"), model, precision, scene_.problem.dt, threads})) {
-    rates_of(*executor_, scene_, model);
+  DeviceRates(const Plugin& plugin, Model model, Precision precision, int n, int threads)
+      : plate_(model, n), executor_(plate_.executor(plugin, model, precision, threads)) {
+    std::vector<double> rates(plate_.state.size());
+    executor_->derivative(plate_.signals, rates);
   }
-  void pass() override {
-    if (!executor_->repeat_derivative(launches_a_pass))
-      throw InputError("its executor computes rates on no device by themselves");
+  void pass() override { repeat(launches_a_pass, {}); }
+  /// Of the last of so many launches.
+  void repeat(long times, std::span<double> rates) {
+    if (!executor_->repeat_derivative(times, rates))
+      throw InputError("rates: the variant has no kernel on a device that computes them by itself");
   }
+  const MovingPlate& plate() const { return plate_; }
   static constexpr long launches_a_pass = 10;
 
 private:
-  const Scene scene_;
+  const MovingPlate plate_;
   std::unique_ptr<Executor> executor_;
 };
 
-/// Of all rates, against the reference variant's (state_error).
+/// Of what is timed, against the reference variant's (state_error).
 double rates_error(const Plugin& plugin, Model model, Precision precision, int n, int threads) {
-  const Scene scene = load_scene("plate_paper", {{"n", std::to_string(n)}});
-  const Method& method = *find_method("rk4");
-  const auto rates = [&](const Plugin& by, Precision in, int team) {
-    return rates_of(*by.create({scene.problem, method, model, in, scene.problem.dt, team}), scene, model);
-  };
-  return state_error(scene.problem, rates(load_variant("reference"), Precision::f64, 1),
-                     rates(plugin, precision, threads));
+  DeviceRates work(plugin, model, precision, n, threads);
+  const MovingPlate& plate = work.plate();
+  std::vector<double> right(plate.state.size()), rates(right.size());
+  plate.executor(load_variant("reference"), model, Precision::f64, 1)->derivative(plate.signals, right);
+  work.repeat(2, rates);
+  return state_error(plate.scene.problem, restricted(right, model), restricted(rates, model));
 }
 
 bool has_name(const std::vector<std::string>& names, std::string_view name) {
@@ -180,7 +188,7 @@ void add_plates(const MicroSet& set, const Plugin& plugin, MakeCase&& make_case,
 
 void add_steps(const MicroSet& set, const Plugin& plugin, std::vector<MicroCase>& cases) {
   if (has_name(set.kernels, step_kernel) && !plugin.is_distributed) add_plates(set, plugin, step_case, cases);
-  if (has_name(set.kernels, rates_kernel) && std::string_view(plugin.name) == "opencl")
+  if (has_name(set.kernels, rates_kernel) && plugin.devices != nullptr && !plugin.is_distributed)
     add_plates(set, plugin, rates_case, cases);
 }
 
@@ -214,6 +222,7 @@ static MicroCase plate_case(const Plugin& plugin, Model model, Precision precisi
   one.variant = plugin.name, one.isa = plugin.isa, one.threads = threads;
   one.bytes = 2 * double(model_layout(model).fields.size() * precision_bytes(precision));
   one.is_threaded_inside = true;
+  if (model == Model::axial) one.skipped = "a plate is no bar";
   return one;
 }
 
@@ -238,9 +247,9 @@ MicroCase rates_case(const Plugin& plugin, Model model, Precision precision, int
   one.flops = row_flops(model).stage; // out = 0 + 1 f: a first stage's
   one.working_set_bytes = std::size_t(n) * std::size_t(n) * std::size_t(one.bytes) / std::size_t(threads);
   one.level = level_of(one.working_set_bytes);
-  one.elements = double(n) * n * double(DeviceRatesWork::launches_a_pass);
+  one.elements = double(n) * n * double(DeviceRates::launches_a_pass);
   one.make = [&plugin, model, precision, n, threads] {
-    return std::make_unique<DeviceRatesWork>(plugin, model, precision, n, threads);
+    return std::make_unique<DeviceRates>(plugin, model, precision, n, threads);
   };
   one.error = [&plugin, model, precision, n, threads] { return rates_error(plugin, model, precision, n, threads); };
   return one;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a microbenchmark times: a kernel of a variant on a working set, or whole steps of a plate.
+/// What a microbenchmark times: a kernel of a variant on a working set, whole steps of a plate, or a device's kernel on it.
 #include "experiments/microbenchmarks/working_set.hpp"
 #include "variants/api.hpp"
 
@@ -32,7 +32,7 @@ struct MicroCase {
   std::string skipped;             ///< why it cannot be timed here, or empty
   std::function<std::unique_ptr<MicroWork>()> make;
   std::function<double()>
-      error; ///< of its results, relative, against long double, or of steps against the oracle; null: it is the oracle
+      error; ///< of its results, relative, against long double, or of steps and rates against the oracle; null: it is the oracle
 
   /// What makes two results comparable: "stage_row/spatial/f64/avx512/L2/1".
   std::string cell() const;

@@ -21,7 +21,7 @@ struct MicroStudy {
 /// Nothing if the study has no key "microbenchmarks". @throws InputError: file, JSON pointer, what is wrong
 std::optional<MicroStudy> load_micro_study(const std::string& study, const std::string& scale);
 
-/// Measures it: raw/NAME.csv as measured, tables/NAME.csv, tables/ceilings.csv, tables/attribution.csv. With `resumes` records present stay.
+/// Measures it: raw/NAME.csv as measured, tables/NAME.csv, tables/ceilings.csv, tables/attribution.csv of raw/attribution.csv. With `resumes` records present stay.
 /// @return false if a kernel's results were wrong. @throws InputError if nothing can be recorded
 bool run_micro_study(const MicroStudy& study, const std::string& directory, bool resumes);
 

@@ -90,6 +90,14 @@ class OnDevices(ProgramTest):
         self.assertEqual((first["build_is_cached"], second["build_is_cached"]), (False, True))
         self.assertEqual(first["state_digest"], second["state_digest"])
 
+    def test_pocl_which_keeps_what_it_compiles_is_not_asked_for_binaries(self):
+        if not any("Portable Computing Language" in device["platform"] for device in devices()[:1]):
+            self.skipTest("the first device is another driver's")
+        environment = {key: value for key, value in os.environ.items() if key != "DSSBENCH_CACHE_DIR"}
+        result = dssbench(*self.opencl("--json", "-"), env={**environment, "XDG_CACHE_HOME": self.path("cache")})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(os.listdir(self.path("cache")), ["pocl"])
+
     def test_a_broken_binary_is_built_anew(self):
         cache = self.path("cache")
         whole = json.loads(dssbench(*self.opencl("--json", "-"), **self.cache(cache)).stdout)

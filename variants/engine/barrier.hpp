@@ -1,5 +1,5 @@
 #pragma once
-/// Where the threads of a team meet once a step.
+/// Where the threads of a team meet once a pass.
 #include "variants/wake.hpp"
 
 namespace dss {

@@ -33,7 +33,7 @@ void RowExecutor<T>::make_blocks() {
   if (const int edge = packed_.own_end - halo; is_part() && part_->is_overlapped && threads_ == 1 &&
                                                packed_.own_end < rows && edge - packed_.own_begin >= 2 * halo)
     cuts = {packed_.own_begin, edge, packed_.own_end};
-  steps_a_pass_ = WavefrontStep<T>::steps_a_pass(packed_, method, threads_);
+  steps_a_pass_ = steps_a_pass(packed_, method, cuts);
   blocks_.make(packed_, method, cuts, stored_fields(), steps_a_pass_);
   std::vector<Block<T>>& blocks = blocks_.all();
   for (std::size_t b = 0; b < blocks.size(); ++b)

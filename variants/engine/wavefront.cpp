@@ -11,9 +11,7 @@ template <class T, int W>
 std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts) {
   const int begin = packed.own_begin, end = packed.own_end;
   parts = std::clamp(parts, 1, end - begin);
-  const std::size_t first = packed.rows[std::size_t(begin)].pack_offset;
-  const PackedRow<T>& last = packed.rows[std::size_t(end - 1)];
-  const std::size_t packs = last.pack_offset + std::size_t(last.packs) - first;
+  const std::size_t first = packed.rows[std::size_t(begin)].pack_offset, packs = packed.packs_of(begin, end);
   std::vector<int> cuts{begin};
   for (int p = 1; p < parts; ++p) {
     const std::size_t target = first + packs * std::size_t(p) / std::size_t(parts);
@@ -23,6 +21,25 @@ std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts) {
   }
   cuts.push_back(end);
   return cuts;
+}
+
+template <class T, int W>
+int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, const std::vector<int>& cuts) {
+  if (!method.is_in_place() || packed.is_part()) return 1;
+  const int rows = int(packed.rows.size());
+  const auto recomputes_little = [&](int steps) {
+    for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
+      std::size_t more = 0;
+      for (int halo = packed.reach; halo <= (steps - 1) * packed.reach && halo > 0; halo += packed.reach)
+        more += packed.packs_of(std::max(0, cuts[b] - halo), cuts[b]) +
+                packed.packs_of(cuts[b + 1], std::min(rows, cuts[b + 1] + halo));
+      if (16 * more > std::size_t(steps) * packed.packs_of(cuts[b], cuts[b + 1])) return false;
+    }
+    return true;
+  };
+  int steps = packed.reach <= 1 ? 8 : 4;
+  while (steps > 1 && !recomputes_little(steps)) --steps;
+  return steps;
 }
 
 static row_action action_of(const Method& method, const RowStorage& storage, std::size_t increments, bool is_last) {
@@ -75,10 +92,8 @@ Block<T, W>::Block(const PackedRows<T, W>& packed, const Method& method, int fir
       stored_end(steps == 1 ? end : std::min(int(packed.rows.size()), end + halo)), packed_(&packed),
       pack_size_(std::size_t(fields) * std::size_t(W)), row_size_(std::size_t(packed.max_packs + 1) * pack_size_),
       halo_(halo) {
-  const PackedRow<T>& last_row = packed.rows[std::size_t(stored_end - 1)];
-  const std::size_t packs =
-      last_row.pack_offset + std::size_t(last_row.packs) - packed.rows[std::size_t(stored_begin)].pack_offset;
-  state_ = Buffer<T>((packs + 1) * pack_size_, packed.memory); // one pack more: rows look one pack ahead
+  state_ = Buffer<T>((packed.packs_of(stored_begin, stored_end) + 1) * pack_size_,
+                     packed.memory); // one pack more: rows look one pack ahead
   make_published();
   for (int s = 0; s < steps * method.stages; ++s) carry.emplace_back(packed);
   for (int stage = 0; stage + 1 < method.stages; ++stage) {
@@ -129,28 +144,28 @@ WavefrontStep<T, W>::WavefrontStep(const PackedRows<T, W>& packed, const Method&
                                    std::vector<Block<T, W>>& blocks, std::size_t index, int steps)
     : packed_(packed), fields_(storage.stored()), stages_(method.stages), steps_(steps), block_(blocks[index]),
       signals_(signal_count, steps * method.stages) {
-  find_state_rows(blocks);
+  find_published_rows(blocks);
   const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, storage, W, dt);
   sweeps_[0] = make_sweeps(updates, 0);
   if (blocks.size() > 1 && steps == 1) sweeps_[1] = make_sweeps(updates, 1);
 }
 
 template <class T, int W>
-void WavefrontStep<T, W>::find_state_rows(std::vector<Block<T, W>>& blocks) {
+void WavefrontStep<T, W>::find_published_rows(std::vector<Block<T, W>>& blocks) {
   const int halo = steps_ * stages_ * packed_.reach;
   for (int parity : {0, 1}) {
-    std::vector<T*>& rows = state_rows_[std::size_t(parity)];
+    std::vector<T*>& rows = published_rows_[std::size_t(parity)];
     rows.assign(packed_.rows.size(), nullptr);
     for (Block<T, W>& other : blocks)
       for (int r = std::max(other.begin, block_.begin - halo); r < std::min(other.end, block_.end + halo); ++r)
-        rows[std::size_t(r)] = &other == &block_ ? block_.row(r) : other.published(r, parity);
+        if (&other != &block_) rows[std::size_t(r)] = other.published(r, parity);
   }
 }
 
 template <class T, int W>
 void WavefrontStep<T, W>::fetch_halo(int parity) {
   for (int r = block_.stored_begin; r < block_.stored_end; ++r)
-    if (!block_.owns(r)) std::copy_n(state_row(r, parity), block_.row_length(r), block_.row(r));
+    if (!block_.owns(r)) std::copy_n(published_row(r, parity), block_.row_length(r), block_.row(r));
 }
 
 template <class T, int W>
@@ -179,7 +194,7 @@ auto WavefrontStep<T, W>::make_sweeps(const std::vector<StageUpdate<T>>& updates
 
 template <class T, int W>
 std::size_t WavefrontStep<T, W>::bytes() const {
-  std::size_t sum = (state_rows_[0].size() + state_rows_[1].size()) * sizeof(T*);
+  std::size_t sum = (published_rows_[0].size() + published_rows_[1].size()) * sizeof(T*);
   for (const auto& sweeps : sweeps_)
     for (const Sweep& sweep : sweeps) sum += sweep.rows.size() * sizeof(RowStage);
   return sum;
@@ -218,6 +233,7 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
 
 #define DSS_INSTANTIATE(T, W)                                                                                          \
   template std::vector<int> cut_rows(const PackedRows<T, W>&, int);                                                    \
+  template int steps_a_pass(const PackedRows<T, W>&, const Method&, const std::vector<int>&);                          \
   template class Block<T, W>;                                                                                          \
   template class WavefrontStep<T, W>;
 DSS_EACH_PACK(DSS_INSTANTIATE)

@@ -1,11 +1,10 @@
 #pragma once
 /// The wavefront over rows (DESIGN.md section 4): stage s runs `reach` rows behind stage s - 1, intermediate stages
-/// live in rings of a few rows, the state is updated in place, threads recompute a halo of stages * reach rows and meet
-/// once a step.
+/// live in rings of a few rows, the state is updated in place. A pass is a step, or several of a method in place; threads recompute a halo of
+/// reach rows for each of its stages and meet once a pass.
 #include "variants/engine/row_storage.hpp"
 #include "variants/engine/schedule.hpp"
 
-#include <algorithm>
 #include <functional>
 
 namespace dss {
@@ -105,28 +104,24 @@ struct StageUpdate {
 /// One for each stage of the method; `lanes` of a pack. A method with an error stage has a step of 1 here, and each its own in `set`. @throws std::logic_error for more terms in a stage than a task holds.
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage, int lanes, double dt);
+/// Some methods update in place, so a step can follow `reach` rows behind the one before: several steps for one trip through memory, and one
+/// meeting of the threads. Measured: eight for a plate; four where a link reaches over a plane of rows, of which eight leave L2. Of several
+/// blocks so few that none recomputes more than a sixteenth of its work. @param cuts  as cut_rows gives them
+template <class T, int W>
+int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, const std::vector<int>& cuts);
 /// The last stage of a method that reads the output of stage s.
 int last_reader(const Method& method, int s);
 
 /// Steps one block; `blocks` are all blocks. A pass over the rows makes one sweep for each stage of a step or, with a method in place, for
-/// several steps. What a sweep does to a row is the same in every pass but for the parity of what
-/// neighbours publish, so all row tasks are made once: making them anew would cost as much as several packs of a row.
+/// several steps. What a sweep does to a row is the same in every pass (but for the parity of what neighbours publish, if it reads that
+/// itself), so all row tasks are made once: making them anew would cost as much as several packs of a row.
 template <class T, int W = simd::lanes<T>>
 class WavefrontStep {
 public:
   /// @param steps  of a pass, as all its blocks have them
   WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt, const RowStorage& storage,
                 std::size_t signal_count, std::vector<Block<T, W>>& blocks, std::size_t index, int steps);
-  /// Some methods update in place, so a step can follow `reach` rows behind the one before: several steps for one trip
-  /// through memory, and one meeting of the threads. Measured: eight for a plate; four where a link reaches over a plane of rows, of which
-  /// eight leave L2. A block of several recomputes reach * steps (steps - 1) / 2 rows a side: so few steps that this is a sixteenth at most.
-  static int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, int blocks) {
-    if (!method.is_in_place() || packed.is_part()) return 1;
-    const int most = packed.reach == 1 ? 8 : 4, block_rows = int(packed.rows.size()) / blocks;
-    return blocks == 1 ? most : std::clamp(1 + block_rows / (16 * packed.reach), 1, most);
-  }
-
-  /// One pass of at most so many steps, with the signals of their stages (signal_rows.hpp); `parity` says which published
+  /// One pass of at most `steps` of the constructor, with the signals of their stages (signal_rows.hpp); `parity` says which published
   /// copies are current. The block's own rows end up updated in place and published under the other parity. Sets the block's
   /// failed_row and failed_step to the first row that the first failing step leaves non-finite.
   void operator()(const double* signals, int steps, int parity);
@@ -146,21 +141,21 @@ private:
     bool is_whole; ///< else this stage needs no more of the row than its links to upper rows
     RowTask<T> task;
   };
-  /// One stage of one step over rows [begin, end): the block, and what the step's later stages read on either side.
+  /// One stage of one step over rows [begin, end): the block, and what later sweeps of the pass read on either side.
   struct Sweep {
     int begin, end;
     std::vector<RowStage> rows;
   };
-  T* state_row(int r, int parity) const { return state_rows_[std::size_t(parity)][std::size_t(r)]; }
+  T* published_row(int r, int parity) const { return published_rows_[std::size_t(parity)][std::size_t(r)]; }
   /// Where a pass has the state of a row: here, or with a neighbour who published it.
   T* stepped_row(int r, int parity) {
     const bool is_here = r >= block_.stored_begin && r < block_.stored_end;
-    return is_here ? block_.row(r) : state_row(r, parity);
+    return is_here ? block_.row(r) : published_row(r, parity);
   }
   T* input_row(int stage, int r, int parity) {
     return stage == 0 ? stepped_row(r, parity) : block_.ring_row(stage - 1, r);
   }
-  void find_state_rows(std::vector<Block<T, W>>& blocks);
+  void find_published_rows(std::vector<Block<T, W>>& blocks);
   void fetch_halo(int parity);
   std::vector<Sweep> make_sweeps(const std::vector<StageUpdate<T>>& updates, int parity);
 
@@ -168,7 +163,7 @@ private:
   const int fields_, stages_, steps_;
   Block<T, W>& block_;
   StepSignals<T> signals_;
-  std::array<std::vector<T*>, 2> state_rows_; ///< parity, row: the block's own rows and its neighbours' published ones
+  std::array<std::vector<T*>, 2> published_rows_; ///< parity, row: those of other blocks that this one reads
   std::array<std::vector<Sweep>, 2>
       sweeps_; ///< parity, sweep; one parity is enough where all that is read is the block's
   int watched_row_ = -1;

@@ -60,22 +60,31 @@ void DeviceRates<T, W>::launch() {
 }
 
 template <class T, int W>
-void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals, T* rates) {
-  Queue& queue = device_.queue;
-  const auto place = [&](const dss::Buffer<T>& buffer) {
-    return std::size_t(device_.offset(buffer.data())) * sizeof(T);
-  };
-  const std::size_t bytes = plain_.bytes();
-  device_.set_signals(signals, signals.size());
-  queue.write(device_.arena(), place(plain_), {reinterpret_cast<const std::byte*>(plain), bytes});
-  launch();
-  queue.read(device_.arena(), place(rates_), {reinterpret_cast<std::byte*>(rates), bytes});
+void DeviceRates<T, W>::put(const dss::Buffer<T>& buffer, const T* numbers) {
+  device_.queue.write(device_.arena(), place(buffer), {reinterpret_cast<const std::byte*>(numbers), buffer.bytes()});
 }
 
 template <class T, int W>
-void DeviceRates<T, W>::repeat(long times) {
+void DeviceRates<T, W>::get_rates(T* rates) {
+  device_.queue.read(device_.arena(), place(rates_), {reinterpret_cast<std::byte*>(rates), rates_.bytes()});
+}
+
+template <class T, int W>
+void DeviceRates<T, W>::evaluate(const T* plain, std::span<const double> signals, T* rates) {
+  device_.set_signals(signals, signals.size());
+  put(plain_, plain);
+  launch();
+  get_rates(rates);
+}
+
+template <class T, int W>
+void DeviceRates<T, W>::repeat(long times, T* rates) {
+  if (rates != nullptr) put(rates_, std::vector<T>(size()).data());
   for (long n = 0; n < times; ++n) launch();
-  device_.queue.finish();
+  if (rates != nullptr)
+    get_rates(rates);
+  else
+    device_.queue.finish();
 }
 
 #define DSS_INSTANTIATE(T, W) template class DeviceRates<T, W>;

@@ -17,11 +17,16 @@ public:
   std::size_t size() const { return plain_.size(); } ///< numbers of plain rows (StateRows::plain_size)
   /// To the device, evaluation there, and back. Plain rows in, plain rows out. @param signals  one row
   void evaluate(const T* plain, std::span<const double> signals, T* rates);
-  /// As many launches of the same again, without transfers.
-  void repeat(long times);
+  /// The last evaluation as many times again, then back unless `rates` is null; of these launches alone, since the old rates are cleared.
+  void repeat(long times, T* rates);
 
 private:
   void launch();
+  std::size_t place(const dss::Buffer<T>& buffer) const {
+    return std::size_t(device_.offset(buffer.data())) * sizeof(T);
+  }
+  void put(const dss::Buffer<T>& buffer, const T* numbers);
+  void get_rates(T* rates);
 
   DeviceProblem<T, W> device_;
   dss::Buffer<T> plain_, rates_, zero_;

@@ -23,8 +23,8 @@ std::string all_options(const Device& device, const std::string& options) {
 }
 
 /// PoCL keeps what it compiles by itself, each kernel when it is first launched. Asked for a program's binary it compiles all of them once
-/// more, for work-groups of any size, which takes twice as long as what is launched.
-bool keeps_binaries(const Device& device) {
+/// more, for work-groups of any size, which takes as long again.
+bool is_left_to_driver(const Device& device) {
   const cl::Platform platform(device.handle.getInfo<CL_DEVICE_PLATFORM>());
   return platform.getInfo<CL_PLATFORM_NAME>() == "Portable Computing Language" && !is_cache_asked_for();
 }
@@ -81,7 +81,7 @@ cl::Program built_from_source(const Device& device, const std::string& source, c
   try {
     cl::Program program(context_of(device), source);
     program.build({device.handle}, options.c_str());
-    const std::string text = keeps_binaries(device) ? std::string() : with_flushed_denormals(binary_of(program));
+    const std::string text = is_left_to_driver(device) ? std::string() : with_flushed_denormals(binary_of(program));
     if (text.empty()) return program;
     cl::Program flushing(context_of(device), {device.handle}, {{text.begin(), text.end()}});
     flushing.build({device.handle}, options.c_str());
@@ -121,15 +121,15 @@ Program build_program(const Device& device, const std::string& source, const std
     const std::string key = key_of(device, source, full_options);
     cl::Program& program = programs[{device.handle(), key}];
     if (program() != nullptr) return {program, seconds_since(start), true};
-    const bool has_own_cache = keeps_binaries(device);
-    if (!has_own_cache) {
+    const bool keeps_binary = !is_left_to_driver(device);
+    if (keeps_binary) {
       if (const auto cached = built_from_binary(device, key, full_options)) {
         program = *cached;
         return {program, seconds_since(start), true};
       }
     }
     program = built_from_source(device, source, full_options);
-    if (!has_own_cache) store_binary(key, binary_of(program));
+    if (keeps_binary) store_binary(key, binary_of(program));
     return {program, seconds_since(start), false};
   });
 }

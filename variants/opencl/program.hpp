@@ -17,7 +17,8 @@ struct Program {
 
 /// Builds `source` for one device: flushes denormals, rounds divisions and roots of f32 correctly where the device can; the source itself
 /// says FP_CONTRACT OFF. Binaries are kept in $DSSBENCH_CACHE_DIR, else $XDG_CACHE_HOME/dssbench/opencl, else ~/.cache/dssbench/opencl, if
-/// that can be written (PoCL keeps its own unless the first is set); a binary that is damaged or that the driver refuses is built anew. Threads and processes may build at once.
+/// that can be written (PoCL keeps its own unless the first is set); a binary that is damaged or that the driver refuses is built anew.
+/// Threads and processes may build at once.
 /// @param options  further options: "-DREAL=double8"
 /// @throws InputError for source that does not compile: one line that says where, then the compiler's log
 Program build_program(const Device& device, const std::string& source, const std::string& options = "");

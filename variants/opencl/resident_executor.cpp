@@ -56,7 +56,7 @@ void ResidentExecutor<T, W>::make_blocks() {
   const std::vector<int> cuts = cut_blocks();
   bands_ = int(cuts.size()) - 1;
   // Several bands would have to copy their halos on the device.
-  steps_a_pass_ = bands_ == 1 ? WavefrontStep<T, W>::steps_a_pass(packed_, method, 1) : 1;
+  steps_a_pass_ = bands_ == 1 ? steps_a_pass(packed_, method, cuts) : 1;
   blocks_.make(packed_, method, cuts, stored_fields(), steps_a_pass_);
   std::vector<Block<T, W>>& blocks = blocks_.all();
   most_sweeps_ = steps_a_pass_ * method.stages;
@@ -275,9 +275,11 @@ void ResidentExecutor<T, W>::derivative(std::span<const double> signals, std::sp
 }
 
 template <class T, int W>
-bool ResidentExecutor<T, W>::repeat_derivative(long times) {
-  if (rates_ == nullptr) return false;
-  rates_->repeat(times);
+bool ResidentExecutor<T, W>::repeat_derivative(long times, std::span<double> rates) {
+  if (rates_ == nullptr || is_part()) return false;
+  std::vector<T> plain(rates.empty() ? 0 : rows_.plain_size());
+  rates_->repeat(times, rates.empty() ? nullptr : plain.data());
+  if (!rates.empty()) rows_.rates_out(plain.data(), rates);
   return true;
 }
 

@@ -18,7 +18,7 @@ public:
   void write(std::size_t first, std::span<const double> fields) override;
   void read(std::size_t first, std::span<double> fields) override;
   void derivative(std::span<const double> signals, std::span<double> rates) override;
-  bool repeat_derivative(long times) override;
+  bool repeat_derivative(long times, std::span<double> rates) override;
   Outcome advance(long steps, std::span<const double> signals) override;
   StepMaxima try_step(double dt, std::span<const double> signals) override;
   void accept_step() override;
