@@ -40,7 +40,8 @@ Comparison compared(const CellSample& before, const CellSample& after, double re
     result.how = fmt::format("Mann-Whitney, p = {:.2g}", p);
   }
   if (!differs || std::abs(*result.ratio - 1) <= resolution)
-    result.verdict = "same within resolution";
+    result.verdict =
+        fmt::format("same within {:.2g} %", 100 * std::max({resolution, *result.high - 1, 1 - *result.low}));
   else
     result.verdict = *result.ratio < 1 ? "faster" : "slower";
   return result;

@@ -22,7 +22,8 @@ constexpr double default_resolution = 0.02;
 
 /// Compares cell by cell. A cell that failed its check, has none, whose status is not "ok", or that has more workers than
 /// cores on either side gets no verdict. Samples of nine and more: Mann-Whitney's test (p < 0.05) and a ratio beyond the resolution;
-/// six to eight: intervals that do not overlap and a ratio beyond the resolution; fewer: no verdict.
+/// six to eight: intervals that do not overlap and a ratio beyond the resolution; fewer: no verdict. Else they are the same
+/// within the resolution, or as far from 1 as the interval of the ratio reaches.
 std::vector<Comparison> compare_records(const std::vector<Record>& old_records, const std::vector<Record>& new_records,
                                         double resolution);
 

@@ -41,10 +41,9 @@ int compare(const CompareArguments& arguments) {
     rows.push_back({c.cell, shown(c.old_step_s, 1e6, "{:.4g}"), shown(c.new_step_s, 1e6, "{:.4g}"),
                     shown(c.ratio, 1, "{:.3f}"), c.low ? fmt::format("[{:.3f}, {:.3f}]", *c.low, *c.high) : "",
                     c.verdict, c.how});
-  fmt::print("{}",
-             text_table({"cell", "old [us/step]", "new [us/step]", "new/old", "interval", "verdict", "by"}, rows));
-  fmt::print("Resolution {:.1f} % ({}).\n", 100 * resolution,
-             old_resolution || new_resolution ? "A/A pairs" : "default: no A/A pair");
+  fmt::print("{}", text_table({"cell", "old [us]", "new [us]", "new/old", "interval", "verdict", "by"}, rows));
+  fmt::print("Times are of a step, or of a kernel's pass over its operands. Resolution {:.1f} % ({}).\n",
+             100 * resolution, old_resolution || new_resolution ? "A/A pairs" : "default: no A/A pair");
   const bool is_worse = std::any_of(comparisons.begin(), comparisons.end(),
                                     [](const Comparison& c) { return c.verdict == "slower" || c.is_new_wrong; });
   return is_worse ? exit_check_failed : exit_success;

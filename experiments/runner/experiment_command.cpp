@@ -56,15 +56,19 @@ std::string table_path(const std::string& name, const std::string& out) {
   return path;
 }
 
-/// The table of a study without records of its own, with what made it beside: raw/NAME.json.
-void write_table(const std::string& name, const ExperimentArguments& arguments, const Table& table) {
+/// What made a table without records of its own: raw/NAME.json.
+void write_context(const std::string& name, const ExperimentArguments& arguments) {
   const ExperimentPaths paths = experiment_paths(arguments.out, name);
-  write_csv(paths.table, table);
   std::error_code error;
   std::filesystem::create_directories(std::filesystem::path(paths.context).parent_path(), error);
   Study study;
   study.name = name, study.scale.name = arguments.scale;
   write_circumstances(paths.context, measurement_context(), study);
+}
+
+void write_table(const std::string& name, const ExperimentArguments& arguments, const Table& table) {
+  write_csv(experiment_paths(arguments.out, name).table, table);
+  write_context(name, arguments);
 }
 
 /// Simulates what the study says, beside what it has measured.
@@ -205,7 +209,11 @@ int experiment(const ExperimentArguments& arguments) {
     fmt::print("{}: {} blocks to simulate\n", simulated_only, blocks.size());
     return exit_success;
   }
-  if (!simulated_only.empty()) return simulate(simulated_only, blocks, arguments.out);
+  if (!simulated_only.empty()) {
+    const int code = simulate(simulated_only, blocks, arguments.out);
+    write_context(simulated_only, arguments);
+    return code;
+  }
   const Study study = load_study(arguments.file, arguments.scale, usable_cores());
   if (arguments.is_dry) {
     print_plan(study, arguments.out);

@@ -93,6 +93,22 @@ VerifyRow row_of(const nlohmann::json& json) {
   return row;
 }
 
+/// What single precision misses by a little while double precision passes is more often the scene's rounding than a wrong variant.
+std::string rounding_hint(const std::vector<VerifyRow>& rows) {
+  constexpr double little = 30;
+  double most = 0;
+  for (const VerifyRow& row : rows) {
+    if (row.verdict != VerifyRow::Verdict::failed) continue;
+    if (row.precision == name(Precision::f64) || !row.error || !row.tolerance) return {};
+    most = std::max(most, *row.error / *row.tolerance);
+  }
+  if (most == 0 || !(most <= little)) return {};
+  return fmt::format(
+      "f64 passes everywhere, and single precision misses its tolerance by at most {:.2g}: if that is this "
+      "scene's rounding, which grows with its steps, give it a \"tolerance\" of f32 (\"run\")\n",
+      most);
+}
+
 void print_rows(const std::vector<VerifyRow>& rows) {
   std::vector<std::vector<std::string>> cells;
   for (const VerifyRow& row : rows)
@@ -219,6 +235,7 @@ int verify(VerifyArguments arguments) {
   if (arguments.json != "-") {
     print_rows(arguments.is_quiet ? brief(rows) : rows);
     fmt::print("{} checks passed, {} failed, {} skipped\n", passed, failed, count(VerifyRow::Verdict::skipped));
+    fmt::print("{}", rounding_hint(rows));
   }
   if (failed == 0 && passed == 0)
     throw InputError("verify: no variant could be verified here; see dssbench list variants");

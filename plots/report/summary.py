@@ -39,7 +39,9 @@ def of_accuracy(results):
         pair = results.table("work_precision_comparisons", "scene", "base", "contender", "times_cheaper", "contender_error_max", "space_error").dropna(subset=["times_cheaper"])
         if len(pair):
             row = pair.iloc[0]
-            parts.append(f"on {row['scene']} {row['contender']} is {shown(row['times_cheaper'])} times cheaper than the paper's {row['base']} at an error of "
+            best = row.get("times_cheaper_than_best_base")
+            fair = f" ({shown(best)} times than {row['base'].split()[0]} at the step that this accuracy needs)" if best == best and best else ""
+            parts.append(f"on {row['scene']} {row['contender']} is {shown(row['times_cheaper'])} times cheaper than the paper's {row['base']}{fair} at an error of "
                          f"{shown(row['contender_error_max'], 2)}, where the grid's own is {shown(row['space_error'], 2)}")
     except NotMeasured:
         pass

@@ -66,6 +66,7 @@ class Simulation(ProgramTest):
 
     def test_a_study_keeps_published_and_simulated_times_apart(self):
         result = dssbench("experiment", self.study(), "--out", self.path("out"))
+        self.assertIn("context", json.loads(self.read("out/raw/tiny.json")))  # when and by what it was made
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.path("out/tables/tiny_simulated.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))

@@ -80,7 +80,7 @@ TEST_F(Scaling, MoreRanksThanCoresAreShownWithoutASpeedUp) {
 
 TEST_F(Scaling, NoClaimIsMadeOfMoreRanksThanCoresWhenRunsAreCompared) {
   EXPECT_EQ(compare_records(records, records, default_resolution).at(four).verdict, "no claim: oversubscribed");
-  EXPECT_EQ(compare_records(records, records, default_resolution).at(deep).verdict, "same within resolution");
+  EXPECT_TRUE(compare_records(records, records, default_resolution).at(deep).verdict.starts_with("same within "));
 }
 
 TEST_F(Scaling, AFailedRankCostsTheCellItsScaling) {

@@ -95,7 +95,7 @@ TEST_F(Tables, ARunThatGotSlowerIsSlowerAndAnEqualOneIsTheSame) {
   };
   EXPECT_EQ(verdict(records, slower), "slower");
   EXPECT_EQ(verdict(slower, records), "faster");
-  EXPECT_EQ(verdict(records, records), "same within resolution");
+  EXPECT_TRUE(verdict(records, records).starts_with("same within "));
 }
 
 TEST_F(Tables, ATimeOfAWrongStateIsNoClaimOnEitherSide) {
@@ -109,7 +109,7 @@ TEST_F(Tables, ATimeOfAWrongStateIsNoClaimOnEitherSide) {
   const Comparison in_old = compare_records(wrong, records, default_resolution).at(1);
   EXPECT_EQ(in_old.verdict, "no claim: wrong");
   EXPECT_FALSE(in_old.is_new_wrong);
-  EXPECT_EQ(compare_records(records, wrong, default_resolution).at(0).verdict, "same within resolution");
+  EXPECT_TRUE(compare_records(records, wrong, default_resolution).at(0).verdict.starts_with("same within "));
 }
 
 TEST_F(Tables, AnUncheckedTimeIsNoClaim) {

@@ -18,7 +18,8 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::string all_options(const Device& device, const std::string& options) {
-  return fmt::format("-cl-std=CL1.2{}{} {}", are_denormals_kept() ? "" : " -cl-denorms-are-zero",
+  // -w: PoCL prints to the terminal how many warnings there were.
+  return fmt::format("-cl-std=CL1.2 -w{}{} {}", are_denormals_kept() ? "" : " -cl-denorms-are-zero",
                      device.is_correctly_rounded_f32 ? " -cl-fp32-correctly-rounded-divide-sqrt" : "", options);
 }
 

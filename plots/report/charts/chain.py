@@ -5,7 +5,7 @@ from .chart import Chart, linear, logarithmic, points, whiskers
 
 COLUMNS = {"link": "link", "label": "label", "scene": "scene", "set": "set", "variant": "variant", "threads": "threads", "model": "model", "precision": "precision", "integrator": "method",
            "dt_s": "step [s]", "measured_wall_s": "median time [s]", "factor_of_link": "factor of this link", "factor_vs_reference": "against the reference",
-           "factor_vs_reference_low": "from", "factor_vs_reference_high": "to", "error_max": "error", "error_bar": "error allowed", "status": "status", "reason": "reason"}
+           "factor_vs_reference_low": "from", "factor_vs_reference_high": "to", "contaminated": "contaminated repetitions", "repetitions": "of", "error_max": "error", "error_bar": "error allowed", "status": "status", "reason": "reason"}
 
 
 def best_link(frame):
@@ -35,6 +35,6 @@ def chain(results):
     best = best_link(frame)
     words = "No link keeps the allowed error." if best is None else (f"The fastest link within the allowed error is {shown(best['factor_vs_reference'])} times the reference ({best['label']}), "
                                                                      f"with an error of {shown(best['error_max'])}.")
-    text = f"Each bar is one link more: how many times faster than the reference, all in one interleaved run; on top, what the link itself brings. {words}"
+    text = f"Each bar is one link more: how many times faster than the reference, all in one interleaved run; on top, what the link itself brings (each a median of paired ratios, whose product need not be the whole). {words}"
     layout = {"xaxis": linear("", type="category", automargin=True), "yaxis": logarithmic("times the reference"), "yaxis2": logarithmic("error, relative", overlaying="y", side="right", showgrid=False)}
     return Chart(text, "chain", traces, layout, frame, COLUMNS, height=540)
