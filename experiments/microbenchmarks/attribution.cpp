@@ -3,7 +3,7 @@
 #include "experiments/microbenchmarks/micro_case.hpp"
 #include "experiments/microbenchmarks/own_ceilings.hpp"
 #include "experiments/runner/context.hpp"
-#include "experiments/runner/statistics.hpp"
+#include "experiments/runner/samples.hpp"
 #include "solver/error.hpp"
 #include "variants/loader.hpp"
 
@@ -118,12 +118,7 @@ double over_rounds(const TimedParts& parts, const Figure& figure) {
 /// The median with its interval, in columns NAME, NAME_low and NAME_high.
 void put_figure(Record& row, const std::string& column, const TimedParts& parts, const Figure& figure) {
   const std::vector<double> values = figures(parts, figure);
-  if (std::isnan(values.front())) return;
-  const Estimate found = estimate(values);
-  row[column] = number_text(found.median);
-  if (!found.interval) return;
-  row[column + "_low"] = number_text(found.interval->low);
-  row[column + "_high"] = number_text(found.interval->high);
+  if (!std::isnan(values.front())) put_interval(row, column, estimate(values));
 }
 
 /// What a row kernel needs at least, by the times of a round: for its flops, its mix of instructions, its traffic [ns].

@@ -36,11 +36,7 @@ void put_rates(const Record& head, const std::vector<double>& ns, const std::vec
   const double rate = 1e9 / time.median, flops = rate * number_in(head, "flops_per_element"),
                bytes = rate * number_in(head, "bytes_per_element");
   const int threads = int(number_in(head, "threads"));
-  row["measured_ns_per_element"] = number_text(time.median);
-  if (time.interval) {
-    row["measured_ns_per_element_low"] = number_text(time.interval->low);
-    row["measured_ns_per_element_high"] = number_text(time.interval->high);
-  }
+  put_interval(row, "measured_ns_per_element", time);
   row["elements_per_s"] = number_text(rate);
   row["flops_per_s"] = number_text(flops);
   row["bytes_per_s"] = number_text(bytes);

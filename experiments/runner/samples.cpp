@@ -160,4 +160,11 @@ std::vector<double> paired_ratios(const CellSample& a, const CellSample& b) {
   return ratios;
 }
 
+void put_interval(Record& row, const std::string& column, const Estimate& estimate) {
+  row[column] = number_text(estimate.median);
+  if (!estimate.interval) return;
+  row[column + "_low"] = number_text(estimate.interval->low);
+  row[column + "_high"] = number_text(estimate.interval->high);
+}
+
 } // namespace dss

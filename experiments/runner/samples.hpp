@@ -1,6 +1,7 @@
 #pragma once
 /// Raw records grouped into samples: what tables and comparisons are made of.
 #include "experiments/runner/records.hpp"
+#include "experiments/runner/statistics.hpp"
 
 #include <map>
 #include <string>
@@ -43,5 +44,8 @@ std::vector<CellSample> samples_of(const std::vector<Record>& records);
 
 /// Ratios a / b of two cells' seconds a step over the repetitions that both have.
 std::vector<double> paired_ratios(const CellSample& a, const CellSample& b);
+
+/// A median with its interval's ends in COLUMN_low and COLUMN_high, which are empty without an interval.
+void put_interval(Record& row, const std::string& column, const Estimate& estimate);
 
 } // namespace dss

@@ -57,13 +57,6 @@ double karp_flatt(double speedup, int ranks) {
   return (1 / speedup - share) / (1 - share);
 }
 
-void put_interval(Record& row, const std::string& column, const Estimate& estimate) {
-  row[column] = number_text(estimate.median);
-  if (!estimate.interval) return;
-  row[column + "_low"] = number_text(estimate.interval->low);
-  row[column + "_high"] = number_text(estimate.interval->high);
-}
-
 const std::vector<std::string>& scaling_columns() {
   static const std::vector<std::string> columns = {
       "speedup_vs_1_rank", "speedup_vs_1_rank_low", "speedup_vs_1_rank_high", "parallel_efficiency",

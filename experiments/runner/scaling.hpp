@@ -20,9 +20,6 @@ bool is_scaling_base(const Study& study, const Cell& cell);
 /// is overhead, what does not is serial. Negative for S > R.
 double karp_flatt(double speedup, int ranks);
 
-/// A median with its interval's ends in COLUMN_low and COLUMN_high, which are empty without an interval.
-void put_interval(Record& row, const std::string& column, const Estimate& estimate);
-
 const std::vector<std::string>& scaling_columns();
 /// Fills scaling_columns() of a cell on several ranks; empty for what is not comparable (see StudySamples::speedup).
 void put_scaling(const Study& study, const StudySamples& samples, const Cell& cell, Record& row);

@@ -97,12 +97,17 @@ VerifyRow row_of(const nlohmann::json& json) {
 std::string rounding_hint(const std::vector<VerifyRow>& rows) {
   constexpr double little = 30;
   double most = 0;
+  bool has_f64 = false;
   for (const VerifyRow& row : rows) {
+    const bool is_f64 = row.precision == name(Precision::f64);
+    has_f64 |= is_f64 && row.verdict == VerifyRow::Verdict::passed;
     if (row.verdict != VerifyRow::Verdict::failed) continue;
-    if (row.precision == name(Precision::f64) || !row.error || !row.tolerance) return {};
-    most = std::max(most, *row.error / *row.tolerance);
+    if (is_f64 || !row.error || !row.tolerance) return {};
+    const double ratio = *row.error / *row.tolerance;
+    if (!(ratio <= little)) return {}; // NaN too
+    most = std::max(most, ratio);
   }
-  if (most == 0 || !(most <= little)) return {};
+  if (most == 0 || !has_f64) return {};
   return fmt::format(
       "f64 passes everywhere, and single precision misses its tolerance by at most {:.2g}: if that is this "
       "scene's rounding, which grows with its steps, give it a \"tolerance\" of f32 (\"run\")\n",

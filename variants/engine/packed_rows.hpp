@@ -45,14 +45,14 @@ public:
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
 
-  /// Packs of all rows, and one more: rows look one pack ahead.
-  /// Of rows [begin, end).
+  /// Packs of rows [begin, end).
   std::size_t packs_of(int begin, int end) const {
     if (begin >= end) return 0;
     const PackedRow<T>& last = rows[std::size_t(end - 1)];
     return last.pack_offset + std::size_t(last.packs) - rows[std::size_t(begin)].pack_offset;
   }
-  std::size_t readable_packs() const { return rows.back().pack_offset + std::size_t(rows.back().packs) + 1; }
+  /// Packs of all rows, and one more: rows look one pack ahead.
+  std::size_t readable_packs() const { return packs_of(0, int(rows.size())) + 1; }
 
   int own_begin = 0,
       own_end = 0; ///< from the first row with an own element to behind the last: all rows of a whole problem

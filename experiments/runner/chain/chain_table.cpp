@@ -17,13 +17,6 @@ Estimate factor_over(const CellSample& base, double base_steps, const CellSample
   return estimate(ratios);
 }
 
-void put_factor(Record& row, const std::string& column, const Estimate& factor) {
-  row[column] = number_text(factor.median);
-  if (!factor.interval) return;
-  row[column + "_low"] = number_text(factor.interval->low);
-  row[column + "_high"] = number_text(factor.interval->high);
-}
-
 } // namespace
 
 std::string chain_cell(std::size_t link, const ChainLink& one) {
@@ -110,9 +103,9 @@ Table chain_table(const ChainStudy& study, const std::vector<Record>& records, C
     // No factor over a base that is wrong, or of threads that share a core.
     if (row["status"] == "ok" && sample_of(0).status() == "ok" && !sample.is_oversubscribed()) {
       const auto steps_of = [&](std::size_t k) { return double(study.links[k].steps_an_interval); };
-      put_factor(row, "factor_vs_reference", factor_over(sample_of(0), steps_of(0), sample, steps_of(n)));
+      put_interval(row, "factor_vs_reference", factor_over(sample_of(0), steps_of(0), sample, steps_of(n)));
       if (n > 0 && sample_of(n - 1).status() == "ok")
-        put_factor(row, "factor_of_link", factor_over(sample_of(n - 1), steps_of(n - 1), sample, steps_of(n)));
+        put_interval(row, "factor_of_link", factor_over(sample_of(n - 1), steps_of(n - 1), sample, steps_of(n)));
     }
     table.rows.push_back(std::move(row));
   }
