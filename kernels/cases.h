@@ -67,11 +67,13 @@ static inline void case_rk_update(const REAL* in, REAL* out) {
   t = rk_increment(SPLAT(1), in[3], in[0], t);
   out[1] = rk_finish(SPLAT(1.0 / 3.0), t, in[0]);
 }
-/* an element, its acceleration and its angular acceleration */
+/* an element with the velocities that forces see, its acceleration and angular acceleration, its velocities at the half step before */
 static inline void case_leapfrog(const REAL* in, REAL* out) {
   element e = case_element(in);
-  *(leap*)out = leapfrog(e.u, e.q, e.v, e.w, *(const vec*)(in + CASE_ELEMENT),
-                         *(const spin*)(in + CASE_ELEMENT + (int)(sizeof(vec) / sizeof(REAL))), SPLAT(0.01));
+  const int vec_size = (int)(sizeof(vec) / sizeof(REAL)), spin_size = (int)(sizeof(spin) / sizeof(REAL));
+  const REAL *a = in + CASE_ELEMENT, *before = a + vec_size + spin_size;
+  *(leap*)out = leapfrog(e, *(const vec*)before, *(const spin*)(before + vec_size), *(const vec*)a,
+                         *(const spin*)(a + vec_size), SPLAT(0.01), SPLAT(0.75), SPLAT(0.00125));
 }
 static inline void case_stabilization(const REAL* in, REAL* out) {
   element e = case_element(in);

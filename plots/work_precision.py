@@ -19,7 +19,7 @@ from report.pictures import measured_by, save  # noqa: E402
 
 # Okabe and Ito's colours: told apart with any colour vision. Methods that come later take those that are left.
 COLOURS = {"rk4": "#0072B2", "velocity_verlet": "#D55E00", "midpoint": "#009E73", "symplectic_euler": "#CC79A7", "dopri5": "#E69F00", "dopri5 adaptive": "#8B6100", "rkc2": "#56B4E9",
-           "implicit_midpoint": "#000000"}
+           "implicit_midpoint": "#000000", "smoothed_verlet": "#7A1F00"}
 OTHER_COLOUR = "#999999"
 LINES = {"f64": "-", "f32": ":", "f32c": "--"}
 MARKERS = "osv^DPX"

@@ -32,7 +32,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   const auto best = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
     return edit_distance(name, a) < edit_distance(name, b);
   });
-  if (best == known.end() || edit_distance(name, *best) > std::max<std::size_t>(2, name.size() / 3)) return list;
+  if (best == known.end() || edit_distance(name, *best) > std::max<std::size_t>(2, name.size() / 2)) return list;
   return suggest(*best);
 }
 

@@ -18,6 +18,7 @@ std::optional<KeyedStudy> open_study(const std::string& study, const char* key, 
   if (!json->is_object() || !json->contains(key)) return {};
   const JsonPlace root(*json, path);
   root.require_keys({"experiment", "title", key, "scales"});
+  root.must_have({"experiment", "title", "scales"});
   return KeyedStudy{json, path, root["experiment"].text(), root["title"].text(), root[key], scale_of(root, scale)};
 }
 

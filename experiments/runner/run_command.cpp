@@ -1,5 +1,6 @@
 #include "experiments/runner/arguments.hpp"
 #include "experiments/runner/commands.hpp"
+#include "experiments/runner/context.hpp"
 #include "experiments/runner/job.hpp"
 #include "experiments/runner/run.hpp"
 #include "experiments/runner/run_plan.hpp"
@@ -59,6 +60,8 @@ void print_summary(const RunResult& result) {
   print_model(result);
   fmt::print("{} ({}), {} thread{}{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
              result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "", result.schedule);
+  if (const int cores = usable_cores(); result.workers > cores)
+    fmt::print("{} workers share {} cores: a time that says nothing of speed\n", result.workers, cores);
   fmt::print("wall {:.6g} s{}, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
              result.runs > 1 ? fmt::format(" (mean of {} runs)", result.runs) : "", 1e-6 * result.element_steps_per_s(),
              double(result.bytes) / double(result.elements));

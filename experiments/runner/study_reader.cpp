@@ -3,6 +3,7 @@
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
+#include <fmt/ranges.h>
 
 namespace dss {
 
@@ -14,8 +15,16 @@ void JsonPlace::require_keys(std::initializer_list<const char*> allowed) const {
       fail(fmt::format("unknown key \"{}\"; {}", key, nearest_name(key, known)));
 }
 
+void JsonPlace::must_have(std::initializer_list<const char*> keys) const {
+  std::vector<std::string> missing;
+  for (const char* key : keys)
+    if (!has(key)) missing.push_back(fmt::format("\"{}\"", key));
+  if (!missing.empty())
+    fail(fmt::format("lacks the key{} {}", missing.size() == 1 ? "" : "s", fmt::join(missing, ", ")));
+}
+
 JsonPlace JsonPlace::operator[](const std::string& key) const {
-  if (!has(key)) fail(fmt::format("lacks the key \"{}\"", key));
+  must_have({key.c_str()});
   return {value_.at(key), file_, pointer_ + "/" + key};
 }
 

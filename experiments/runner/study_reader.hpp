@@ -26,6 +26,8 @@ public:
 
   /// Requires an object with no other keys than these.
   void require_keys(std::initializer_list<const char*> allowed) const;
+  /// @throws InputError that names all of these keys that are missing
+  void must_have(std::initializer_list<const char*> keys) const;
   /// Member of an object. Fails if it is missing.
   JsonPlace operator[](const std::string& key) const;
   /// Elements of an array; a single value counts as an array of one.

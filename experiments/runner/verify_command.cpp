@@ -40,7 +40,7 @@ std::vector<const Plugin*> chosen_plugins(const std::vector<std::string>& asked,
   for (const VariantStatus& status : asked_variants()) known.push_back(status.name);
   for (const std::string& name : asked)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("--variant {}: unknown variant; {}", name, nearest_name(name, known)));
+      throw InputError(fmt::format("variant \"{}\" does not exist; {}", name, nearest_name(name, known)));
   std::vector<const Plugin*> plugins;
   for (const VariantStatus& status : asked_variants()) {
     if (!asked.empty() && std::find(asked.begin(), asked.end(), status.name) == asked.end()) continue;

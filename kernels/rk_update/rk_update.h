@@ -19,20 +19,28 @@ static inline REAL rk_combined(REAL y, REAL beta, REAL rate, REAL y1, REAL y2, R
   return rk_finish(alpha_1, t, y);
 }
 
-/* Leapfrog: v_{n+1/2} = v_{n-1/2} + h a, x_{n+1} = x_n + h v_{n+1/2}, prediction p_{n+1} = v_{n+1/2} + h/2 a. */
+/* Leapfrog: v_{n+1/2} = v_{n-1/2} + h a, x_{n+1} = x_n + h v_{n+1/2}, and what forces see next,
+ * p_{n+1} = v_{n+1/2} + smoothing (p_n - v_{n-1/2}) + ahead a; v and w of `e` are p_n, v_half and w_half
+ * of n - 1/2. */
 typedef struct {
   vec u, v_half, v_next;
   rotor q;
   spin w_half, w_next;
 } leap;
-static inline leap leapfrog(vec u, rotor q, vec v_half, spin w_half, vec a, spin alpha, REAL h) {
+static inline vec vec_predicted(vec seen, vec before, vec after, vec a, REAL smoothing, REAL ahead) {
+  return vec_axpy(ahead, a, vec_axpy(smoothing, vec_sub(seen, before), after));
+}
+static inline spin spin_predicted(spin seen, spin before, spin after, spin a, REAL smoothing, REAL ahead) {
+  return spin_axpy(ahead, a, spin_axpy(smoothing, spin_sub(seen, before), after));
+}
+static inline leap leapfrog(element e, vec v_half, spin w_half, vec a, spin alpha, REAL h, REAL smoothing, REAL ahead) {
   leap r;
   r.v_half = vec_axpy(h, a, v_half);
   r.w_half = spin_axpy(h, alpha, w_half);
-  r.u = vec_axpy(h, r.v_half, u);
-  r.q = rotor_cayley(q, spin_scale(SPLAT(0.25) * h, r.w_half));
-  r.v_next = vec_axpy(SPLAT(0.5) * h, a, r.v_half);
-  r.w_next = spin_axpy(SPLAT(0.5) * h, alpha, r.w_half);
+  r.u = vec_axpy(h, r.v_half, e.u);
+  r.q = rotor_cayley(e.q, spin_scale(SPLAT(0.25) * h, r.w_half));
+  r.v_next = vec_predicted(e.v, v_half, r.v_half, a, smoothing, ahead);
+  r.w_next = spin_predicted(e.w, w_half, r.w_half, alpha, smoothing, ahead);
   return r;
 }
 

@@ -41,7 +41,8 @@ public:
         base_(task.base), increment_{task.increment[0], task.increment[1], task.increment[2]}, out_(task.out),
         low_(task.low), alpha_{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, beta_u_(task.beta),
         beta_v_(task.beta * task.body->inverse_mass), beta_q_(task.beta * T(0.5)), beta_w_(task.beta * scale_of_turn),
-        inverse_mass_(task.body->inverse_mass), turn_scale_(scale_of_turn) {}
+        smoothing_(task.alpha[0]), ahead_(task.alpha[1] * task.beta), inverse_mass_(task.body->inverse_mass),
+        turn_scale_(scale_of_turn) {}
 
   void operator()(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
     switch (is_fixed ? row_action(fixed_action) : action_) {
@@ -185,8 +186,8 @@ private:
   void leapfrog(std::ptrdiff_t at, const element& e, const vec& v_half, const spin& w_half, const vec& force,
                 const spin& turn, bool is_predicted) {
     T* p = out_ + at;
-    const auto next = P::leapfrog(e.u, e.q, v_half, w_half, P::vec_scale(inverse_mass_, force),
-                                  P::spin_scale(turn_scale_, turn), beta_u_);
+    const auto next = P::leapfrog(e, v_half, w_half, P::vec_scale(inverse_mass_, force),
+                                  P::spin_scale(turn_scale_, turn), beta_u_, smoothing_, ahead_);
     store_all(p, next.u);
     store_all(p, is_predicted ? next.v_next : next.v_half);
     store_all(p, next.q);
@@ -219,7 +220,7 @@ private:
     const vec u_low = load_all<vec>(from), v_low = load_all<vec>(from);
     const rotor q_low = load_all<rotor>(from);
     const spin w_low = load_all<spin>(from);
-    const R h = beta_u_, half_h = R(T(0.5)) * h;
+    const R h = beta_u_;
     const vec a = P::vec_scale(inverse_mass_, force);
     const spin alpha = P::spin_scale(turn_scale_, turn);
     const Sum<vec> v(half.v, v_low, P::vec_scale(h, a));
@@ -228,9 +229,9 @@ private:
     const Sum<rotor> q(e.q, q_low, P::rotor_cayley_change(e.q, P::spin_scale(R(T(0.25)) * h, w.value)));
     T* p = out_ + at;
     store_all(p, u.value);
-    store_all(p, is_predicted ? P::vec_axpy(half_h, a, v.value) : v.value);
+    store_all(p, is_predicted ? P::vec_predicted(e.v, half.v, v.value, a, smoothing_, ahead_) : v.value);
     store_all(p, q.value);
-    store_all(p, is_predicted ? P::spin_axpy(half_h, alpha, w.value) : w.value);
+    store_all(p, is_predicted ? P::spin_predicted(e.w, half.w, w.value, alpha, smoothing_, ahead_) : w.value);
     if (is_predicted) {
       store_all(p, v.value);
       store_all(p, w.value);
@@ -251,7 +252,9 @@ private:
   const T *const base_, *const increment_[3];
   T* const out_;
   const std::ptrdiff_t low_;
-  const R alpha_[3], beta_u_, beta_v_, beta_q_, beta_w_, inverse_mass_, turn_scale_;
+  const R alpha_[3], beta_u_, beta_v_, beta_q_, beta_w_;
+  const R smoothing_, ahead_; ///< of the leapfrog's prediction
+  const R inverse_mass_, turn_scale_;
 };
 
 } // namespace dss

@@ -115,8 +115,9 @@ Method symplectic_euler() {
           .note = "one force evaluation a step, no memory of its own; first order, yet its energy stays bounded"};
 }
 
-Method velocity_verlet() {
-  return {.name = "velocity_verlet",
+/// Its limits are those of the mode that changes sign in every step: (h omega)^2 + 4 / (1 + smoothing) h rate = 4.
+Method leapfrog(std::string_view name, double smoothing, std::string_view note) {
+  return {.name = name,
           .family = Method::Family::leapfrog,
           .order = 2,
           .stages = 1,
@@ -124,12 +125,24 @@ Method velocity_verlet() {
           .beta = {1},
           .alpha = {{0}},
           .imaginary_limit = 2,
-          .real_limit = 1,
+          .real_limit = 1 + smoothing,
           .is_symplectic = true,
           .keeps_energy_bounded = true,
-          .note =
-              "one force evaluation a step; damping and gyroscopic terms see a predicted velocity, which lowers the "
-              "step limit of damped problems"};
+          .note = note,
+          .smoothing = smoothing};
+}
+
+Method velocity_verlet() {
+  return leapfrog(
+      "velocity_verlet", 0,
+      "one force evaluation a step; damping and gyroscopic terms see a predicted velocity, which lowers the "
+      "step limit of damped problems");
+}
+
+Method smoothed_verlet() {
+  return leapfrog("smoothed_verlet", 0.8,
+                  "velocity_verlet with a prediction from the mean of past accelerations: a larger step for damped "
+                  "problems, with five times the error of damping's terms");
 }
 
 Method implicit_midpoint() {
@@ -214,7 +227,8 @@ Method rkc2(int stages) {
 }
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all = {rk4(), velocity_verlet(), midpoint(), symplectic_euler(), dopri5(), rkc2(5)};
+  static const std::vector<Method> all = {
+      rk4(), velocity_verlet(), smoothed_verlet(), midpoint(), symplectic_euler(), dopri5(), rkc2(5)};
   return all;
 }
 

@@ -14,8 +14,9 @@ namespace dss {
 /// It needs no running sum, and a state at rest stays at rest to the last bit. With an error stage, y_{n+1} is the input of the last stage,
 /// which leaves E = Y_stages - y_n, the estimate of the step's error.
 ///
-/// Family leapfrog (velocity Verlet with one evaluation a step; see solver/numerics/README.md):
-///     v_{n+1/2} = v_{n-1/2} + h a(x_n, p_n),  x_{n+1} = x_n + h v_{n+1/2},  p_{n+1} = v_{n+1/2} + (h/2) a(x_n, p_n)
+/// Family leapfrog, with one evaluation a step (see solver/numerics/README.md), s = smoothing:
+///     v_{n+1/2} = v_{n-1/2} + h a(x_n, p_n),  x_{n+1} = x_n + h v_{n+1/2},
+///     p_{n+1} = v_{n+1/2} + s (p_n - v_{n-1/2}) + (1 - s)/2 h a(x_n, p_n)
 /// where p_n predicts v_n for velocity-dependent terms (damping, gyroscopic), started by v_{-1/2} = v_0 - (h/2) a_0,
 /// p_0 = v_0, and read as v_n = v_{n-1/2} + (h/2) a(x_n, p_n). Rotations move by the Cayley map, which keeps |q| = 1.
 ///
@@ -38,6 +39,7 @@ struct Method {
       keeps_energy_bounded; ///< the energy of an undamped problem without gyroscopic terms has no trend, however many steps
   std::string_view note;        ///< what a user must know
   bool has_error_stage = false; ///< for steps that are tried first, and accepted or not (step_control.hpp)
+  double smoothing = 0;         ///< leapfrog: what a prediction keeps of the correction before it, below 1
 
   bool is_implicit() const { return family == Family::implicit_midpoint; }
   /// Velocities live half a step before positions.

@@ -15,6 +15,7 @@ using Real = long double;
 
 const Method& rk4 = *find_method("rk4");
 const Method& verlet = *find_method("velocity_verlet");
+const Method& smoothed = *find_method("smoothed_verlet");
 
 std::vector<Real> run(const Problem& problem, const Method& method, const std::vector<double>& start, double dt,
                       long steps) {
@@ -75,6 +76,24 @@ TEST(VelocityVerlet, is_second_order_on_every_term_with_large_rotations) {
   for (Load& load : problem.loads)
     if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
   expect_order(problem, verlet, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), 1e-5, 1000);
+}
+
+TEST(SmoothedVerlet, is_second_order_on_the_papers_damped_plate) {
+  const Problem plate = fixture::make_plate(10);
+  expect_order(plate, smoothed, at_rest(plate), 2.5e-8, 8000);
+}
+
+TEST(SmoothedVerlet, is_second_order_on_every_term_with_large_rotations) {
+  Problem problem = fixture::make_everything();
+  for (Load& load : problem.loads)
+    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
+  expect_order(problem, smoothed, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), 5e-6, 2000);
+}
+
+TEST(SmoothedVerlet, is_velocity_verlet_where_nothing_depends_on_velocities) {
+  Problem plate = fixture::make_plate(4); // cubes have no gyroscopic term
+  for (AxisConstants& c : plate.bodies[0].axis) c.d_normal = c.d_shear = 0, c.d_rot = {};
+  EXPECT_EQ(run(plate, smoothed, at_rest(plate), 1e-6, 50), run(plate, verlet, at_rest(plate), 1e-6, 50));
 }
 
 /// Element 0 held, element 1 pulled along the link: m x'' + d x' + k x = f, whatever the law.

@@ -57,6 +57,13 @@ TEST_F(PlateAfterTwoMilliseconds, velocity_verlet_has_observed_order_two_with_th
     EXPECT_NEAR(order(load_variant(variant), "velocity_verlet", 5e-7), 2, 0.1) << variant;
 }
 
+TEST_F(PlateAfterTwoMilliseconds, smoothed_verlet_bears_a_larger_step_than_velocity_verlet_and_has_its_order) {
+  for (const char* variant : {"scalar", "auto"}) {
+    EXPECT_NEAR(order(load_variant(variant), "smoothed_verlet", 1.25e-7), 2, 0.1) << variant;
+    EXPECT_LT(error(run(load_variant(variant), "smoothed_verlet", 1.25e-6, Precision::f64)), 1e-3) << variant;
+  }
+}
+
 TEST_F(PlateAfterTwoMilliseconds, float32_keeps_a_relative_error_below_1e_4_at_the_papers_step) {
   for (const char* variant : {"scalar", "auto"}) {
     const double e = error(run(load_variant(variant), "rk4", 1e-6, Precision::f32));

@@ -49,9 +49,9 @@ inline std::vector<NamedProblem> problems_of_all_terms() {
 /// that most runs take on the plate, and every other problem once; rare models once each, one of them in both families of methods.
 inline bool is_run(const NamedProblem& c, Model model, const Scheme& scheme) {
   const bool is_f64 = scheme.precision == Precision::f64, is_rk4 = scheme.method.name == "rk4";
-  const bool is_leapfrog = is_f64 && scheme.method.name == "velocity_verlet";
+  const bool is_leapfrog = is_f64 && scheme.method.is_staggered();
   if (c.is_bar) // undamped: where leapfrogs hold no half-step velocities
-    return model == Model::axial && ((is_f64 && is_rk4) || scheme.method.name == "velocity_verlet");
+    return model == Model::axial && ((is_f64 && is_rk4) || scheme.method.is_staggered());
   if (model == Model::spatial) {
     if (c.name == "everything") return true;
     return is_rk4 ? is_f64 || c.name == "plate" : is_leapfrog && c.name == "damped_joint";

@@ -32,7 +32,8 @@ TEST(Methods, are_found_by_their_own_unique_name_and_unknown_names_are_not) {
     EXPECT_TRUE(names.insert(method.name).second) << method.name;
     EXPECT_EQ(find_method(method.name), &method);
   }
-  for (const char* name : {"rk4", "velocity_verlet", "midpoint", "symplectic_euler", "dopri5", "rkc2"})
+  for (const char* name :
+       {"rk4", "velocity_verlet", "smoothed_verlet", "midpoint", "symplectic_euler", "dopri5", "rkc2"})
     EXPECT_EQ(names.count(name), 1u) << name;
   EXPECT_EQ(find_method("rk5"), nullptr);
   EXPECT_EQ(find_method(""), nullptr);

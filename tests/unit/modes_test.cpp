@@ -12,6 +12,7 @@ namespace {
 
 const Method& rk4 = *find_method("rk4");
 const Method& verlet = *find_method("velocity_verlet");
+const Method& smoothed = *find_method("smoothed_verlet");
 
 /// Methods that the limits must hold for, whatever is shipped.
 Method midpoint() {
@@ -60,7 +61,7 @@ double radius(const Problem& problem, const Method& method, double h) {
 TEST(ExactLimit, is_where_an_eigenvalue_of_the_whole_step_matrix_leaves_the_unit_circle) {
   for (const Problem& problem : small_problems()) {
     if (problem.lattice.element_count > 16) continue; // step matrices of more take seconds
-    for (const Method& method : {rk4, verlet, symplectic_euler()}) {
+    for (const Method& method : {rk4, verlet, smoothed, symplectic_euler()}) {
       const auto exact = Modes(problem).step_limit(method);
       ASSERT_TRUE(exact) << problem.name;
       // Differences and the double roots of rigid motions leave some 1e-5 of noise on radii.
@@ -101,7 +102,7 @@ TEST(ExactLimit, of_problems_beyond_dense_matrices_is_not_claimed) {
 }
 
 TEST(StepLimit, of_leapfrog_and_symplectic_euler_is_the_line_between_their_limits_on_the_axes) {
-  for (const Method& method : {verlet, symplectic_euler()})
+  for (const Method& method : {verlet, smoothed, symplectic_euler()})
     for (const double zeta : {0.0, 0.03, 0.4, 1.0, 3.0, 30.0}) {
       const double h = mode_step_limit(method, 1, 2 * zeta), i = method.imaginary_limit, r = method.real_limit;
       EXPECT_NEAR(h * h / (i * i) + 2 * zeta * h / r, 1, 1e-6) << method.name << " zeta = " << zeta;

@@ -46,8 +46,8 @@ static inline REAL leapfrog_update(device d, global const row_stage* task, const
   vec v_half = e.v;
   spin w_half = e.w;
   if (is_predicted) v_half = vec_at(halves), w_half = spin_at(halves + VEC_SIZE * W);
-  const leap next = leapfrog(e.u, e.q, v_half, w_half, vec_scale(inverse_mass, force), spin_scale(turn_scale, angular),
-                             SPLAT(task->beta));
+  const leap next = leapfrog(e, v_half, w_half, vec_scale(inverse_mass, force), spin_scale(turn_scale, angular),
+                             SPLAT(task->beta), SPLAT(task->alpha[0]), SPLAT(task->alpha[1] * task->beta));
   put_vec(next.u, p);
   put_vec(is_predicted ? next.v_next : next.v_half, p + VEC_SIZE * W);
   put_rotor(next.q, p + 2 * VEC_SIZE * W);
@@ -66,14 +66,15 @@ static inline REAL leapfrog_update(device d, global const row_stage* task, const
 static inline REAL kept_leapfrog_update(device d, global const row_stage* task, const long place, element e, vec force,
                                         REAL inverse_mass, spin angular, REAL turn_scale, const int is_predicted,
                                         REAL check) {
-  const REAL h = SPLAT(task->beta), half_h = SPLAT(0.5) * h;
+  const REAL h = SPLAT(task->beta), smoothing = SPLAT(task->alpha[0]), ahead = SPLAT(task->alpha[1] * task->beta);
   global const NUMBER* const in = d.arena + task->base + place;
   global NUMBER* const out = d.arena + task->out + place;
   const int v_at = VEC_SIZE * W, q_at = 2 * VEC_SIZE * W, w_at = (FIELDS - SPIN_SIZE) * W;
   const vec a = vec_scale(inverse_mass, force);
   const spin alpha = spin_scale(turn_scale, angular);
-  vec v = vec_scale(h, a);
-  spin w = spin_scale(h, alpha);
+  vec v = vec_scale(h, a), v_half = e.v;
+  spin w = spin_scale(h, alpha), w_half = e.w;
+  if (is_predicted) v_half = vec_at(in + FIELDS * W), w_half = spin_at(in + (FIELDS + VEC_SIZE) * W);
   global const NUMBER *from = is_predicted ? in + FIELDS * W : in + v_at, *low = in + task->low + v_at;
   global NUMBER* low_out = out + task->low + v_at;
   EACH_OF_VEC(SUM_UP, v)
@@ -87,9 +88,9 @@ static inline REAL kept_leapfrog_update(device d, global const row_stage* task, 
   from = in + q_at, low = in + task->low + q_at, low_out = out + task->low + q_at;
   EACH_OF_ROTOR(SUM_UP, q)
   put_vec(u, out);
-  put_vec(is_predicted ? vec_axpy(half_h, a, v) : v, out + v_at);
+  put_vec(is_predicted ? vec_predicted(e.v, v_half, v, a, smoothing, ahead) : v, out + v_at);
   put_rotor(q, out + q_at);
-  put_spin(is_predicted ? spin_axpy(half_h, alpha, w) : w, out + w_at);
+  put_spin(is_predicted ? spin_predicted(e.w, w_half, w, alpha, smoothing, ahead) : w, out + w_at);
   if (is_predicted) put_vec(v, out + FIELDS * W), put_spin(w, out + (FIELDS + VEC_SIZE) * W);
   return finite_check(v, w, FMA(rotor_sign_of_life(q), SPLAT(0), check));
 }
