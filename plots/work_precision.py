@@ -17,7 +17,7 @@ from matplotlib.ticker import NullFormatter  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
 from report.pictures import measured_by, save  # noqa: E402
 
-# Okabe and Ito's colours: told apart with any colour vision. Methods that come later take those that are left.
+# Okabe and Ito's colours: told apart with any colour vision. Two shades are of others: the adaptive dopri5's of its own, the smoothed Verlet's of Verlet's.
 COLOURS = {"rk4": "#0072B2", "velocity_verlet": "#D55E00", "midpoint": "#009E73", "symplectic_euler": "#CC79A7", "dopri5": "#E69F00", "dopri5 adaptive": "#8B6100", "rkc2": "#56B4E9",
            "implicit_midpoint": "#000000", "smoothed_verlet": "#7A1F00"}
 OTHER_COLOUR = "#999999"

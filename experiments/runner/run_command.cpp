@@ -8,6 +8,7 @@
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -60,8 +61,8 @@ void print_summary(const RunResult& result) {
   print_model(result);
   fmt::print("{} ({}), {} thread{}{}, {}\n", result.variant, result.isa, result.threads, result.threads == 1 ? "" : "s",
              result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "", result.schedule);
-  if (const int cores = usable_cores(); result.workers > cores)
-    fmt::print("{} workers share {} cores: a time that says nothing of speed\n", result.workers, cores);
+  if (const int cores = usable_cores(), busy = std::min(result.threads, result.workers); busy > cores)
+    fmt::print("{} threads share {} core{}: a time that says nothing of speed\n", busy, cores, cores == 1 ? "" : "s");
   fmt::print("wall {:.6g} s{}, {:.4g} million element-steps/s, {:.1f} bytes an element\n", result.wall_s,
              result.runs > 1 ? fmt::format(" (mean of {} runs)", result.runs) : "", 1e-6 * result.element_steps_per_s(),
              double(result.bytes) / double(result.elements));

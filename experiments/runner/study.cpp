@@ -176,7 +176,10 @@ Study load_study(const std::string& name_or_path, const std::string& scale, int 
   const JsonPlace root(json, study.path);
   root.require_keys(
       {"experiment", "title", "cells", "base", "twin", "paper", "scales", "simulation", "work_precision"});
-  root.must_have({"experiment", "title", "cells", "scales"});
+  if (root.has("work_precision"))
+    root.must_have({"experiment", "title", "cells", "scales"});
+  else
+    root.must_have({"experiment", "title", "cells", "base", "scales"});
   study.name = root["experiment"].text();
   if (study.name.find_first_of("/ ") != std::string::npos) root["experiment"].fail("names files: no slash, no space");
   study.title = root["title"].text();

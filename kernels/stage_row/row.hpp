@@ -54,7 +54,7 @@ struct RowTask {
   const T *from_y = nullptr, *from_z = nullptr; ///< those that the lower rows left; may be the same places
   // plain_stage: out = base + beta f(in). With increments: out = base + alpha_0 [beta f(in) + (increment_0 - base) + sum_{m > 0}
   // alpha_m (increment_m - base)], so beta and the later alpha are ratios to alpha_0 (rk_update.h). In place: beta = h,
-  // in == base == out, and of a leapfrog alpha_0, alpha_1: what a prediction keeps, and how far it goes ahead, in steps.
+  // in == base == out, and of predicted_step and kept_predicted alpha_0, alpha_1: what a prediction keeps of its correction, and how far it goes ahead, in steps.
   const T* base = nullptr;
   T* out = nullptr;
   T beta = 0;

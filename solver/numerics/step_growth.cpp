@@ -84,9 +84,10 @@ double spectral_radius(const Method& method, double h, double omega, double rate
   switch (method.family) {
   case Method::Family::leapfrog: {
     // One step of (x, h v_half, h p): h^2 a = -stiffness x - damping h p.
-    const double s = method.smoothing, ahead = 1 + (1 - s) / 2;
+    const double s = method.smoothing, of_acceleration = 1 + (1 - s) / 2;
     Eigen::MatrixXd step(3, 3); // as in modes.cpp: solvers of other sizes take seconds to compile
-    step << 1 - stiffness, 1, -damping, -stiffness, 1, -damping, -ahead * stiffness, 1 - s, s - ahead * damping;
+    step << 1 - stiffness, 1, -damping, -stiffness, 1, -damping, -of_acceleration * stiffness, 1 - s,
+        s - of_acceleration * damping;
     return step.eigenvalues().cwiseAbs().maxCoeff();
   }
   case Method::Family::symplectic_euler: {

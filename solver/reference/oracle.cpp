@@ -197,18 +197,17 @@ void Oracle<T>::leapfrog_step(long step, const SignalSource& signals) {
     dynamics_.rates(trial_, signals(step, 0), slopes_[0]);
   else
     start_leapfrog(signals(step, 0));
-  // What forces see next: p_{n+1}, or of symplectic Euler, where p and v are one, v itself.
-  const T h = T(dt_), smoothing = method_.is_staggered() ? T(method_.smoothing) : T(1), ahead = (1 - smoothing) / 2 * h;
+  const T h = T(dt_), smoothing = T(method_.smoothing), ahead = method_.is_staggered() ? (1 - smoothing) / 2 * h : T(0);
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
     T *y = &trial_[e * field_count], *half = &half_step_[6 * e];
     const T* a = &slopes_[0][e * field_count];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const T before = y[vx + axis] - half[axis], spin_before = y[wx + axis] - half[3 + axis];
+      const T correction = y[vx + axis] - half[axis], turn_correction = y[wx + axis] - half[3 + axis];
       half[axis] += h * a[vx + axis];
       half[3 + axis] += h * a[wx + axis];
       y[ux + axis] += h * half[axis];
-      y[vx + axis] = half[axis] + smoothing * before + ahead * a[vx + axis];
-      y[wx + axis] = half[3 + axis] + smoothing * spin_before + ahead * a[wx + axis];
+      y[vx + axis] = half[axis] + smoothing * correction + ahead * a[vx + axis];
+      y[wx + axis] = half[3 + axis] + smoothing * turn_correction + ahead * a[wx + axis];
     }
     const reference::Vector<T> w = {half[3], half[4], half[5]};
     const auto& coordinates = dynamics_.coordinates();

@@ -36,6 +36,18 @@ class Errors(ProgramTest):
     def test_an_unknown_variant_is_told_with_the_nearest(self):
         self.assert_refused(2, ["avx51", "avx512"], *SMALL, "--variant", "avx51")
 
+    def test_run_and_verify_tell_an_unknown_variant_alike(self):
+        for command in (SMALL, ("verify", "plate_paper")):
+            self.assert_refused(2, ['variant "avx1024" does not exist', 'did you mean "avx512"'], *command, "--variant", "avx1024")
+
+    def test_all_keys_that_a_study_lacks_are_told_at_once(self):
+        self.assert_refused(2, ['lacks the keys "title", "base", "scales"'], "experiment", self.write("x.json", '{"experiment": "x", "cells": []}'))
+
+    def test_more_threads_than_cores_are_told_in_a_run(self):
+        with_all = dssbench(*SMALL, "--variant", "scalar", "--threads", str(len(os.sched_getaffinity(0)) + 1))
+        self.assertIn("threads share", with_all.stdout)
+        self.assertNotIn("share", dssbench(*SMALL, "--variant", "scalar").stdout)
+
     def test_unknown_model_precision_and_integrator_are_told_with_the_nearest(self):
         self.assert_refused(2, ["plannar", "planar"], *SMALL, "--model", "plannar")
         self.assert_refused(2, ["f65", "f64"], *SMALL, "--precision", "f65")

@@ -126,6 +126,13 @@ TEST_P(PulledPair, approaches_its_closed_form_at_the_order_of_the_method) {
   }
 }
 
+/// A smoothed correction lags by 1 / (1 - 3/4) steps in place of one: the error of damping is four times as large, that of the spring is the same.
+TEST_P(PulledPair, has_at_most_four_times_the_error_of_velocity_verlet_with_a_smoothed_prediction) {
+  const Real ratio = error(smoothed, 1e-4, 1000) / error(verlet, 1e-4, 1000);
+  EXPECT_GT(ratio, 1.1);
+  EXPECT_LT(ratio, 4.1);
+}
+
 INSTANTIATE_TEST_SUITE_P(laws, PulledPair, testing::Values(LinkLaw::paper, LinkLaw::material),
                          [](const testing::TestParamInfo<LinkLaw>& law) {
                            return law.param == LinkLaw::paper ? "paper" : "material";

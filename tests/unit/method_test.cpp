@@ -35,6 +35,7 @@ TEST(Methods, are_found_by_their_own_unique_name_and_unknown_names_are_not) {
   for (const char* name :
        {"rk4", "velocity_verlet", "smoothed_verlet", "midpoint", "symplectic_euler", "dopri5", "rkc2"})
     EXPECT_EQ(names.count(name), 1u) << name;
+  EXPECT_EQ(find_method("smoothed_verlet")->real_limit, 1.75); // of smoothing 3/4
   EXPECT_EQ(find_method("rk5"), nullptr);
   EXPECT_EQ(find_method(""), nullptr);
 }

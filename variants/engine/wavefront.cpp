@@ -71,7 +71,8 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage
     update.action = action_of(method, storage, update.increments.size(), update.is_last);
     if (method.has_error_stage) update.is_last = false; // StepMaxima says what is not finite
     update.low = storage.first_low() * lanes;
-    if (storage.is_predicted()) update.smoothing = T(method.smoothing), update.ahead = T((1 - method.smoothing) / 2);
+    if (storage.is_predicted())
+      update.smoothing = T(method.smoothing), update.steps_ahead = T((1 - method.smoothing) / 2);
     update.beta = T(dt * method.beta[s] / (first == 0 ? 1 : first));
     if (update.increments.size() > RowTask<T>::most_increments)
       throw std::logic_error("method with more increments than a row task holds");

@@ -84,7 +84,7 @@ struct StageUpdate {
   int low = 0; ///< as in RowTask
   T beta = 0;
   std::vector<std::pair<int, T>> increments; ///< (stage whose output Y_m is; alpha or ratio)
-  T smoothing = 0, ahead = 0;                ///< of a leapfrog's prediction (RowTask)
+  T smoothing = 0, steps_ahead = 0;          ///< of a leapfrog's prediction (RowTask)
   /// The part of a task that it determines; `stage_output(m)` is the row of the output of stage m.
   template <class StageOutput>
   void set(RowTask<T>& task, T* base, T* out, StageOutput&& stage_output, T step = 1) const {
@@ -95,7 +95,7 @@ struct StageUpdate {
     task.out = out;
     task.beta = step * beta;
     task.increments = int(increments.size());
-    task.alpha[0] = smoothing, task.alpha[1] = ahead;
+    task.alpha[0] = smoothing, task.alpha[1] = steps_ahead;
     for (std::size_t m = 0; !increments.empty() && m < std::size(task.alpha); ++m) {
       const bool is_used = m < increments.size();
       task.increment[m] = stage_output(increments[is_used ? m : 0].first);
