@@ -38,7 +38,7 @@ class Errors(ProgramTest):
 
     def test_run_and_verify_tell_an_unknown_variant_alike(self):
         for command in (SMALL, ("verify", "plate_paper")):
-            self.assert_refused(2, ['variant "avx1024" does not exist', 'did you mean "avx512"'], *command, "--variant", "avx1024")
+            self.assert_refused(2, ['variant "avx1024" does not exist', 'did you mean "avx2"'], *command, "--variant", "avx1024")
 
     def test_all_keys_that_a_study_lacks_are_told_at_once(self):
         self.assert_refused(2, ['lacks the keys "title", "base", "scales"'], "experiment", self.write("x.json", '{"experiment": "x", "cells": []}'))
