@@ -49,15 +49,21 @@ std::vector<double> at_rest(const Problem& problem) {
   return std::vector<double>(problem.lattice.element_count * field_count, 0);
 }
 
+/// Loads have no kinks in time, which would spoil any order.
+Problem every_term() {
+  Problem problem = fixture::make_everything();
+  for (Load& load : problem.loads)
+    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
+  return problem;
+}
+
 TEST(Rk4, is_fourth_order_on_the_papers_plate) {
   const Problem plate = fixture::make_plate(10);
   expect_order(plate, rk4, at_rest(plate), 1e-6, 500);
 }
 
 TEST(Rk4, is_fourth_order_on_every_term_with_large_rotations) {
-  Problem problem = fixture::make_everything();
-  for (Load& load : problem.loads) // kinks in time would spoil any order
-    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
+  const Problem problem = every_term();
   expect_order(problem, rk4, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), 1e-4, 400);
 }
 
@@ -72,9 +78,7 @@ TEST(VelocityVerlet, is_second_order_on_an_undamped_block) {
 }
 
 TEST(VelocityVerlet, is_second_order_on_every_term_with_large_rotations) {
-  Problem problem = fixture::make_everything();
-  for (Load& load : problem.loads)
-    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
+  const Problem problem = every_term();
   expect_order(problem, verlet, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), 1e-5, 1000);
 }
 
@@ -84,9 +88,7 @@ TEST(SmoothedVerlet, is_second_order_on_the_papers_damped_plate) {
 }
 
 TEST(SmoothedVerlet, is_second_order_on_every_term_with_large_rotations) {
-  Problem problem = fixture::make_everything();
-  for (Load& load : problem.loads)
-    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
+  const Problem problem = every_term();
   expect_order(problem, smoothed, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), 5e-6, 2000);
 }
 
