@@ -138,7 +138,8 @@ struct Plugin {
   std::size_t layout = plugin_layout;
 };
 
-constexpr int plugin_abi = 8; ///< to be raised with every change of Plugin or Executor
+constexpr int plugin_abi =
+    9; ///< to be raised with every change of Plugin, Executor or what they are handed (Method, Problem)
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 
