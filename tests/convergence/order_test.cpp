@@ -49,27 +49,24 @@ std::vector<double> at_rest(const Problem& problem) {
   return std::vector<double>(problem.lattice.element_count * field_count, 0);
 }
 
-/// Loads have no kinks in time, which would spoil any order.
-Problem every_term() {
-  Problem problem = fixture::make_everything();
-  for (Load& load : problem.loads)
-    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
-  return problem;
-}
-
-TEST(Rk4, is_fourth_order_on_the_papers_plate) {
+void expect_order_on_the_papers_plate(const Method& method, double dt, long steps) {
   const Problem plate = fixture::make_plate(10);
-  expect_order(plate, rk4, at_rest(plate), 1e-6, 500);
+  expect_order(plate, method, at_rest(plate), dt, steps);
 }
 
-TEST(Rk4, is_fourth_order_on_every_term_with_large_rotations) {
-  const Problem problem = every_term();
-  expect_order(problem, rk4, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), 1e-4, 400);
+void expect_order_on_every_term(const Method& method, double dt, long steps) {
+  Problem problem = fixture::make_everything();
+  for (Load& load : problem.loads) // kinks in time would spoil any order
+    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
+  expect_order(problem, method, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), dt, steps);
 }
+
+TEST(Rk4, is_fourth_order_on_the_papers_plate) { expect_order_on_the_papers_plate(rk4, 1e-6, 500); }
+
+TEST(Rk4, is_fourth_order_on_every_term_with_large_rotations) { expect_order_on_every_term(rk4, 1e-4, 400); }
 
 TEST(VelocityVerlet, is_second_order_on_the_papers_damped_plate) {
-  const Problem plate = fixture::make_plate(10);
-  expect_order(plate, verlet, at_rest(plate), 1e-7, 2000);
+  expect_order_on_the_papers_plate(verlet, 1e-7, 2000);
 }
 
 TEST(VelocityVerlet, is_second_order_on_an_undamped_block) {
@@ -78,18 +75,15 @@ TEST(VelocityVerlet, is_second_order_on_an_undamped_block) {
 }
 
 TEST(VelocityVerlet, is_second_order_on_every_term_with_large_rotations) {
-  const Problem problem = every_term();
-  expect_order(problem, verlet, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), 1e-5, 1000);
+  expect_order_on_every_term(verlet, 1e-5, 1000);
 }
 
 TEST(SmoothedVerlet, is_second_order_on_the_papers_damped_plate) {
-  const Problem plate = fixture::make_plate(10);
-  expect_order(plate, smoothed, at_rest(plate), 2.5e-8, 8000);
+  expect_order_on_the_papers_plate(smoothed, 2.5e-8, 8000);
 }
 
 TEST(SmoothedVerlet, is_second_order_on_every_term_with_large_rotations) {
-  const Problem problem = every_term();
-  expect_order(problem, smoothed, fixture::random_state(problem, 3, 2e-3, 1.2, 0.3), 5e-6, 2000);
+  expect_order_on_every_term(smoothed, 5e-6, 2000);
 }
 
 TEST(SmoothedVerlet, is_velocity_verlet_where_nothing_depends_on_velocities) {
