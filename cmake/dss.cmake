@@ -98,6 +98,7 @@ set(dss_test_options $<$<CONFIG:Release>:-O1>) # what is tested has its own
 function(dss_test name)
   cmake_parse_arguments(arg "" "TEAMS" "" ${ARGN})
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+  dss_unity(${name} 7)
   target_compile_options(${name} PRIVATE ${dss_test_options})
   target_compile_definitions(${name} PRIVATE $<$<BOOL:${DSS_FEWER_MODELS}>:DSS_FEWER_MODELS>)
   target_precompile_headers(${name} REUSE_FROM dss_test_headers)

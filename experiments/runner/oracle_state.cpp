@@ -11,7 +11,7 @@
 namespace dss {
 namespace {
 
-constexpr const char* format = "dssbench-oracle-1";
+constexpr const char* state_format = "dssbench-oracle-1";
 
 } // namespace
 
@@ -42,12 +42,13 @@ std::vector<double> continue_by_oracle(const Problem& problem, const Method& met
 }
 
 void write_oracle_state(const std::string& path, const OracleState& state) {
-  write_state_file(path, format, state.key, fmt::format("{} {}", state.steps, state.state.size()), {&state.state, 1});
+  write_state_file(path, state_format, state.key, fmt::format("{} {}", state.steps, state.state.size()),
+                   {&state.state, 1});
 }
 
 OracleState read_oracle_state(const std::string& path) {
   const std::string what = "is no oracle state; `dssbench experiment` makes them";
-  StateFile file = read_state_file(path, format, what);
+  StateFile file = read_state_file(path, state_format, what);
   OracleState result{std::move(file.key), 0, std::move(file.values)};
   std::size_t count = 0;
   if (!(std::istringstream(file.figures) >> result.steps >> count)) throw InputError(fmt::format("{}: {}", path, what));

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int simulated_steps = 20;
 
-const std::vector<std::string>& columns() {
+const std::vector<std::string>& simulated_columns() {
   static const std::vector<std::string> names = {"experiment",
                                                  "label",
                                                  "scene",
@@ -207,7 +207,7 @@ void put_measured(const Table& measured, Record& row) {
 } // namespace
 
 Table simulate_study(const std::string& study, const std::vector<SimulationBlock>& blocks, const Table& measured) {
-  Table table{columns(), {}};
+  Table table{simulated_columns(), {}};
   if (const std::string why = why_no_simulation(); !why.empty()) {
     table.rows.push_back({{"experiment", study}, {"status", "skipped"}, {"reason", why}});
     return table;

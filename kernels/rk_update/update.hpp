@@ -21,12 +21,25 @@ struct FiniteCheck {
   bool passed() const { return simd::is_zero(sum); }
 };
 
-inline constexpr int any_action = -1;
-inline constexpr int rare_action =
-    -2; ///< any but those that most runs take, which are not compiled then and fail the run
+/// What an update has in place of one action. The actions that few runs take are most of a row's code in line, and of the time to compile it: where
+/// few runs take the row either they are a function of its own, for rows of any terms (measured: 0.84 to 0.93 of the speed in line).
+inline constexpr int any_action = -1;   ///< those that most runs take in line, the rest apart
+inline constexpr int rare_action = -2;  ///< the rest in line, but for kept stages, which common rows have by themselves
+inline constexpr int apart_action = -3; ///< the rest
+constexpr bool is_rare(row_action action) {
+  return action != plain_stage && action != combined_stage && action != leapfrog_step && action != predicted_step;
+}
+
+DSS_INLINE_END
+/// One pack's update by an action that is apart. Returns 0, or NaN if it left a velocity that is not finite.
+template <class P, class T, int W>
+[[gnu::noinline]] typename P::real update_apart(const RowTask<T>& task, T scale_of_turn, std::ptrdiff_t at,
+                                                const typename P::element& e, const typename P::vec& force,
+                                                const typename P::spin& turn);
+DSS_INLINE_BEGIN
 
 /// The action of a task on one pack after the other, as rk_update.h computes it. W: numbers from a component of a pack to the next.
-/// fixed_action: the one action of all tasks, which saves a branch a pack; or one of several, as the task says.
+/// fixed_action: the one action of all tasks, which saves a branch a pack; or a set of actions, of which the task says which.
 template <class P, class T, int W = simd::lanes<T>, int fixed_action = any_action>
 class RowUpdate {
 public:
@@ -45,62 +58,83 @@ public:
         turn_scale_(scale_of_turn) {}
 
   void operator()(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
-    switch (is_fixed ? row_action(fixed_action) : action_) {
-    case combined_stage:
-      if constexpr (fixed_action != rare_action)
-        runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
-          return P::rk_combined(load(base_ + n), beta, rate, load(increment_[0] + n), load(increment_[1] + n),
-                                load(increment_[2] + n), alpha_[0], alpha_[1], alpha_[2]);
-        });
-      else
-        fail();
-      return;
-    case wide_stage:
-      return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return wide(n, beta, rate); });
-    case error_stage:
-      return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
-        return P::rk_estimate(alpha_[0], increments(n, load(base_ + n), beta, rate));
-      });
-    case kept_error:
-      if constexpr (is_compensated)
-        runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return kept_wide(n, beta, rate); });
-      return;
-    case leapfrog_step:
-      return leapfrog(at, e, e.v, e.w, force, turn, false);
-    case predicted_step: {
-      auto [v_half, w_half] = half_velocities(at);
-      return leapfrog(at, e, v_half, w_half, force, turn, true);
-    }
-    case kept_stage:
-      if constexpr (is_compensated && fixed_action != rare_action)
-        kept_runge_kutta<false>(at, e, force, turn);
-      else
-        fail();
-      return;
-    case kept_step:
-      if constexpr (is_compensated && fixed_action != rare_action)
-        kept_runge_kutta<true>(at, e, force, turn);
-      else
-        fail();
-      return;
-    case kept_leapfrog:
-    case kept_predicted:
-      if constexpr (is_compensated) kept_in_place(at, e, force, turn);
-      return;
-    default:
-      if constexpr (fixed_action != rare_action)
-        runge_kutta(at, e, force, turn,
-                    [&](std::ptrdiff_t n, R beta, R rate) { return P::rk_first(load(base_ + n), beta, rate); });
-      else
-        fail();
-    }
+    if constexpr (fixed_action == any_action)
+      if (is_rare(action_)) {
+        check.add_one(act_apart(at, e, force, turn));
+        return;
+      }
+    act(at, e, force, turn);
   }
   FiniteCheck<R, T> check{};
 
 private:
   static constexpr bool is_fixed = fixed_action >= 0;
-  static constexpr bool is_compensated = sizeof(T) <= sizeof(float);     ///< double precision needs no low parts
-  void fail() { check.add_one(R(std::numeric_limits<T>::quiet_NaN())); } ///< what is not compiled must not pass
+  static constexpr bool is_compensated = sizeof(T) <= sizeof(float); ///< double precision needs no low parts
+  static constexpr bool has(row_action action) {
+    if (is_fixed) return action == fixed_action;
+    if (fixed_action == any_action) return !is_rare(action);
+    if (fixed_action == rare_action && (action == kept_stage || action == kept_step)) return false;
+    return action != plain_stage && action != combined_stage;
+  }
+
+  /// By value: of what is passed on no address may be taken in line, or it had to be in memory for the usual actions too.
+  R act_apart(std::ptrdiff_t at, element e, vec force, spin turn) const {
+    return update_apart<P, T, W>(task_, turn_scale_, at, e, force, turn);
+  }
+  void act(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
+    switch (is_fixed ? row_action(fixed_action) : action_) {
+    case plain_stage:
+      if constexpr (has(plain_stage))
+        return runge_kutta(at, e, force, turn,
+                           [&](std::ptrdiff_t n, R beta, R rate) { return P::rk_first(load(base_ + n), beta, rate); });
+      break;
+    case combined_stage:
+      if constexpr (has(combined_stage))
+        return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
+          return P::rk_combined(load(base_ + n), beta, rate, load(increment_[0] + n), load(increment_[1] + n),
+                                load(increment_[2] + n), alpha_[0], alpha_[1], alpha_[2]);
+        });
+      break;
+    case wide_stage:
+      if constexpr (has(wide_stage))
+        return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return wide(n, beta, rate); });
+      break;
+    case error_stage:
+      if constexpr (has(error_stage))
+        return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
+          return P::rk_estimate(alpha_[0], increments(n, load(base_ + n), beta, rate));
+        });
+      break;
+    case kept_error:
+      if constexpr (has(kept_error) && is_compensated)
+        return runge_kutta(at, e, force, turn,
+                           [&](std::ptrdiff_t n, R beta, R rate) { return kept_wide(n, beta, rate); });
+      break;
+    case leapfrog_step:
+      if constexpr (has(leapfrog_step)) return leapfrog(at, e, e.v, e.w, force, turn, false);
+      break;
+    case predicted_step:
+      if constexpr (has(predicted_step)) {
+        auto [v_half, w_half] = half_velocities(at);
+        return leapfrog(at, e, v_half, w_half, force, turn, true);
+      }
+      break;
+    case kept_stage:
+      if constexpr (has(kept_stage) && is_compensated) return kept_runge_kutta<false>(at, e, force, turn);
+      break;
+    case kept_step:
+      if constexpr (has(kept_step) && is_compensated) return kept_runge_kutta<true>(at, e, force, turn);
+      break;
+    case kept_leapfrog:
+    case kept_predicted:
+      if constexpr ((has(kept_leapfrog) || has(kept_predicted)) && is_compensated)
+        return kept_in_place(at, e, force, turn);
+      break;
+    default:
+      break;
+    }
+    check.add_one(R(std::numeric_limits<T>::quiet_NaN())); // what is not compiled must not pass
+  }
   static R load(const T* p) { return simd::load(p); }
   template <class Tuple>
   static Tuple load_all(const T*& p) {
@@ -187,7 +221,7 @@ private:
                 const spin& turn, bool is_predicted) {
     T* p = out_ + at;
     const auto next = P::leapfrog(e, v_half, w_half, P::vec_scale(inverse_mass_, force),
-                                  P::spin_scale(turn_scale_, turn), beta_u_, smoothing_, ahead_);
+                                  P::spin_scale(R(turn_scale_), turn), beta_u_, smoothing_, ahead_);
     store_all(p, next.u);
     store_all(p, is_predicted ? next.v_next : next.v_half);
     store_all(p, next.q);
@@ -222,7 +256,7 @@ private:
     const spin w_low = load_all<spin>(from);
     const R h = beta_u_;
     const vec a = P::vec_scale(inverse_mass_, force);
-    const spin alpha = P::spin_scale(turn_scale_, turn);
+    const spin alpha = P::spin_scale(R(turn_scale_), turn);
     const Sum<vec> v(half.v, v_low, P::vec_scale(h, a));
     const Sum<spin> w(half.w, w_low, P::spin_scale(h, alpha));
     const Sum<vec> u(e.u, u_low, P::vec_scale(h, v.value));
@@ -254,8 +288,19 @@ private:
   const std::ptrdiff_t low_;
   const R alpha_[3], beta_u_, beta_v_, beta_q_, beta_w_;
   const R smoothing_, ahead_; ///< of the leapfrog's prediction
-  const R inverse_mass_, turn_scale_;
+  const R inverse_mass_;
+  const T turn_scale_;
 };
+
+DSS_INLINE_END
+template <class P, class T, int W>
+typename P::real update_apart(const RowTask<T>& task, T scale_of_turn, std::ptrdiff_t at, const typename P::element& e,
+                              const typename P::vec& force, const typename P::spin& turn) {
+  RowUpdate<P, T, W, apart_action> update(task, scale_of_turn);
+  update(at, e, force, turn);
+  return update.check.sum;
+}
+DSS_INLINE_BEGIN
 
 } // namespace dss
 DSS_INLINE_END

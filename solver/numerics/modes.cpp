@@ -1,6 +1,7 @@
 #include "solver/numerics/modes.hpp"
 #include "solver/numerics/linearised.hpp"
 #include "solver/numerics/step_growth.hpp"
+#include "solver/numerics/symmetric_eigen.hpp"
 
 #include <Eigen/Dense>
 
@@ -99,10 +100,10 @@ bool has_single_modes(const Coupled& piece) {
 std::vector<Mode> single_modes(const Coupled& piece) {
   // Eigenvectors of K alone need not be those of C where a frequency is multiple; of a general sum of both they are.
   const double k = piece.k.norm(), c = piece.c.norm();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> both(c > 0 ? MatrixXd(piece.k + 0.618 * k / c * piece.c) : piece.k);
+  const SymmetricEigen both(c > 0 ? MatrixXd(piece.k + 0.618 * k / c * piece.c) : piece.k);
   std::vector<Mode> modes;
   for (Index n = piece.k.rows() - 1; n >= 0; --n)
-    if (const Mode mode = mode_of(piece, both.eigenvectors().col(n));
+    if (const Mode mode = mode_of(piece, both.vectors.col(n));
         mode.omega * mode.omega > negligible * k || mode.rate > negligible * c)
       modes.push_back(mode);
   return modes;
@@ -162,8 +163,8 @@ ExactLimit limit_of_flipping_mode(const Coupled& piece, const Method& method) {
   Mode mode{std::sqrt(piece.k.norm()), piece.c.norm()};
   double h = borne(mode);
   for (int n = 0; n < most_iterations; ++n) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(MatrixXd(h * h * of_k * piece.k + h * of_c * piece.c));
-    mode = mode_of(piece, solved.eigenvectors().rightCols<1>());
+    const SymmetricEigen solved(h * h * of_k * piece.k + h * of_c * piece.c);
+    mode = mode_of(piece, solved.vectors.rightCols<1>());
     const double previous = std::exchange(h, borne(mode));
     if (std::abs(h - previous) <= 1e-12 * h || piece.c.norm() == 0) break;
   }

@@ -1,5 +1,6 @@
 #include "solver/numerics/spectrum.hpp"
 #include "solver/numerics/linearised.hpp"
+#include "solver/numerics/symmetric_eigen.hpp"
 
 #include <array>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 
 double largest_eigenvalue(const Matrix12& matrix, const Vector12& scale) {
   const Matrix12 scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Matrix12>(scaled, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return SymmetricEigen(scaled).values.maxCoeff();
 }
 
 /// Largest eigenvalue over the links' own pencils, each link with its share of its elements' inertia.
@@ -104,11 +105,10 @@ double lanczos(const ScaledMatrix& matrix, long& products) {
     if (!std::isfinite(beta)) return beta;
     const bool is_exhausted = beta <= 1e-13 * std::abs(diagonal.front());
     if (is_exhausted || n % check_every == 0) {
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-      ritz.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(diagonal.data(), n),
-                                  Eigen::Map<Eigen::VectorXd>(off_diagonal.data(), n - 1));
+      const SymmetricEigen ritz(Eigen::Map<Eigen::VectorXd>(diagonal.data(), n),
+                                Eigen::Map<Eigen::VectorXd>(off_diagonal.data(), n - 1));
       // |A x - theta x| of the Ritz vector x is beta times the last component of the small eigenvector.
-      const double theta = ritz.eigenvalues()[n - 1], residual = beta * std::abs(ritz.eigenvectors()(n - 1, n - 1));
+      const double theta = ritz.values[n - 1], residual = beta * std::abs(ritz.vectors(n - 1, n - 1));
       bound = theta + residual;
       if (is_exhausted || residual <= 2e-4 * theta) break;
     }

@@ -1,8 +1,9 @@
 #include "solver/statics/eigenmodes.hpp"
 #include "solver/error.hpp"
+#include "solver/numerics/symmetric_eigen.hpp"
 #include "solver/statics/sparse_solver.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -35,10 +36,10 @@ public:
       if (added == 0) break; // the space is closed
       next = factors_.solve(mass_product(space().rightCols(added)));
       const MatrixXd outside = project(next, added);
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(projected_);
+      const SymmetricEigen ritz(projected_);
       const Index have = std::min(count, size_);
-      values = ritz.eigenvalues().tail(have).reverse();
-      const MatrixXd small = ritz.eigenvectors().rightCols(have).rowwise().reverse();
+      values = ritz.values.tail(have).reverse();
+      const MatrixXd small = ritz.vectors.rightCols(have).rowwise().reverse();
       // What of (inverse x - value x) lies outside of the space comes from the newest block alone.
       const MatrixXd gram = outside.transpose() * mass_product(outside);
       const MatrixXd ends = small.bottomRows(added);

@@ -1,5 +1,6 @@
 #include "solver/statics/held.hpp"
 #include "solver/numerics/linearised.hpp"
+#include "solver/numerics/symmetric_eigen.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -77,11 +78,11 @@ public:
       const Matrix6 strained = rigid_motions(misfit, length_) - Matrix6::Identity(); // a turn opens the chain
       for (int d = 0; d < 3; ++d) resist(strained.row(d));
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix6> motions(resistance);
-    if (motions.eigenvalues()[0] > 1e-12 * std::max(1.0, motions.eigenvalues()[5])) return {};
+    const SymmetricEigen motions(resistance);
+    if (motions.values[0] > 1e-12 * std::max(1.0, motions.values[5])) return {};
     Eigen::Index most = 0;
     // A turn about another axis than the origin's displaces too: what turns is called a turn.
-    const Eigen::Matrix<double, 6, 1> free = motions.eigenvectors().col(0);
+    const Eigen::Matrix<double, 6, 1> free = motions.vectors.col(0);
     const bool turns = free.tail<3>().norm() > 1e-6;
     (turns ? free.tail<3>() : free.head<3>()).cwiseAbs().maxCoeff(&most);
     return fmt::format("{} {}", turns ? "turn about" : "move along", "xyz"[most]);

@@ -1,5 +1,6 @@
 /// Observed orders of the methods in the oracle, in long double so that rounding stays out of the way.
 #include "solver/reference/oracle.hpp"
+#include "tests/fixtures/methods.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -13,9 +14,9 @@ namespace {
 
 using Real = long double;
 
-const Method& rk4 = *find_method("rk4");
-const Method& verlet = *find_method("velocity_verlet");
-const Method& smoothed = *find_method("smoothed_verlet");
+using fixture::rk4;
+using fixture::smoothed;
+using fixture::verlet;
 
 std::vector<Real> run(const Problem& problem, const Method& method, const std::vector<double>& start, double dt,
                       long steps) {

@@ -1,6 +1,7 @@
 #include "solver/error.hpp"
 #include "solver/model/energy.hpp"
 #include "solver/reference/oracle.hpp"
+#include "tests/fixtures/methods.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 namespace dss {
 namespace {
 
-const Method& rk4 = *find_method("rk4");
+using fixture::rk4;
 
 TEST(TotalEnergy, is_zero_at_rest) {
   const Problem problem = fixture::make_everything();

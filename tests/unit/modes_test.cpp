@@ -1,6 +1,7 @@
 /// Exact step limits of small problems: against step matrices built from the oracle, for methods shipped and not.
 #include "solver/numerics/stability.hpp"
 #include "tests/fixtures/linear_motion.hpp"
+#include "tests/fixtures/methods.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -10,12 +11,12 @@
 namespace dss {
 namespace {
 
-const Method& rk4 = *find_method("rk4");
-const Method& verlet = *find_method("velocity_verlet");
-const Method& smoothed = *find_method("smoothed_verlet");
+using fixture::rk4;
+using fixture::smoothed;
+using fixture::verlet;
 
 /// Methods that the limits must hold for, whatever is shipped.
-Method midpoint() {
+Method explicit_midpoint() {
   Method method = rk4;
   method.name = "midpoint of the test", method.stages = 2, method.order = 2;
   method.node = {0, 0.5}, method.beta = {0.5, 1}, method.alpha = {{0}, {0, 0}};
@@ -110,19 +111,20 @@ TEST(StepLimit, of_leapfrog_and_symplectic_euler_is_the_line_between_their_limit
 }
 
 TEST(StepLimit, is_zero_for_a_method_that_lets_undamped_modes_grow_and_no_more_with_damping) {
-  EXPECT_EQ(mode_step_limit(midpoint(), 50, 0), 0);
-  EXPECT_NEAR(mode_step_limit(midpoint(), 0, 50) * 50, 2, 1e-9);
+  EXPECT_EQ(mode_step_limit(explicit_midpoint(), 50, 0), 0);
+  EXPECT_NEAR(mode_step_limit(explicit_midpoint(), 0, 50) * 50, 2, 1e-9);
   // |R|^2 = 1 at 8 zeta = (h omega)^3 to first order.
-  EXPECT_NEAR(mode_step_limit(midpoint(), 1, 2e-4) / std::cbrt(8e-4), 1, 0.01);
-  const StabilityLimit undamped = stable_step(fixture::make_block(3, 2, 1, LinkLaw::material, 0), midpoint(), true);
+  EXPECT_NEAR(mode_step_limit(explicit_midpoint(), 1, 2e-4) / std::cbrt(8e-4), 1, 0.01);
+  const StabilityLimit undamped =
+      stable_step(fixture::make_block(3, 2, 1, LinkLaw::material, 0), explicit_midpoint(), true);
   EXPECT_EQ(undamped.dt, 0);
   EXPECT_NE(undamped.how.find("however small the step"), std::string::npos) << undamped.how;
-  EXPECT_GT(stable_step(fixture::make_block(3, 2, 1, LinkLaw::material, 1), midpoint(), true).dt, 0);
+  EXPECT_GT(stable_step(fixture::make_block(3, 2, 1, LinkLaw::material, 1), explicit_midpoint(), true).dt, 0);
 }
 
 TEST(StepLimit, of_a_damped_plate_bounds_such_a_method_away_from_zero_without_its_modes) {
   // Every spring has a damper beside it, so no mode is undamped; the bound knows.
-  EXPECT_GT(stable_step(fixture::make_plate(20), midpoint()).dt, 1e-7);
+  EXPECT_GT(stable_step(fixture::make_plate(20), explicit_midpoint()).dt, 1e-7);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "solver/reference/colouring.hpp"
 #include "solver/reference/implicit_midpoint.hpp"
 #include "solver/reference/oracle.hpp"
+#include "tests/fixtures/methods.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ namespace dss {
 namespace {
 
 const Method& midpoint = *find_method("implicit_midpoint");
-const Method& rk4 = *find_method("rk4");
+using fixture::rest;
+using fixture::rk4;
 
 template <class T>
 std::vector<double> after(const Problem& problem, const Method& method, const std::vector<double>& start, double dt,
@@ -28,10 +30,6 @@ std::vector<double> after(const Problem& problem, const Method& method, const st
   std::vector<double> state(start.size());
   oracle.read(state);
   return state;
-}
-
-std::vector<double> rest(const Problem& problem) {
-  return std::vector<double>(problem.lattice.element_count * field_count, 0);
 }
 
 double distance(const std::vector<double>& a, const std::vector<double>& b, int first_field, int end_field) {

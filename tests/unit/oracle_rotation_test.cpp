@@ -3,6 +3,7 @@
 #include "solver/reference/oracle.hpp"
 #include "solver/reference/rotation_vector.hpp"
 #include "solver/reference/tait_bryan.hpp"
+#include "tests/fixtures/methods.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ using reference::Orientation;
 using Vector = reference::Vector<double>;
 using State = std::vector<double>;
 
-const Method& rk4 = *find_method("rk4");
+using fixture::rk4;
 const Vector some_angles(0.7, -1.1, 2.3), some_spin(1.5, -0.4, 0.9);
 
 State at_rest(const Problem& problem) { return State(problem.lattice.element_count * field_count, 0); }

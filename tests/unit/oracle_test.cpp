@@ -1,6 +1,7 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
+#include "tests/fixtures/methods.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,9 @@
 namespace dss {
 namespace {
 
-const Method& rk4 = *find_method("rk4");
-const Method& verlet = *find_method("velocity_verlet");
+using fixture::rest;
+using fixture::rk4;
+using fixture::verlet;
 
 std::vector<double> rates_of(const Problem& problem, const std::vector<double>& state, double t = 0) {
   Oracle<double> oracle(problem, rk4, problem.dt);
@@ -22,10 +24,6 @@ std::vector<double> rates_of(const Problem& problem, const std::vector<double>& 
   std::vector<double> rates(state.size());
   oracle.derivative(t, rates);
   return rates;
-}
-
-std::vector<double> rest(const Problem& problem) {
-  return std::vector<double>(problem.lattice.element_count * field_count, 0);
 }
 
 template <class T>

@@ -2,6 +2,7 @@
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
 #include "tests/fixtures/linear_motion.hpp"
+#include "tests/fixtures/methods.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -13,8 +14,8 @@
 namespace dss {
 namespace {
 
-const Method& rk4 = *find_method("rk4");
-const Method& verlet = *find_method("velocity_verlet");
+using fixture::rk4;
+using fixture::verlet;
 
 /// Largest eigenvalue over the free degrees of freedom; the rows of clamped ones are zero already.
 double largest_eigenvalue(const Eigen::MatrixXd& matrix) { return matrix.eigenvalues().real().maxCoeff(); }

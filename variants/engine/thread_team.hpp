@@ -17,7 +17,7 @@ void run_team(int threads, Work&& work) {
     return;
   }
   int granted = threads;
-  Barrier barrier(threads);
+  Barrier barrier(threads, threads > omp_get_num_procs());
   omp_set_dynamic(0);
 #pragma omp parallel num_threads(threads)
   {

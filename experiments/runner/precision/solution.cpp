@@ -11,7 +11,7 @@
 namespace dss {
 namespace {
 
-constexpr const char* format = "dssbench-solution-1";
+constexpr const char* file_format = "dssbench-solution-1";
 constexpr double first_part_of_limit = 0.9; ///< the first step over the stability limit
 constexpr double safety = 1.2;              ///< more steps than the order promises to need
 
@@ -75,7 +75,7 @@ Solution find_solution(const Problem& problem, const Method& method, const Solut
 
 void write_solution(const std::string& path, const Solution& solution) {
   const std::size_t width = solution.states.empty() ? 0 : solution.states.front().size();
-  write_state_file(path, format, solution.key,
+  write_state_file(path, file_format, solution.key,
                    fmt::format("{:.17g} {} {:.17g} {:.17g} {}", solution.times.end, solution.times.count,
                                solution.error, solution.dt, width),
                    solution.states);
@@ -83,7 +83,7 @@ void write_solution(const std::string& path, const Solution& solution) {
 
 Solution read_solution(const std::string& path) {
   const std::string what = "is no solution; `dssbench experiment` makes them for studies of precision";
-  const StateFile file = read_state_file(path, format, what);
+  const StateFile file = read_state_file(path, file_format, what);
   Solution solution;
   solution.key = file.key;
   std::istringstream figures(file.figures);

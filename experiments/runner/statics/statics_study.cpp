@@ -12,7 +12,7 @@
 namespace dss {
 namespace {
 
-const std::vector<std::string> columns = {
+const std::vector<std::string> statics_columns = {
     "experiment", "scene",    "set",           "loads",     "elements", "unknowns",
     "solver",     "model",    "variant",       "precision", "wall_s",   "runs",
     "iterations", "matrices", "cg_iterations", "steps",     "residual", "max_displacement_m",
@@ -157,7 +157,7 @@ std::optional<StaticsStudy> load_statics(const std::string& study, const std::st
 }
 
 Table statics_table(const StaticsStudy& study) {
-  Table table{columns, {}};
+  Table table{statics_columns, {}};
   for (const StaticsCase& one : study.cases)
     for (const double loads : {1.0, one.small_loads}) add_rows(study, one, loads, table);
   return table;

@@ -1,0 +1,19 @@
+#include "solver/numerics/symmetric_eigen.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace dss {
+
+using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+
+SymmetricEigen::SymmetricEigen(const Eigen::MatrixXd& matrix) {
+  const Solver solved(matrix);
+  values = solved.eigenvalues(), vectors = solved.eigenvectors();
+}
+SymmetricEigen::SymmetricEigen(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& off_diagonal) {
+  Solver solved;
+  solved.computeFromTridiagonal(diagonal, off_diagonal);
+  values = solved.eigenvalues(), vectors = solved.eigenvectors();
+}
+
+} // namespace dss
