@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 namespace dss::test {
@@ -23,6 +24,12 @@ public:
   Letter take(int from, int to) {
     std::unique_lock lock(mutex_);
     auto& box = boxes_[{from, to}];
+    for (int yields = 0; yields < most_yields && box.empty();
+         ++yields) { // to sleep and to be woken takes most of a test's time
+      lock.unlock();
+      std::this_thread::yield();
+      lock.lock();
+    }
     filled_.wait(lock, [&] { return !box.empty(); });
     Letter letter = std::move(box.front());
     box.pop_front();
@@ -30,6 +37,7 @@ public:
   }
 
 private:
+  static constexpr int most_yields = 100;
   std::mutex mutex_;
   std::condition_variable filled_;
   std::map<std::pair<int, int>, std::deque<Letter>> boxes_;
