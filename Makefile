@@ -9,7 +9,7 @@ ifneq (,$(filter clang tsan,$(PRESET)))
 export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
-.PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
+.PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies verify-cpu verify-devices
 
 all: build
 
@@ -26,19 +26,30 @@ test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium
 test: build
 	@ctest --preset $(PRESET)
 
-STUDIES := chain kernels table1_host table1 table2 table3 error_budget work_precision advise stability failures model_ladder continuum statics balance cluster
+STUDIES := chain kernels table1_host table1 table2 table3 work_precision advise stability model_ladder statics balance cluster
+# These time nothing and take one core each.
+UNTIMED_STUDIES := error_budget failures continuum
+SIDE_BY_SIDE := $(MAKE) --no-print-directory -j 2 --output-sync=target
 
 # The program and its variants alone: no tests to build.
 reproduce: TARGETS := --target dssbench
 reproduce: build
-	@$(BUILD)/dssbench verify --quiet --device none
-	@$(BUILD)/dssbench verify --quiet plate_paper --variant scalar,opencl,opencl-rhs
-	@for study in $(STUDIES); do start=$$(date +%s); $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; echo "== $$study: $$(($$(date +%s) - start)) s"; done
+	@$(SIDE_BY_SIDE) verify-cpu verify-devices
+	@for study in $(STUDIES); do $(MAKE) --no-print-directory study-$$study || exit 1; done
+	@$(SIDE_BY_SIDE) $(addprefix study-,$(UNTIMED_STUDIES))
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 --output $(OUT)/fields/plate_paper.vtu >/dev/null
 	@$(BUILD)/dssbench run l_bracket --output $(OUT)/fields/l_bracket.vtu --frames 6 >/dev/null
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
+
+verify-cpu:
+	@$(BUILD)/dssbench verify --quiet --device none
+verify-devices:
+	@$(BUILD)/dssbench verify --quiet plate_paper --variant scalar,opencl,opencl-rhs
+
+study-%:
+	@start=$$(date +%s); $(BUILD)/dssbench experiment experiments/$*.json --scale $(SCALE) --out $(OUT) && echo "== $*: $$(($$(date +%s) - start)) s"
 
 # All that needs a GPU. Without one the results that are there stay as they are.
 reproduce-gpu: TARGETS := --target dssbench
@@ -50,7 +61,7 @@ reproduce-gpu: build
 gpu-studies:
 	@$(BUILD)/dssbench list devices --measure
 	@$(BUILD)/dssbench verify --quiet --variant opencl,opencl-rhs --device gpu
-	@for study in table3 table3_gpu; do $(BUILD)/dssbench experiment experiments/$$study.json --scale $(SCALE) --out $(OUT) || exit 1; done
+	@for study in table3 table3_gpu; do $(MAKE) --no-print-directory study-$$study || exit 1; done
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 
