@@ -1,5 +1,6 @@
 #include "experiments/microbenchmarks/micro_run.hpp"
 #include "experiments/microbenchmarks/likwid_markers.hpp"
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/context.hpp"
 #include "solver/error.hpp"
 
@@ -25,10 +26,6 @@ struct Prepared {
   std::string check;
   std::string cannot; ///< why it cannot run here, or empty
 };
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// So many passes that a sample lasts as long as it must, by a first run.
 long passes_for(const MicroCase& one, double sample_s) {

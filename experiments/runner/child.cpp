@@ -1,4 +1,5 @@
 #include "experiments/runner/child.hpp"
+#include "experiments/runner/clock.hpp"
 #include "solver/error.hpp"
 
 #include <algorithm>
@@ -16,10 +17,6 @@
 
 namespace dss {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Two pipes and the actions that make them a child's standard output and error.
 class Pipes {

@@ -1,5 +1,6 @@
 #include "experiments/runner/timed_run.hpp"
 #include "experiments/runner/breakdown.hpp"
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/state_access.hpp"
 #include "solver/numerics/signal_rows.hpp"
 
@@ -11,11 +12,7 @@
 namespace dss {
 namespace {
 
-constexpr long batch_steps = 256; ///< signals are made for so many steps at once
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+constexpr long signal_steps = 256; ///< signals are made for so many steps at once
 
 DeviceUse since(const DeviceUse& before, DeviceUse now) {
   now.launches -= before.launches;
@@ -129,7 +126,7 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
   bool is_finite = true;
   while (step < stop && is_finite) {
     const bool is_very_first = !std::exchange(has_begun_, true);
-    const long count = std::min(is_very_first ? 1 : batch_steps, stop - step);
+    const long count = std::min(is_very_first ? 1 : signal_steps, stop - step);
     const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
     if (plan_.plugin->is_distributed)
       executor_->gather(0); // all ranks begin together: what rank 0 did alone is not timed

@@ -3,8 +3,9 @@
 #include <Eigen/Eigenvalues>
 
 namespace dss {
-
+namespace {
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+}
 
 SymmetricEigen::SymmetricEigen(const Eigen::MatrixXd& matrix) {
   const Solver solved(matrix);

@@ -99,14 +99,23 @@ TEST(AdaptiveSteps, of_all_variants_and_threads_are_the_same_to_the_last_bit) {
   });
 }
 
+void expect_reference_agrees(const Case& c, Model model, double tolerance) {
+  SCOPED_TRACE(c.name + ' ' + std::string(name(model)));
+  const State start = restricted(start_of(c.problem, Precision::f64), model);
+  const AdaptiveResult packs = AdaptiveRun{load_variant("auto"), c.problem, Precision::f64, model}.after(start),
+                       plain = AdaptiveRun{load_variant("reference"), c.problem, Precision::f64, model}.after(start);
+  EXPECT_EQ(packs.accepted, plain.accepted);
+  EXPECT_EQ(packs.rejected, plain.rejected);
+  EXPECT_LT(relative_error(restricted(packs.state, model), restricted(plain.state, model)), tolerance);
+}
+
 TEST(AdaptiveSteps, agree_with_those_of_the_reference) {
   for (const Case& c : cases()) {
-    const State start = start_of(c.problem, Precision::f64);
-    const AdaptiveResult packs = AdaptiveRun{load_variant("auto"), c.problem}.after(start),
-                         plain = AdaptiveRun{load_variant("reference"), c.problem}.after(start);
-    EXPECT_EQ(packs.accepted, plain.accepted) << c.name;
-    EXPECT_EQ(packs.rejected, plain.rejected) << c.name;
-    EXPECT_LT(relative_error(packs.state, plain.state), 1e-8) << c.name;
+    expect_reference_agrees(c, Model::spatial, 1e-8);
+#ifndef DSS_FEWER_MODELS
+    // Its rows have the stage of the error's estimate apart. The reference estimates that of quaternions, so that steps differ a little.
+    expect_reference_agrees(c, Model::small, 1e-3);
+#endif
   }
 }
 

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-KERNEL = re.compile(r"RowKernels|StageRow")
+KERNEL = re.compile(r"RowKernels|StageRow|update_apart")
 FMA = re.compile(r"^vf(n?m)(add|sub)\d+p[ds]$")
 PACKED = re.compile(r"^v?(add|sub|mul|div)p[ds]$|^vf.*p[ds]$")
 

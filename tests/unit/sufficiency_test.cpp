@@ -8,7 +8,7 @@
 namespace dss {
 namespace {
 
-void expect_part(const std::string& reason, const std::string& part) {
+void expect_reason(const std::string& reason, const std::string& part) {
   EXPECT_NE(reason.find(part), std::string::npos) << "reason: \"" << reason << "\"";
   EXPECT_EQ(reason.find('\n'), std::string::npos);
 }
@@ -55,13 +55,13 @@ TEST(why_not_axial, names_rows_that_differ_by_a_load_a_clamp_a_start_or_their_le
   started.initial_motions[0].elements = {7};
   started.initial_motions[0].velocity = {0.1, 0, 0};
   for (const Problem& problem : {loaded, clamped, started}) {
-    expect_part(why_not_axial(problem), "need not move alike");
+    expect_reason(why_not_axial(problem), "need not move alike");
     EXPECT_GT(off_axis(problem), 0);
   }
-  expect_part(why_not_axial(load_scene("plate_paper", {{"n", "8"}}).problem), "(0, 0) and (1, 0)");
+  expect_reason(why_not_axial(load_scene("plate_paper", {{"n", "8"}}).problem), "(0, 0) and (1, 0)");
   Problem ragged = fixture::make_sponge(5, 4, 1, LinkLaw::material, 1);
   ragged.frame_acceleration[0].amplitude = 1;
-  expect_part(why_not_axial(ragged), "need not move alike");
+  expect_reason(why_not_axial(ragged), "need not move alike");
 }
 
 TEST(why_not_axial, knows_clamps_of_what_does_not_move_and_loads_that_never_act) {
@@ -77,18 +77,18 @@ TEST(why_not_axial, names_what_leaves_the_axis) {
   const Problem plain = pulled_plate(5, 1);
   Problem problem = plain;
   problem.loads[0].force[1] = 2;
-  expect_part(why_not_axial(problem), "load 0 has force y = 2 N");
+  expect_reason(why_not_axial(problem), "load 0 has force y = 2 N");
   problem = plain;
   problem.loads[0].torque[0] = 3;
-  expect_part(why_not_axial(problem), "load 0 has torque x = 3 N m");
+  expect_reason(why_not_axial(problem), "load 0 has torque x = 3 N m");
   problem = plain;
   problem.frame_acceleration[2].amplitude = 1;
-  expect_part(why_not_axial(problem), "along z");
+  expect_reason(why_not_axial(problem), "along z");
   problem = plain;
   problem.initial_motions.resize(1);
   problem.initial_motions[0].elements = {3};
   problem.initial_motions[0].angular_velocity = {1, 0, 0};
-  expect_part(why_not_axial(problem), "element 3 starts with wx = 1 rad/s");
+  expect_reason(why_not_axial(problem), "element 3 starts with wx = 1 rad/s");
 }
 
 /// A second bar of one row behind each row of the first body, joined along x.
@@ -111,34 +111,34 @@ TEST(why_not_axial, follows_rows_through_links_outside_the_grid) {
   const Problem alike = joined(3, 3), one_open = joined(3, 2);
   EXPECT_EQ(why_not_axial(alike), "");
   EXPECT_EQ(off_axis(alike), 0);
-  expect_part(why_not_axial(one_open), "need not move alike");
+  expect_reason(why_not_axial(one_open), "need not move alike");
   EXPECT_GT(off_axis(one_open), 0);
   Problem other_constants = alike;
   other_constants.extra_links[1].constants.k_normal *= 2;
-  expect_part(why_not_axial(other_constants), "need not move alike");
+  expect_reason(why_not_axial(other_constants), "need not move alike");
   EXPECT_GT(off_axis(other_constants), 0);
   Problem across = alike;
   across.extra_links[1].axis = 1;
-  expect_part(why_not_axial(across), "extra link 1 between elements 7 and 15 is along y");
+  expect_reason(why_not_axial(across), "extra link 1 between elements 7 and 15 is along y");
 }
 
 TEST(why_not_bending, is_empty_for_a_plate_loaded_out_of_its_plane_and_names_what_acts_within) {
   EXPECT_EQ(why_not_bending(load_scene("plate_bending", {{"n", "8"}}).problem), "");
   EXPECT_EQ(why_not_bending(load_scene("cantilever_beam").problem), "");
   Problem problem = fixture::make_plate(8);
-  expect_part(why_not_bending(problem), "load 0 has force x = 500 N");
+  expect_reason(why_not_bending(problem), "load 0 has force x = 500 N");
   problem.loads[0].force = {0, 0, 1};
   problem.loads[0].torque = {1, 1, 0};
   EXPECT_EQ(why_not_bending(problem), "");
   problem.loads[0].torque[2] = 1;
-  expect_part(why_not_bending(problem), "torque z = 1 N m");
+  expect_reason(why_not_bending(problem), "torque z = 1 N m");
   problem.loads.clear();
   problem.frame_acceleration[1].amplitude = 2;
-  expect_part(why_not_bending(problem), "along y");
+  expect_reason(why_not_bending(problem), "along y");
   problem.frame_acceleration[1].amplitude = 0;
   problem.extra_links.push_back({1, 9, 2, LinkLaw::paper, {}});
-  expect_part(why_not_bending(problem), "extra link 0 between elements 1 and 9 is along z");
-  expect_part(why_not_bending(load_scene("block").problem), "more than one element thick in z");
+  expect_reason(why_not_bending(problem), "extra link 0 between elements 1 and 9 is along z");
+  expect_reason(why_not_bending(load_scene("block").problem), "more than one element thick in z");
 }
 
 TEST(why_not_bending, looks_at_the_start_itself_a_plate_turned_as_one_body_leaves_by_the_cosine) {
@@ -150,7 +150,7 @@ TEST(why_not_bending, looks_at_the_start_itself_a_plate_turned_as_one_body_leave
   problem.initial_motions[0].rotation = {0.1, 0, 0};
   EXPECT_EQ(why_not_bending(problem), "");
   problem.initial_motions[0].is_rigid = true;
-  expect_part(why_not_bending(problem), "starts with uy");
+  expect_reason(why_not_bending(problem), "starts with uy");
 }
 
 TEST(why_not_in_translation, is_empty_where_all_elements_fly_alike) {
@@ -163,22 +163,22 @@ TEST(why_not_in_translation, is_empty_where_all_elements_fly_alike) {
   problem.loads = {load};
   EXPECT_EQ(why_not_in_translation(problem), "");
   problem.loads[0].elements.pop_back();
-  expect_part(why_not_in_translation(problem), "load 0 pulls some elements");
+  expect_reason(why_not_in_translation(problem), "load 0 pulls some elements");
   problem.loads = {load};
   problem.initial_motions[0].elements.pop_back();
-  expect_part(why_not_in_translation(problem), "starts otherwise");
+  expect_reason(why_not_in_translation(problem), "starts otherwise");
   problem.clamps = {{2, dof_uz}};
-  expect_part(why_not_in_translation(problem), "element 2 is clamped");
-  expect_part(why_not_in_translation(fixture::make_tumbling_box()), "starts with");
+  expect_reason(why_not_in_translation(problem), "element 2 is clamped");
+  expect_reason(why_not_in_translation(fixture::make_tumbling_box()), "starts with");
 }
 
 TEST(why_not_exact, leaves_small_rotations_to_the_bound) {
   const Problem beam = load_scene("cantilever_beam").problem;
   EXPECT_EQ(why_not(Model::bending, beam), "");
   for (const Model model : {Model::bending, Model::linear, Model::small})
-    expect_part(why_not_exact(model, beam), "small rotations are assumed");
+    expect_reason(why_not_exact(model, beam), "small rotations are assumed");
   EXPECT_EQ(why_not_exact(Model::spatial, beam), "");
-  expect_part(why_not_exact(Model::planar, beam), "load 0 leaves the plane");
+  expect_reason(why_not_exact(Model::planar, beam), "load 0 leaves the plane");
 }
 
 } // namespace

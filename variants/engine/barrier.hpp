@@ -32,7 +32,8 @@ public:
   }
 
 private:
-  static constexpr int most_spins = 2000, most_yields = 100; ///< 20 to 100 us
+  static constexpr int most_spins = 2000; ///< 20 to 100 us
+  static constexpr int most_yields = 100;
   const int threads_;
   const bool is_crowded_;
   alignas(64) std::atomic<int> waiting_{0};

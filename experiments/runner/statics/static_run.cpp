@@ -1,3 +1,4 @@
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/names.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/statics/analysis.hpp"
@@ -17,9 +18,6 @@
 
 namespace dss {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 constexpr double step_share = 0.95; ///< of the largest stable step
 constexpr int most_tries = 4;       ///< each with half the step
