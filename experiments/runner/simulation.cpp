@@ -20,8 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_trial_elements = 1'000'000;
 constexpr double time_limit_s = 1800;
-constexpr int calibrations =
-    48; ///< timings of a part, the best of which counts: its noise would be taken for a network's
+/// Timings of a part, the best of which counts: its noise would be taken for a network's. Each of a large part takes ten times as long and more.
+constexpr int calibrations = 48, calibrations_of_large = 16;
+constexpr std::size_t large_elements = 100'000;
 
 /// Settings with which a ping-pong takes just the latency and bandwidth that the platform states, computation takes what
 /// is injected, and a thousand ranks run in seconds. (Measured: SimGrid 3.32; its defaults are those of one old cluster.)
@@ -76,11 +77,12 @@ NodeSpeed given_speed(const std::string& name, double element_steps_per_s, const
 }
 
 NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposition) {
-  const Decomposition tried =
-      trial_decomposition(what.problem, decomposition, largest_part(what.problem, decomposition).second);
+  const std::size_t largest = largest_part(what.problem, decomposition).second;
+  const Decomposition tried = trial_decomposition(what.problem, decomposition, largest);
   const int index = largest_part(what.problem, tried).first;
   const Setup setup{what.problem, what.method, what.model, what.precision, what.problem.dt};
-  NodeSpeed speed = measure_speed(setup, load_variant("auto"), tried, index, calibrations);
+  NodeSpeed speed = measure_speed(setup, load_variant("auto"), tried, index,
+                                  largest > large_elements ? calibrations_of_large : calibrations);
   speed.name = "ours";
   return speed;
 }
