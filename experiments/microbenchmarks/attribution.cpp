@@ -2,13 +2,13 @@
 #include "experiments/microbenchmarks/executed_mix.hpp"
 #include "experiments/microbenchmarks/micro_case.hpp"
 #include "experiments/microbenchmarks/own_ceilings.hpp"
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/samples.hpp"
 #include "solver/error.hpp"
 #include "variants/loader.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -28,9 +28,9 @@ struct Timed {
 };
 
 double seconds(Timed& timed) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   for (long pass = 0; pass < timed.passes; ++pass) timed.pass();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds_since(start);
 }
 
 /// A row kernel, and the bounds of its time.

@@ -7,7 +7,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -33,7 +32,7 @@ long passes_for(const MicroCase& one, double sample_s) {
   work->pass();
   long passes = 1;
   for (;; passes *= 4) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     for (long pass = 0; pass < passes; ++pass) work->pass();
     const double time = seconds_since(start);
     if (time >= warm_up_s) return std::max(1L, std::lround(std::ceil(sample_s * double(passes) / time)));

@@ -1,8 +1,8 @@
 #include "experiments/microbenchmarks/own_ceilings.hpp"
+#include "experiments/runner/clock.hpp"
 
 #include <algorithm>
 #include <barrier>
-#include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <functional>
@@ -19,9 +19,9 @@ constexpr int timings = 7;
 using Work = std::function<void(long passes)>;
 
 double seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds_since(start);
 }
 
 /// Shortest time of a pass on all threads at once, each with work of its own.

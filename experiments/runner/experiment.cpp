@@ -2,6 +2,7 @@
 #include "experiments/runner/cell_record.hpp"
 #include "experiments/runner/child.hpp"
 #include "experiments/runner/circumstances.hpp"
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/commands.hpp"
 #include "experiments/runner/context.hpp"
 #include "experiments/runner/device_ceilings.hpp"
@@ -46,7 +47,7 @@ class ExperimentRun {
 public:
   ExperimentRun(const Study& study, const std::string& directory, bool resume, const std::string& program)
       : study_(study), paths_(experiment_paths(directory, study.name)), program_(program),
-        file_(paths_.raw, raw_columns(), resume), start_(std::chrono::steady_clock::now()), cores_(usable_cores()),
+        file_(paths_.raw, raw_columns(), resume), start_(Clock::now()), cores_(usable_cores()),
         expected_(study, paths_.oracle_directory, resume, [this](const std::string& line) { progress_.note(line); }) {
     for (const Cell& cell : study.cells)
       cells_.push_back({&cell, {}, false, 0, 0, false, is_partner(cell), cell.is_oversubscribed(cores_)});
@@ -69,7 +70,7 @@ public:
   }
 
 private:
-  double elapsed_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double elapsed_s() const { return seconds_since(start_); }
 
   /// Cells that failed before are tried again.
   void take_over(const std::vector<Record>& present) {
@@ -223,7 +224,7 @@ private:
   bool has_context_ = false;
   nlohmann::json context_; ///< of the last child
   RecordFile file_;
-  std::chrono::steady_clock::time_point start_;
+  Clock::time_point start_;
   int cores_;
   DeviceCeilingsHere ceilings_;
   std::vector<CellState> cells_;

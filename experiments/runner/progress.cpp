@@ -1,4 +1,5 @@
 #include "experiments/runner/progress.hpp"
+#include "experiments/runner/clock.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
 
-Progress::Progress() : is_terminal_(::isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {}
+Progress::Progress() : is_terminal_(::isatty(STDERR_FILENO) == 1), start_(Clock::now()) {}
 
 Progress::~Progress() { clear(); }
 
@@ -26,7 +27,7 @@ void Progress::clear() {
 
 void Progress::show(double done, double total, const std::string& what) {
   const double share = total > 0 ? std::clamp(done / total, 0.0, 1.0) : 1;
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double elapsed = seconds_since(start_);
   const std::string left = share > 0 ? duration_text(elapsed / share * (1 - share)) + " left" : "";
   if (!is_terminal_) {
     fmt::print(stderr, "{:3.0f} %  {}  {}\n", 100 * share, what, left);

@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t most_trial_elements = 1'000'000;
 constexpr double time_limit_s = 1800;
-/// Timings of a part, the best of which counts: its noise would be taken for a network's. Each of a large part takes ten times as long and more.
+/// Timings of a part, the best of which counts: its noise would be taken for a network's. Each of a large part takes ten times as long and more (and measure_speed makes
+/// half of them where both schedules at once would take too much memory).
 constexpr int calibrations = 48, calibrations_of_large = 16;
 constexpr std::size_t large_elements = 100'000;
 

@@ -1,14 +1,13 @@
 /// Observed orders and errors of the compiled variants on shipped scenes: what a user gets, rounding included.
 #include "solver/scene/scene.hpp"
 #include "tests/equivalence/comparison.hpp"
+#include "tests/fixtures/problems.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace dss::test {
 namespace {
-
-State at_rest(const Problem& problem) { return State(problem.lattice.element_count * field_count, 0.0); }
 
 /// The plate of n = 10 after 2 ms, by the oracle in long double with a step 8 times shorter than the paper's:
 /// converged to 1e-12.
@@ -22,14 +21,14 @@ protected:
     static const State state = [] {
       Problem problem = scene().problem;
       problem.dt = 1e-6 / 8;
-      return oracle_after(problem, *find_method("rk4"), at_rest(problem), 16000);
+      return oracle_after(problem, *find_method("rk4"), fixture::rest(problem), 16000);
     }();
     return state;
   }
   static State run(const Plugin& plugin, const char* method, double dt, Precision precision,
                    Model model = Model::spatial) {
     return VariantRun{plugin, scene().problem, *find_method(method), model, precision, 1, dt}.after(
-        at_rest(scene().problem), std::lround(2e-3 / dt));
+        fixture::rest(scene().problem), std::lround(2e-3 / dt));
   }
   /// Largest displacement error relative to the largest displacement.
   static double error(const State& state) {

@@ -57,10 +57,6 @@ private:
   double time_ = 0;
 };
 
-std::vector<double> at_rest(const Problem& problem) {
-  return std::vector<double>(problem.lattice.element_count * field_count, 0);
-}
-
 /// Element 0 held, element 1 pulled along the link by 250 N from t = 0: m x'' + d x' + k x = f.
 Problem pulled_pair(double damping) {
   Problem pair = fixture::make_pair(LinkLaw::paper, damping);
@@ -80,7 +76,7 @@ TEST(AdaptiveSteps, have_an_error_in_proportion_to_the_tolerance) {
     constexpr double end = 0.2;
     std::vector<double> ratios;
     for (const double rtol : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
-      Recorder run(pair, at_rest(pair));
+      Recorder run(pair, fixture::rest(pair));
       AdaptiveSteps steps(run, pair, dopri5_adaptive(), {rtol, 0}, 1e-4, end);
       ASSERT_FALSE(steps.advance_to(end)) << rtol;
       const double error = std::abs(run.state()[field_count + ux] / pulled_by(pair, end) - 1);
@@ -94,7 +90,7 @@ TEST(AdaptiveSteps, have_an_error_in_proportion_to_the_tolerance) {
 
 TEST(AdaptiveSteps, end_where_they_should_to_the_last_bit) {
   const Problem pair = pulled_pair(1);
-  Recorder run(pair, at_rest(pair));
+  Recorder run(pair, fixture::rest(pair));
   AdaptiveSteps steps(run, pair, dopri5_adaptive(), {1e-6, 0}, 1, 0.1); // a first step beyond the end is cut
   for (const double stop : {1e-5, 0.03, 0.1}) ASSERT_FALSE(steps.advance_to(stop));
   EXPECT_EQ(steps.counts().accepted + steps.counts().rejected, long(run.tries.size()));
@@ -112,7 +108,7 @@ TEST(AdaptiveSteps, are_rejected_at_a_jump_of_a_load_and_seldom_elsewhere) {
   jump.times = {0, when, when * (1 + 1e-12), 1};
   jump.values = {1, 1, -1, -1};
   pair.loads[0].signal = jump;
-  Recorder run(pair, at_rest(pair));
+  Recorder run(pair, fixture::rest(pair));
   AdaptiveSteps steps(run, pair, dopri5_adaptive(), {1e-8, 0}, 1e-4, 0.1);
   ASSERT_FALSE(steps.advance_to(0.1));
   int at_jump = 0, elsewhere = 0;
@@ -133,7 +129,7 @@ TEST(AdaptiveSteps, of_an_undamped_chain_settle_at_the_stability_limit) {
   constexpr int elements = 20;
   constexpr double end = 100;
   Problem chain = fixture::make_block(elements, 1, 1, LinkLaw::paper, 0);
-  std::vector<double> start = at_rest(chain);
+  std::vector<double> start = fixture::rest(chain);
   for (std::size_t e = 0; e < elements; ++e)
     start[e * field_count + vx] = 1e-3 * std::cos(M_PI * (double(e) + 0.5) / elements);
   Recorder run(chain, start);
@@ -154,7 +150,7 @@ TEST(AdaptiveSteps, of_an_undamped_chain_settle_at_the_stability_limit) {
 
 TEST(AdaptiveSteps, that_would_have_to_be_too_short_are_refused_with_time_step_and_element) {
   const Problem pair = pulled_pair(1);
-  std::vector<double> start = at_rest(pair);
+  std::vector<double> start = fixture::rest(pair);
   start[field_count + vx] = std::numeric_limits<double>::infinity();
   Recorder run(pair, start);
   AdaptiveSteps steps(run, pair, dopri5_adaptive(), {1e-6, 0}, 1e-3, 0.1);
@@ -162,7 +158,7 @@ TEST(AdaptiveSteps, that_would_have_to_be_too_short_are_refused_with_time_step_a
   ASSERT_TRUE(why);
   EXPECT_NE(why->find("at t = 0 s"), std::string::npos) << *why;
   EXPECT_NE(why->find("not finite, element "), std::string::npos) << *why;
-  Recorder fine(pair, at_rest(pair));
+  Recorder fine(pair, fixture::rest(pair));
   AdaptiveSteps impossible(fine, pair, dopri5_adaptive(), {1e-30, 0}, 1e-3, 0.1);
   const auto below_rounding = impossible.advance_to(0.1);
   ASSERT_TRUE(below_rounding);

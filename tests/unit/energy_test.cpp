@@ -15,7 +15,7 @@ using fixture::rk4;
 
 TEST(TotalEnergy, is_zero_at_rest) {
   const Problem problem = fixture::make_everything();
-  EXPECT_EQ(total_energy(problem, std::vector<double>(problem.lattice.element_count * field_count, 0)), 0);
+  EXPECT_EQ(total_energy(problem, fixture::rest(problem)), 0);
 }
 
 TEST(TotalEnergy, of_a_stretched_moving_pair_is_that_of_a_spring_and_two_masses) {

@@ -22,8 +22,6 @@ using State = std::vector<double>;
 using fixture::rk4;
 const Vector some_angles(0.7, -1.1, 2.3), some_spin(1.5, -0.4, 0.9);
 
-State at_rest(const Problem& problem) { return State(problem.lattice.element_count * field_count, 0); }
-
 /// The end of a run; nothing if it broke down.
 std::optional<State> after(const Problem& problem, const Method& method, Rotation rotation, const State& start,
                            double dt, long steps) {
@@ -122,7 +120,7 @@ TEST_P(EveryRotation, gives_rates_that_are_the_slopes_of_what_is_read) {
   double largest = 0;
   for (const double rate : rates) largest = std::max(largest, std::abs(rate));
   for (std::size_t n = 0; n < end.size(); ++n) end[n] = (end[n] - start[n]) / 1e-7 - rates[n];
-  EXPECT_LE(difference(end, at_rest(problem)), 1e-4 * largest);
+  EXPECT_LE(difference(end, fixture::rest(problem)), 1e-4 * largest);
 }
 
 TEST_P(EveryRotation, has_the_energy_that_total_energy_finds_in_what_is_read_and_keeps_it) {
@@ -166,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(all, EveryRotation, testing::ValuesIn(rotations),
 struct LoneBox {
   Problem problem = fixture::make_block(1, 1, 1, LinkLaw::paper);
   State spinning(const Vector& w) const {
-    State state = at_rest(problem);
+    State state = fixture::rest(problem);
     for (int axis = 0; axis < 3; ++axis) state[std::size_t(wx + axis)] = w[axis];
     return state;
   }
@@ -242,7 +240,7 @@ TEST(Linearised, is_linear_without_gyroscopic_terms) {
   block.bodies[0].inertia.fill(2e-3);
   const auto end_of = [&](double factor) {
     Oracle<double> oracle(block, rk4, 1e-4, Rotation::linearised);
-    State state = at_rest(block);
+    State state = fixture::rest(block);
     for (std::size_t e = 0; e < block.lattice.element_count; ++e) {
       state[e * field_count + ux] = 1e-3 * factor * std::sin(1.0 + double(e));
       state[e * field_count + wy] = 3 * factor * std::cos(2.0 + double(e));

@@ -4,11 +4,11 @@
 #include "experiments/runner/advise/first_steps.hpp"
 #include "experiments/runner/advise/step_costs.hpp"
 #include "experiments/runner/advise/step_search.hpp"
+#include "experiments/runner/clock.hpp"
 #include "solver/error.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -43,8 +43,7 @@ public:
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-  double spent_s() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+  double spent_s() const { return seconds_since(began_); }
   double left_s() const { return budget_s_ - spent_s(); }
   void note(const std::string& what) const {
     if (note_) note_(what);

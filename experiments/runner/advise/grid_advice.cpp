@@ -1,6 +1,7 @@
 #include "experiments/runner/advise/grid_advice.hpp"
 #include "experiments/runner/advise/first_steps.hpp"
 #include "experiments/runner/advise/step_costs.hpp"
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/precision/run_states.hpp"
 #include "solver/error.hpp"
 #include "solver/model/energy.hpp"
@@ -8,7 +9,6 @@
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -42,7 +42,6 @@ public:
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
   double allowed() const { return grid_share * request_.tolerance; }
 
   long checked_value() const {
@@ -114,7 +113,7 @@ private:
   long wanted_from(const std::array<long, 3>& values) {
     std::array<History, 3> histories;
     for (std::size_t n = 0; n < 3; ++n) {
-      const double spent_s = std::chrono::duration<double>(Clock::now() - began_).count();
+      const double spent_s = seconds_since(began_);
       if (spent_s > request_.budget_s.value_or(least_budget_s) / 2) {
         advice_.failure = fmt::format("--vary {}: grids so fine need more than half of --budget", parameter_);
         return 0;

@@ -12,7 +12,7 @@ namespace dss {
 namespace {
 
 template <class Named>
-std::vector<std::string> each_name(const Named& all) {
+std::vector<std::string> names_in(const Named& all) {
   std::vector<std::string> names;
   for (const auto& one : all) names.emplace_back(one.name);
   return names;
@@ -39,7 +39,7 @@ std::vector<std::string> chosen_list(const JsonPlace& object, const char* key, c
   for (const JsonPlace& item : object[key].items()) {
     const bool is_group = std::string(key) == "methods" && item.value().is_string();
     if (is_group && item.text() == "explicit")
-      for (const std::string& name : each_name(methods())) list.push_back(name);
+      for (const std::string& name : names_in(methods())) list.push_back(name);
     else if (is_group && item.text() == "all")
       list.insert(list.end(), known.begin(), known.end());
     else
@@ -65,7 +65,7 @@ AtlasReference read_reference(const JsonPlace& place, const std::string& path) {
     if (place.has("base")) reference.base = std::size_t(place["base"].count(0));
     return reference;
   }
-  const std::string name = chosen(place["closed_form"], each_name(closed_forms()));
+  const std::string name = chosen(place["closed_form"], names_in(closed_forms()));
   reference.form = &*std::ranges::find(closed_forms(), name, &ClosedForm::name);
   for (const auto& item : place.value().items())
     if (item.key() != "closed_form" &&
@@ -134,7 +134,7 @@ void read_run(const JsonPlace& place, FailureCase& atlas) {
     if (!place["forced"].value().is_boolean()) place["forced"].fail("is not true or false");
     atlas.is_forced = place["forced"].value().get<bool>();
   }
-  atlas.methods = chosen_list(place, "methods", method_names(), each_name(methods()));
+  atlas.methods = chosen_list(place, "methods", method_names(), names_in(methods()));
   atlas.precisions = chosen_list(place, "precisions", precision_list(), {"f64"});
   atlas.rotations = chosen_list(place, "rotations", rotation_list(), {"quaternion"});
   if (place.has("model")) atlas.model = chosen(place["model"], model_names());

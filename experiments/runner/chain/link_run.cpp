@@ -1,4 +1,5 @@
 #include "experiments/runner/chain/link_run.hpp"
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/context.hpp"
 #include "solver/error.hpp"
 #include "solver/model/fields.hpp"
@@ -6,7 +7,6 @@
 #include "variants/loader.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -26,9 +26,9 @@ void LinkRun::advance(long steps) {
   }
   const std::vector<double> signals = signal_rows(scene_.problem, method_, dt_, done_, steps);
   const UsageMeter meter;
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const Outcome outcome = executor_->advance(steps, signals);
-  wall_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  wall_s_ = seconds_since(start);
   usage_ = meter.read();
   if (!outcome.is_finite)
     throw InputError(

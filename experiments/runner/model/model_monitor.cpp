@@ -1,8 +1,8 @@
 #include "experiments/runner/model/model_monitor.hpp"
+#include "experiments/runner/clock.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace dss {
@@ -14,8 +14,6 @@ constexpr long looks_of_a_short = 12; ///< and at least so many
 constexpr long most_looks = 1024;     ///< near the bound
 
 constexpr double looks_of_a_period = 8;
-
-using MonitorClock = std::chrono::steady_clock;
 
 /// Calls visit(signal) for all that moves the problem.
 template <class Visit>
@@ -92,7 +90,7 @@ double ModelMonitor::estimate_of(const ModelErrorBound& bound, double ahead) con
 }
 
 bool ModelMonitor::look(Executor& executor, long step) {
-  const auto start = MonitorClock::now();
+  const auto start = Clock::now();
   looked_at_.resize(good_state_.size());
   executor.read(0, looked_at_);
   bound_->look(looked_at_, double(step) * dt_);
@@ -113,7 +111,7 @@ bool ModelMonitor::look(Executor& executor, long step) {
     report_.estimate = std::max(report_.estimate, estimate_);
     report_.largest_rotation = std::max(report_.largest_rotation, bound_->largest_rotation());
   }
-  report_.look_s += std::chrono::duration<double>(MonitorClock::now() - start).count();
+  report_.look_s += seconds_since(start);
   return is_good;
 }
 

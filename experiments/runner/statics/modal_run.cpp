@@ -1,9 +1,9 @@
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/statics/analysis.hpp"
 #include "experiments/runner/statics/analysis_model.hpp"
 #include "solver/error.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 
 namespace dss {
@@ -22,7 +22,7 @@ AnalysisResult solve_modal(const RunRequest& run, const AnalysisRequest& request
     throw InputError(fmt::format("--prestressed: loads do not change the stiffness of the model {}; give --model "
                                  "spatial, or leave it out",
                                  name(model)));
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   StaticSystem system(scene.problem, rotation_of(model), dofs_of(model));
   const StaticSystem::State state = [&] {
     if (!request.is_prestressed) return system.rest();
@@ -32,7 +32,7 @@ AnalysisResult solve_modal(const RunRequest& run, const AnalysisRequest& request
   }();
   AnalysisResult result;
   result.modal = find_modes(system, request.modes, state, !request.is_prestressed);
-  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.wall_s = seconds_since(start);
   result.analysis = "modal";
   result.scene = scene.name;
   result.model = name(model);

@@ -1,5 +1,6 @@
 #include "experiments/runner/statics/settle.hpp"
 #include "experiments/runner/breakdown.hpp"
+#include "experiments/runner/clock.hpp"
 #include "experiments/runner/run_plan.hpp"
 #include "experiments/runner/state_access.hpp"
 #include "solver/error.hpp"
@@ -8,7 +9,6 @@
 #include "solver/numerics/stability.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -54,7 +54,7 @@ AnalysisResult settle(const RunRequest& run, const AnalysisRequest& request) {
   Problem problem = held_still(plan.scene.problem, request.loads);
   problem.initial_motions.clear();
   AnalysisResult result;
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const std::vector<NaturalMode> modes = find_modes(system, 1, system.rest(), true).modes;
   if (modes.empty())
     throw InputError(fmt::format("{}: has no mode with a frequency, by which it could be damped", plan.scene.name));
@@ -77,7 +77,7 @@ AnalysisResult settle(const RunRequest& run, const AnalysisRequest& request) {
     is_settled = result.residual <= request.tolerance || is_held_by_rounding;
     last = result.residual;
   }
-  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.wall_s = seconds_since(start);
   result.analysis = "static";
   result.solver = "settled";
   result.scene = plan.scene.name;
