@@ -115,7 +115,7 @@ private:
              (of.method->name == "rk4" || of.method->name == "dopri5");
     };
     std::ranges::stable_sort(all, {}, &Candidate::time_s);
-    std::ranges::stable_partition(all, is_first);
+    std::stable_partition(all.begin(), all.end(), is_first);
     return all;
   }
 

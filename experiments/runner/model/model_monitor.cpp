@@ -33,7 +33,7 @@ std::vector<long> breaks_of(const Problem& problem, double dt) {
     if (signal.kind == Signal::Kind::table) std::ranges::for_each(signal.times, add);
   });
   std::ranges::sort(steps);
-  steps.erase(std::ranges::unique(steps).begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
   return steps;
 }
 
