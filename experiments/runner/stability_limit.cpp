@@ -65,7 +65,8 @@ public:
     no_signals_.assign((std::size_t(steps_ / looks) * std::size_t(method.stages) + 1) * signal_width_, 0.0);
   }
 
-  LimitMeasurement around(double guess) {
+  /// @param is_near  the limit is expected at the guess itself: looks go outwards from there before intervals are halved
+  LimitMeasurement around(double guess, bool is_near) {
     double bounded = 0.8 * guess, growing = 1.25 * guess;
     for (int n = 0; !is_bounded(bounded); ++n) {
       if (n == most_tries) return {0, bounded, steps_, runs_};
@@ -76,15 +77,21 @@ public:
       bounded = std::exchange(growing, 1.5 * growing);
     }
     start_from_what_grew();
-    while (growing > (1 + limit_resolution) * bounded) {
-      const double middle = (bounded + growing) / 2;
-      (is_bounded(middle) ? bounded : growing) = middle;
+    const auto narrow = [&](double dt) {
+      if (bounded < dt && dt < growing) (is_bounded(dt) ? bounded : growing) = dt;
+    };
+    for (double distance = nearest; is_near && distance < 0.2; distance *= further) {
+      narrow((1 - distance) * guess);
+      narrow((1 + distance) * guess);
     }
+    while (growing > (1 + limit_resolution) * bounded) narrow((bounded + growing) / 2);
     return {bounded, growing, steps_, runs_};
   }
 
 private:
   static constexpr int most_tries = 3;
+  static constexpr double nearest = 0.4 * limit_resolution; ///< of looks from the guess: one to each side can be enough
+  static constexpr double further = 2.5;                    ///< is each pair of looks than the one before
 
   /// Of a run: both halves together grow by e^16 at seen_above. A prediction of no growth there is for the run to judge.
   long steps_to_see(const StabilityLimit& predicted, double element_steps) const {
@@ -172,7 +179,8 @@ void judge(LimitComparison& row) {
 
 LimitMeasurement measure_limit(const Plugin& plugin, const Problem& problem, const Method& method,
                                const StabilityLimit& predicted, double element_steps) {
-  return LimitSearch(plugin, problem, method, predicted, element_steps).around(guess_of(predicted));
+  const bool is_near = predicted.is_exact && predicted.dt > 0;
+  return LimitSearch(plugin, problem, method, predicted, element_steps).around(guess_of(predicted), is_near);
 }
 
 LimitComparison compare_limit(const Plugin& plugin, const Problem& problem, const Method& method,

@@ -7,7 +7,7 @@
 
 namespace dss {
 
-/// Found by bisection on blow-up.
+/// Found by blow-up: outwards from the prediction if it is exact, then by bisection.
 struct LimitMeasurement {
   double dt = 0;         ///< largest step found bounded [s]; 0 if every step tried let the run grow
   double growing_dt = 0; ///< smallest step found to grow, less than limit_resolution above [s]; infinite if none did
@@ -15,7 +15,7 @@ struct LimitMeasurement {
   int runs = 0;
 };
 
-/// Bisection ends when the two steps are this near.
+/// The search ends when the two steps are this near, relative.
 constexpr double limit_resolution = 1e-3;
 /// Budget of a run: a second or so.
 constexpr double usual_element_steps = 2e7;
