@@ -26,8 +26,9 @@ std::span<const KernelCase<Real>> kernel_cases() {
   using V = SmallPhysics<Real>;
   using L = LinearPhysics<Real>;
   using B = BendingPhysics<Real>;
+  using M = MembranePhysics<Real>;
   constexpr Model spatial = Model::spatial, small = Model::small, linear = Model::linear, bending = Model::bending,
-                  planar = Model::planar;
+                  membrane = Model::membrane, planar = Model::planar;
   static constexpr KernelCase<Real> cases[] = {
       {"paper_link_x", spatial, 26, 9, 118, S::case_paper_link_x},
       {"paper_link_y", spatial, 26, 9, 118, S::case_paper_link_y},
@@ -80,6 +81,11 @@ std::span<const KernelCase<Real>> kernel_cases() {
       {"material_link_x", bending, 12, 5, 35, B::case_material_link_x},
       {"material_link_y", bending, 12, 5, 35, B::case_material_link_y},
       {"rotation_cayley", bending, 6, 2, 6, B::case_rotation_cayley},
+      {"paper_link_x", membrane, 12, 4, 29, M::case_paper_link_x},
+      {"paper_link_y", membrane, 12, 4, 29, M::case_paper_link_y},
+      {"material_link_x", membrane, 12, 4, 32, M::case_material_link_x},
+      {"material_link_y", membrane, 12, 4, 32, M::case_material_link_y},
+      {"rotation_cayley", membrane, 6, 1, 3, M::case_rotation_cayley},
   };
   return cases;
 }

@@ -97,6 +97,24 @@ struct BendingPhysics {
 };
 
 template <class Real>
+struct MembranePhysics {
+  using real = Real;
+  static constexpr int fields = 6, axes = 2;
+  static constexpr bool is_common = true;
+#define AXES 2
+#define PLANAR
+#define LINEAR
+  // clang-format off
+#include "kernels/algebra/membrane.h"
+#include "kernels/laws.h"
+#include "kernels/cases.h"
+  // clang-format on
+#undef LINEAR
+#undef PLANAR
+#undef AXES
+};
+
+template <class Real>
 struct PlanarPhysics {
   using real = Real;
   static constexpr int fields = 7, axes = 2;
@@ -141,6 +159,8 @@ auto with_physics(Model model, Action&& action) {
     return action.template operator()<LinearPhysics<Real>>();
   case Model::bending:
     return action.template operator()<BendingPhysics<Real>>();
+  case Model::membrane:
+    return action.template operator()<MembranePhysics<Real>>();
   case Model::planar:
     return action.template operator()<PlanarPhysics<Real>>();
   case Model::axial:

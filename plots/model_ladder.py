@@ -18,8 +18,8 @@ from matplotlib.ticker import NullFormatter  # noqa: E402
 from picture_command import draw_from_command_line  # noqa: E402
 from report.pictures import measured_by, save  # noqa: E402
 
-# Okabe and Ito's colours, from the least work to the most.
-COLOURS = {"axial": "#56B4E9", "bending": "#E69F00", "planar": "#009E73", "linear": "#CC79A7", "small": "#D55E00", "spatial": "#0072B2"}
+# Okabe and Ito's colours, and grey, from the least work to the most.
+COLOURS = {"axial": "#56B4E9", "bending": "#E69F00", "membrane": "#999999", "planar": "#009E73", "linear": "#CC79A7", "small": "#D55E00", "spatial": "#0072B2"}
 LEAST, MOST = 1e-17, 1e3  # errors beyond are drawn at the edge
 COLUMNS = 5
 

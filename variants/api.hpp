@@ -139,7 +139,7 @@ struct Plugin {
 };
 
 constexpr int plugin_abi =
-    9; ///< to be raised with every change of Plugin, Executor or what they are handed (Method, Problem)
+    10; ///< to be raised with every change of Plugin, Executor or what they are handed (Method, Problem, Model)
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

@@ -2,6 +2,7 @@
 #include "experiments/runner/scaling.hpp"
 #include "kernels/stage_row/cost.hpp"
 #include "solver/model/model.hpp"
+#include "variants/engine/layout.hpp"
 #include "variants/member.hpp"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 
 namespace dss {
 namespace {
-
-constexpr int spatial_fields = 13, planar_fields = 7;
 
 std::string members_with_shares(const nlohmann::json& members) {
   std::string text;
@@ -109,7 +108,7 @@ double of_sum(const Study& study, const StudySamples& samples, const Cell& cell,
 
 double state_bytes(const std::string& model, const std::string& precision) {
   // f32c keeps two numbers of four bytes a field
-  return (model == "planar" ? planar_fields : spatial_fields) * (precision == "f32" ? 4.0 : 8.0);
+  return double(model_layout(*find_model(model)).fields.size()) * (precision == "f32" ? 4.0 : 8.0);
 }
 
 void put_device_record(const nlohmann::json& run, Record& row) {

@@ -31,6 +31,7 @@ Need rotations_of(const ModelChoice& choice) {
   case Model::spatial:
     return {"rotations", true, "finite, about any axis: quaternions"};
   case Model::bending:
+  case Model::membrane:
   case Model::linear:
   case Model::small:
     break;

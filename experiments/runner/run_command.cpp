@@ -170,7 +170,8 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   command
       ->add_option("--model", request.model,
                    "auto (default, unless the scene names one): the smallest that suffices, as `dssbench explain` "
-                   "says; or spatial, small, linear, bending, planar, axial")
+                   "says; or " +
+                       fmt::format("{}", fmt::join(model_names(), ", ")))
       ->type_name("MODEL");
   command->add_option(
       "--model-tolerance", request.model_tolerance,

@@ -17,6 +17,8 @@ constexpr RowFlops row_flops(Model model) {
     return {11, 31};
   case Model::bending:
     return {59, 119};
+  case Model::membrane:
+    return {60, 120};
   case Model::planar:
     return {79, 148};
   case Model::linear:

@@ -1,7 +1,10 @@
 #pragma once
 /// Which degrees of freedom are integrated, and in which precision.
+#include "solver/model/fields.hpp"
+
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,11 +13,11 @@
 namespace dss {
 
 /// spatial: six degrees of freedom, finite rotations. small: six, rotations as vectors, A = I + [theta]x. linear: small displacements too, so that
-/// links have constant matrices. bending: deflection uz and rotations about x and y, linear. planar: ux, uy and the rotation about z, finite.
-/// axial: ux alone.
-enum class Model { spatial, small, linear, bending, planar, axial };
+/// links have constant matrices. bending: deflection uz and rotations about x and y, linear. membrane: ux, uy and the rotation about z, linear. planar: the
+/// same, finite. axial: ux alone.
+enum class Model { spatial, small, linear, bending, membrane, planar, axial };
 /// From the least work a step to the most.
-inline constexpr std::array models{Model::axial,  Model::bending, Model::planar,
+inline constexpr std::array models{Model::axial,  Model::bending, Model::membrane, Model::planar,
                                    Model::linear, Model::small,   Model::spatial};
 /// f32c: single precision whose state is summed with its low part kept, so that small steps do not lose what they add.
 enum class Precision { f64, f32, f32c };
@@ -23,17 +26,37 @@ inline constexpr std::array precisions{Precision::f64, Precision::f32, Precision
 constexpr bool is_single(Precision precision) { return precision != Precision::f64; }
 
 constexpr std::string_view name(Model model) {
-  constexpr std::array<std::string_view, 6> names{"spatial", "small", "linear", "bending", "planar", "axial"};
+  constexpr std::array<std::string_view, 7> names{"spatial",  "small",  "linear", "bending",
+                                                  "membrane", "planar", "axial"};
   return names[std::size_t(model)];
 }
 /// Rotations are vectors, and orientations outside a model's own state the quaternions of these.
 constexpr bool has_rotation_vectors(Model model) {
-  return model == Model::small || model == Model::linear || model == Model::bending;
+  return model == Model::small || model == Model::linear || model == Model::bending || model == Model::membrane;
 }
 /// Equations of motion are linear but for loads in time.
 constexpr bool is_linear(Model model) {
-  return model == Model::linear || model == Model::bending || model == Model::axial;
+  return model == Model::linear || model == Model::bending || model == Model::membrane || model == Model::axial;
 }
+/// The degrees of freedom that a model has, as bits of Dof.
+constexpr std::uint8_t degrees_of(Model model) {
+  switch (model) {
+  case Model::axial:
+    return dof_ux;
+  case Model::bending:
+    return dof_uz | dof_rx | dof_ry;
+  case Model::membrane:
+  case Model::planar:
+    return dof_ux | dof_uy | dof_rz;
+  case Model::linear:
+  case Model::small:
+  case Model::spatial:
+    break;
+  }
+  return dof_all;
+}
+/// All motion is in a plane z = const, and all rotation about its normal.
+constexpr bool is_of_plane(Model model) { return model == Model::planar || model == Model::membrane; }
 constexpr std::string_view name(Precision precision) {
   return precision == Precision::f64 ? "f64" : precision == Precision::f32 ? "f32" : "f32c";
 }

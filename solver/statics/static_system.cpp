@@ -24,19 +24,6 @@ std::vector<double> signals_at_end(const Problem& problem, double factor) {
 
 } // namespace
 
-std::uint8_t dofs_of(Model model) {
-  switch (model) {
-  case Model::planar:
-    return dof_ux | dof_uy | dof_rz;
-  case Model::bending:
-    return dof_uz | dof_rx | dof_ry;
-  case Model::axial:
-    return dof_ux;
-  default:
-    return dof_all;
-  }
-}
-
 FreeDofs free_dofs(const Problem& problem, std::uint8_t dofs) {
   const std::size_t elements = problem.lattice.element_count;
   std::vector<std::uint8_t> held(elements, std::uint8_t(dof_all & ~dofs));

@@ -18,9 +18,6 @@ namespace dss {
 
 using SparseMatrix = Eigen::SparseMatrix<double>; ///< of a symmetric one the lower half alone
 
-/// Degrees of freedom that a model has, as bits of Dof.
-std::uint8_t dofs_of(Model model);
-
 /// The free degrees of freedom of a problem.
 struct FreeDofs {
   std::vector<Eigen::Index> index; ///< of each degree of freedom (6 an element), -1 where it does not move

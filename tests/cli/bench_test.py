@@ -101,7 +101,8 @@ class Chain(ProgramTest):
         result = dssbench("experiment", "chain", "--scale", "smoke", "--out", self.path("out"))
         with open(self.path("out/tables/chain.csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual([row["integrator"] for row in rows], 7 * ["rk4"] + ["velocity_verlet", "smoothed_verlet"], result.stderr)
+        self.assertEqual([row["integrator"] for row in rows], 7 * ["rk4"] + ["velocity_verlet"] + 2 * ["smoothed_verlet"], result.stderr)
+        self.assertEqual([row["model"] for row in rows], 4 * ["spatial"] + 5 * ["planar"] + ["membrane"])
         for row in rows:
             self.assertEqual(row["status"], "ok", row)
             self.assertLess(float(row["error_max"]), 1e-3)

@@ -21,7 +21,7 @@ class Models(ProgramTest):
         choice = record["model_choice"]
         self.assertEqual((record["model"], choice["asked"], choice["chosen"]), ("planar", "auto", "planar"))
         self.assertIn("proven", choice["why"])
-        self.assertEqual(sorted(choice["smaller"]), ["axial", "bending"])
+        self.assertEqual(sorted(choice["smaller"]), ["axial", "bending", "membrane"])
         self.assertIn("load 0 has force x", choice["smaller"]["bending"])
         self.assertEqual((choice["is_bounded"], choice["monitor"], choice["promotions"]), (False, None, []))
 
@@ -77,6 +77,14 @@ class Models(ProgramTest):
         self.assertEqual((explained["model"], explained["is_proven"], needed), ("planar", True, ["ux", "uy", "rz"]))
         self.assertTrue(all(need["why"] for part in ("degrees_of_freedom", "terms", "rotations") for need in explained[part].values()))
 
+    def test_explain_knows_that_nothing_turns_in_free_flight(self):
+        flight = ("explain", ROOT / "experiments" / "failures" / "free_flight.json")
+        for model, degrees, *change in (("membrane", ["ux", "uy"], "--set", "az=0", "--set", "vz=0", "--set", "gravity.1=-9.81"), ("bending", ["uz"], "--set", "ax=0", "--set", "vx=0")):
+            explained = json.loads(dssbench(*flight, *change, "--json", "-").stdout)
+            needed = [name for name, need in explained["degrees_of_freedom"].items() if need["is_needed"]]
+            self.assertEqual((explained["model"], explained["is_proven"], needed), (model, True, degrees))
+            self.assertFalse(explained["terms"]["damping of links"]["is_needed"])
+
     def test_explain_agrees_with_what_run_chooses(self):
         for scene in ("chain", "block", "two_bodies", "tumbling_box", LADDER / "strip.json", LADDER / "eccentric.json"):
             explained = json.loads(dssbench("explain", scene, "--json", "-").stdout)
@@ -97,7 +105,7 @@ class Models(ProgramTest):
     def test_the_ladder_holds_every_model_against_the_oracle(self):
         strip = {"scene": str(LADDER / "strip.json"), "set": {"n": 5, "width": 2}, "steps": 300}
         exit_code, rows = self.ladder("ladder", dict(strip, auto="bending", fails=["axial", "planar"]))
-        self.assertEqual((exit_code, [row["status"] for row in rows]), (0, ["ok"] * 7))
+        self.assertEqual((exit_code, [row["status"] for row in rows]), (0, ["ok"] * 8))
         verdicts = {row["model"]: (row["verdict"], row["provable"]) for row in rows}
         self.assertEqual(verdicts["planar"], ("insufficient", "no"))
         self.assertEqual(verdicts["bending"], ("sufficient", "bounded"))
@@ -108,6 +116,8 @@ class Models(ProgramTest):
         strip = {"scene": str(LADDER / "strip.json"), "set": {"n": 4, "width": 1}, "steps": 50}
         exit_code, rows = self.ladder("stronger", dict(strip, auto="bending", fails=["linear"]))
         self.assertEqual((exit_code, [row["model"] for row in rows if row["status"] == "failed"]), (1, ["linear"]))
+        exit_code, rows = self.ladder("worse", dict(strip, auto="bending", suffices=["axial"]))
+        self.assertEqual((exit_code, [row["model"] for row in rows if row["status"] == "failed"]), (1, ["axial"]))
         exit_code, rows = self.ladder("weaker", dict(strip, auto="spatial"))
         self.assertEqual((exit_code, rows[-1]["status"]), (1, "failed"))
         self.assertIn("auto ends with bending, expected spatial", rows[-1]["reason"])

@@ -29,7 +29,7 @@ std::string program_source(const CompiledKernel& kernel) {
   source +=
       fmt::format("#define REAL {0}8\n#define SPLAT(a) (({0}8)({0})(a))\n#define FMA(a, b, c) fma(a, b, c)\n", scalar);
   source += fmt::format("#define AXES {}\n", model_layout(kernel.model).axes);
-  if (kernel.model == Model::planar) source += "#define PLANAR\n";
+  if (is_of_plane(kernel.model)) source += "#define PLANAR\n";
   if (is_linear(kernel.model)) source += "#define LINEAR\n";
   source += shared_header(fmt::format("kernels/algebra/{}.h", name(kernel.model))) + shared_header("kernels/laws.h");
   if (kernel.model == Model::spatial) source += "#define STRESS\n" + shared_header("kernels/stress/stress.h");

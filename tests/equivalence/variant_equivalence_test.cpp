@@ -29,19 +29,22 @@ struct Case {
   bool is_flat = false; ///< one element thick, all extra links in the plane
   double gap = 0.02;    ///< of random states, in the scale of the problem's elements [m]
   bool is_bar = false;  ///< linked along x alone; for the axial model
+  bool is_bent = false; ///< flat, and what acts leaves the plane, which finite rotations would feel within it
 
   /// Where a model's equations are those of a larger one, without what it lacks: linear ones fall apart into those of a bar, of bending and
   /// of the plane.
   bool has(Model model) const {
     if (!is_built(model)) return false;
     if (is_bar || model == Model::axial) return is_bar && model == Model::axial;
-    return is_flat || (model != Model::planar && model != Model::bending);
+    return is_flat || degrees_of(model) == dof_all || (is_bent && model == Model::bending);
   }
 };
 
 std::vector<Case> cases() {
   std::vector<Case> all{{"plate", fixture::make_plate(12), true, 1e-3},
                         {"everything", fixture::make_everything()},
+                        {"flat_everything", fixture::make_flat_everything(), true},
+                        {"across_the_plane", fixture::make_flat_everything(true), false, 0.02, false, true},
                         {"pair", fixture::make_pair(LinkLaw::paper)},
                         {"damped_joint", fixture::make_damped_joint()},
                         {"sponge", fixture::make_sponge(21, 6, 5, LinkLaw::paper, 1)},

@@ -112,6 +112,7 @@ TEST_F(DeviceTables, SharesOfTheBandwidthCountTheStateOnceInAndOnceOut) {
   // 100 elements x 100 steps in a median of 6.25 s, 2 x 104 bytes each, of 416 kB/s
   EXPECT_DOUBLE_EQ(number_in(derived(1), "bandwidth_share"), 100 * 100 / 6.25 * 208 / 416000);
   EXPECT_DOUBLE_EQ(state_bytes("spatial", "f32"), 52);
+  EXPECT_DOUBLE_EQ(state_bytes("membrane", "f64"), 48);
   EXPECT_EQ(derived(0)["bandwidth_share"], "");
 }
 

@@ -24,7 +24,7 @@ TEST(ModelChoice, IsTheSmallestModelThatIsProven) {
   const ModelChoice plate = choose_model(load_scene("plate_paper", {{"n", "8"}}).problem, 1e-9);
   EXPECT_EQ(plate.chosen, Model::planar);
   EXPECT_FALSE(plate.is_bounded);
-  ASSERT_EQ(plate.smaller.size(), 2u); // axial and bending, each with its reason
+  ASSERT_EQ(plate.smaller.size(), 3u); // axial, bending and membrane, each with its reason
   for (const auto& [model, reason] : plate.smaller) EXPECT_NE(reason, "") << name(model);
   EXPECT_EQ(choice_for("block", 1e-9).chosen, Model::spatial);
   EXPECT_EQ(choice_for(DSS_SOURCE_DIR "/experiments/failures/free_flight.json", 1e-9).chosen, Model::linear);

@@ -77,6 +77,17 @@ TEST(ModelErrorBound, HoldsOverManyCyclesWithoutDamping) {
   expect_bounded(beam, Model::linear, 20000, 100);
 }
 
+TEST(ModelErrorBound, IsAboveTheErrorInThePlane) {
+  for (const char* shear : {"1e-2", "1", "100"})
+    expect_bounded(load_scene("plate_paper", {{"n", "8"}, {"loads.0.force.0", shear}}).problem, Model::membrane, 500,
+                   1e4);
+  for (const char* side : {"1e-3", "1"})
+    expect_bounded(load_scene("cantilever_beam",
+                              {{"n", "8"}, {"loads.0.force.1", side}, {"loads.0.force.2", "0"}, {"run.dt", "1e-4"}})
+                       .problem,
+                   Model::membrane, 2000, 1e4);
+}
+
 constexpr double any = 1e300; ///< where the bound is known to be far above
 
 TEST(ModelErrorBound, IsAboveTheErrorWherePlanesCouple) {

@@ -102,7 +102,7 @@ TEST(Modal, rigid_motions_of_a_free_body_are_counted) {
 
 TEST(Modal, too_many_mechanisms_are_refused) {
   const Problem plate = fixture::make_plate(10); // links without rotational springs: free out of the plane
-  const StaticSystem spatial(plate), planar(plate, Rotation::quaternion, dofs_of(Model::planar));
+  const StaticSystem spatial(plate), planar(plate, Rotation::quaternion, degrees_of(Model::planar));
   EXPECT_THROW(find_modes(spatial, 3, spatial.rest(), true), InputError);
   EXPECT_EQ(find_modes(planar, 3, planar.rest(), true).free_motions, 0);
 }

@@ -172,11 +172,31 @@ TEST(why_not_in_translation, is_empty_where_all_elements_fly_alike) {
   expect_reason(why_not_in_translation(fixture::make_tumbling_box()), "starts with");
 }
 
+TEST(smallest_exact, is_of_small_rotations_where_nothing_turns) {
+  Problem problem = fixture::make_block(5, 4, 1, LinkLaw::paper);
+  problem.clamps.clear();
+  problem.loads.clear();
+  problem.frame_acceleration[0].amplitude = 2;
+  problem.frame_acceleration[1].amplitude = 1;
+  EXPECT_EQ(smallest_exact(problem), Model::membrane);
+  problem.frame_acceleration[0].amplitude = problem.frame_acceleration[1].amplitude = 0;
+  problem.frame_acceleration[2].amplitude = -9.81;
+  EXPECT_EQ(smallest_exact(problem), Model::bending);
+  problem.frame_acceleration[0].amplitude = 2;
+  EXPECT_EQ(smallest_exact(problem), Model::linear);
+  EXPECT_EQ(smallest_exact(load_scene("plate_paper", {{"n", "8"}}).problem), Model::planar);
+  EXPECT_EQ(smallest_exact(load_scene("block").problem), Model::spatial);
+}
+
 TEST(why_not_exact, leaves_small_rotations_to_the_bound) {
   const Problem beam = load_scene("cantilever_beam").problem;
   EXPECT_EQ(why_not(Model::bending, beam), "");
   for (const Model model : {Model::bending, Model::linear, Model::small})
     expect_reason(why_not_exact(model, beam), "small rotations are assumed");
+  const Problem plate = load_scene("plate_paper", {{"n", "8"}}).problem;
+  EXPECT_EQ(why_not(Model::membrane, plate), "");
+  expect_reason(why_not_exact(Model::membrane, plate), "small rotations are assumed");
+  expect_reason(why_not(Model::membrane, beam), "load 0 leaves the plane");
   EXPECT_EQ(why_not_exact(Model::spatial, beam), "");
   expect_reason(why_not_exact(Model::planar, beam), "load 0 leaves the plane");
 }

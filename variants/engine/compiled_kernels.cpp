@@ -27,7 +27,7 @@ DSS_FLATTEN void run_kernel(int kernel, const void* in, void* out, std::size_t e
 }
 
 #ifdef DSS_FEWER_MODELS
-constexpr Model row_models[] = {Model::spatial, Model::bending, Model::planar, Model::axial};
+constexpr Model row_models[] = {Model::spatial, Model::bending, Model::membrane, Model::planar, Model::axial};
 #else
 constexpr auto& row_models = models;
 #endif

@@ -60,9 +60,9 @@ struct KernelSet {
 
 /// The kernels for a model and the terms of a shape. One definition a (model, precision): variants/engine/kernels_*.cpp.
 #ifdef DSS_FEWER_MODELS
-#define DSS_EACH_MODEL(act) act(spatial) act(bending) act(planar) act(axial)
+#define DSS_EACH_MODEL(act) act(spatial) act(bending) act(membrane) act(planar) act(axial)
 #else
-#define DSS_EACH_MODEL(act) act(spatial) act(small) act(linear) act(bending) act(planar) act(axial)
+#define DSS_EACH_MODEL(act) act(spatial) act(small) act(linear) act(bending) act(membrane) act(planar) act(axial)
 #endif
 #define DSS_DECLARE(model)                                                                                             \
   const KernelSet<double>& model##_f64_kernels(const Terms& terms);                                                    \

@@ -20,6 +20,7 @@ inline ModelLayout model_layout(Model model) {
   static constexpr Field spatial[] = {ux, uy, uz, vx, vy, vz, qs, qx, qy, qz, wx, wy, wz};
   static constexpr Field vectors[] = {ux, uy, uz, vx, vy, vz, qx, qy, qz, wx, wy, wz};
   static constexpr Field bending[] = {uz, vz, qx, qy, wx, wy};
+  static constexpr Field membrane[] = {ux, uy, vx, vy, qz, wz};
   static constexpr Field planar[] = {ux, uy, vx, vy, qs, qz, wz};
   static constexpr Field axial[] = {ux, vx};
   static constexpr int all_wrench[] = {0, 1, 2, 3, 4, 5}, bending_wrench[] = {2, 3, 4}, planar_wrench[] = {0, 1, 5},
@@ -29,6 +30,8 @@ inline ModelLayout model_layout(Model model) {
     return {axial, axial_wrench, 1, 1};
   case Model::bending:
     return {bending, bending_wrench, 1, 2, true};
+  case Model::membrane:
+    return {membrane, planar_wrench, 2, 2, true};
   case Model::planar:
     return {planar, planar_wrench, 2, 2};
   case Model::linear:

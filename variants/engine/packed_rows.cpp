@@ -99,7 +99,7 @@ void PackedRows<T, W>::choose_shapes(const Problem& problem, Model model) {
       common.is_damped |= a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{};
       common.is_bending |= body.law == LinkLaw::paper && a.k_rot != Vec3{};
     }
-    common.is_gyroscopic |= body.has_tensor_inertia() && model != Model::planar && model != Model::axial;
+    common.is_gyroscopic |= body.has_tensor_inertia() && !is_of_plane(model) && model != Model::axial;
   }
   // The row kernels do not compute extra links, but leapfrog must carry predicted velocities for them; in all parts alike.
   common.is_damped |= problem.has_damped_links_elsewhere;

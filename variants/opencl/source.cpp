@@ -61,7 +61,7 @@ std::string model_words(Model model) {
   return fmt::format("#define AXES {}\n#define VEC_SIZE {}\n#define SPIN_SIZE {}\n#define FIELDS {}\n{}{}{}{}{}",
                      layout.axes, layout.vec_size, int(layout.wrench.size()) - layout.vec_size, layout.fields.size(),
                      tuple_words(layout, "VEC", ux, uz), tuple_words(layout, "ROTOR", qs, qz),
-                     tuple_words(layout, "SPIN", wx, wz), model == Model::planar ? "#define PLANAR\n" : "",
+                     tuple_words(layout, "SPIN", wx, wz), is_of_plane(model) ? "#define PLANAR\n" : "",
                      is_linear(model) ? "#define LINEAR\n" : "");
 }
 

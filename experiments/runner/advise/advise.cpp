@@ -73,9 +73,9 @@ private:
         advice_.left_out.emplace_back(model, std::move(why));
       else
         models_.push_back(model);
-    exact_ = *std::ranges::find_if(models_, [&](Model model) { return is_exact(model); });
+    exact_ = smallest_exact(bench_.problem());
   }
-  bool is_exact(Model model) const { return model == Model::spatial || why_not_exact(model, bench_.problem()).empty(); }
+  bool is_exact(Model model) const { return why_not_exact(model, bench_.problem()).empty(); }
 
   bool find_own_reference() {
     Configuration start;

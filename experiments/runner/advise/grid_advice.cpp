@@ -89,9 +89,7 @@ private:
     run.overrides = overrides_;
     run.integrator = "dopri5";
     run.threads = 1;
-    for (const Model model : models)
-      if (!run.model && (model == Model::spatial || why_not_exact(model, scene.problem).empty()))
-        run.model = std::string(name(model));
+    run.model = std::string(name(smallest_exact(scene.problem)));
     run.overrides.push_back({parameter_, fmt::format("{:g}", scene.parameters.at(parameter_))});
     run.dt = times_.interval() / double(2 * first_steps(scene.problem, times_).at("dopri5"));
     History history;

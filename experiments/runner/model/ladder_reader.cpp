@@ -8,15 +8,19 @@ namespace dss {
 namespace {
 
 LadderScene read_ladder_scene(const JsonPlace& place, const std::string& path) {
-  place.require_keys({"scene", "set", "steps", "precision", "auto", "fails"});
+  place.require_keys({"scene", "set", "steps", "precision", "auto", "fails", "suffices"});
   LadderScene scene;
   scene.scene = scene_beside(path, place["scene"].text());
   if (place.has("set")) scene.set = one_set(place["set"]);
   if (place.has("steps")) scene.steps = place["steps"].count(1);
   if (place.has("precision")) scene.precision = name(precision_in(place["precision"]));
   scene.ends_with = model_in(place["auto"]);
-  if (place.has("fails"))
-    for (const JsonPlace& item : place["fails"].items()) scene.fails.push_back(model_in(item));
+  const auto read_models = [&](const char* key, std::vector<Model>& list) {
+    if (place.has(key))
+      for (const JsonPlace& item : place[key].items()) list.push_back(model_in(item));
+  };
+  read_models("fails", scene.fails);
+  read_models("suffices", scene.suffices);
   try {
     load_scene(scene.scene, scene.set);
   } catch (const InputError& error) {

@@ -133,6 +133,7 @@ private:
     row["why_not"] = not_exact;
     if (not_exact.empty() && !is_sufficient) fail(row, "proven to suffice, and does not");
     if (is_sufficient && std::ranges::count(place_.fails, model) > 0) fail(row, "should fail, and does not");
+    if (!is_sufficient && std::ranges::count(place_.suffices, model) > 0) fail(row, "should suffice, and does not");
     return row;
   }
 

@@ -19,6 +19,7 @@ struct LadderScene {
   std::string precision = "f64";
   Model ends_with = Model::spatial; ///< what auto's run must end with
   std::vector<Model> fails;         ///< models whose error must exceed the tolerance
+  std::vector<Model> suffices;      ///< and models, proven or not, whose error must not
 };
 
 struct LadderStudy {

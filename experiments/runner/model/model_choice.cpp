@@ -5,16 +5,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <optional>
 
 namespace dss {
 namespace {
-
-std::optional<Model> smallest_exact(const Problem& problem) {
-  for (const Model model : models)
-    if (model != Model::spatial && why_not_exact(model, problem).empty()) return model;
-  return std::nullopt;
-}
 
 /// Why a model of small rotations is no candidate, or empty.
 std::string why_not_bounded(const Problem& problem, Model model, double tolerance, const std::string& no_watch) {
@@ -42,10 +35,10 @@ std::string why_exact(Model model) {
   switch (model) {
   case Model::axial:
     return "proven: everything acts along x, on single rows or on rows that move alike, so nothing turns or shears";
-  case Model::bending:
-    break; // has no proof
   case Model::planar:
     return "proven: one element thick, and loads, clamps and start are symmetric about the plane";
+  case Model::bending:
+  case Model::membrane:
   case Model::linear:
   case Model::small:
     return "proven: all elements move alike, so no link is strained and nothing turns";
@@ -64,11 +57,13 @@ double error_at_start(const Problem& problem, Model model) {
 
 ModelChoice choose_model(const Problem& problem, double tolerance, const std::string& no_watch) {
   ModelChoice choice{"auto", Model::spatial, "", {}, tolerance, false};
-  const std::optional<Model> exact = smallest_exact(problem);
+  const Model exact = smallest_exact(problem);
   for (const Model model : models) {
     choice.chosen = model;
-    if (model == exact || model == Model::spatial) break;
-    std::string reason = exact ? why_not_exact(model, problem) : why_not_bounded(problem, model, tolerance, no_watch);
+    if (model == exact) break;
+    // What is watched for want of a proof must save more than looking costs: nothing below a proven model does.
+    std::string reason =
+        exact != Model::spatial ? why_not_exact(model, problem) : why_not_bounded(problem, model, tolerance, no_watch);
     if (reason.empty()) {
       choice.is_bounded = true;
       break;

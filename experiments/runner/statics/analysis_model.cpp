@@ -22,12 +22,6 @@ void require_sufficient(Model model, const Problem& problem) {
                                  is_linear(model) ? "linear" : "spatial"));
 }
 
-/// The last of `models` is spatial, which every problem has the degrees of freedom for, and `linear` comes before it.
-Model smallest_linear(const Problem& problem) {
-  return *std::ranges::find_if(models,
-                               [&](Model model) { return is_linear(model) && why_not(model, problem).empty(); });
-}
-
 /// Smaller linear models have proofs too, but their equations do not tell a stable equilibrium from another.
 AnalysisModel smallest_model(const Problem& problem) {
   const std::string reason = why_not_exact(Model::planar, problem);
@@ -36,6 +30,12 @@ AnalysisModel smallest_model(const Problem& problem) {
 }
 
 } // namespace
+
+/// `linear` is one of `models`, and every problem has the degrees of freedom for it.
+Model smallest_linear(const Problem& problem) {
+  return *std::ranges::find_if(models,
+                               [&](Model model) { return is_linear(model) && why_not(model, problem).empty(); });
+}
 
 AnalysisModel static_model(const RunRequest& run, const Scene& scene, const std::string& solver) {
   const bool wants_linear = solver == "direct" || solver == "cg";

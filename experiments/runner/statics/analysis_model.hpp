@@ -16,6 +16,9 @@ struct AnalysisModel {
 /// solvers the smallest linear one that has the degrees of freedom. @throws InputError for a model that the problem leaves, or the solver cannot solve
 AnalysisModel static_model(const RunRequest& run, const Scene& scene, const std::string& solver);
 
+/// The linear model of least work that has the degrees of freedom.
+Model smallest_linear(const Problem& problem);
+
 /// Of natural modes: --model, or the scene's; "auto" is all six degrees of freedom. @throws InputError likewise
 Model modal_model(const RunRequest& run, const Scene& scene);
 

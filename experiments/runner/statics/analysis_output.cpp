@@ -78,7 +78,7 @@ double extent(const Problem& problem) {
 
 /// Each mode as a state, displaced by `shown_displacement` of the body, or turned so that an edge moves by it.
 void write_shapes(const Problem& problem, const RunRequest& run, AnalysisResult& result) {
-  StaticSystem system(problem, Rotation::linearised, dofs_of(*find_model(result.model)));
+  StaticSystem system(problem, Rotation::linearised, degrees_of(*find_model(result.model)));
   const double size = shown_displacement * extent(problem), edge = shortest_edge(problem);
   FrameSeries series(run.output, true);
   for (std::size_t n = 0; n < result.modal.modes.size(); ++n) {

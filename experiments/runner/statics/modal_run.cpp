@@ -23,7 +23,7 @@ AnalysisResult solve_modal(const RunRequest& run, const AnalysisRequest& request
                                  "spatial, or leave it out",
                                  name(model)));
   const auto start = Clock::now();
-  StaticSystem system(scene.problem, rotation_of(model), dofs_of(model));
+  StaticSystem system(scene.problem, rotation_of(model), degrees_of(model));
   const StaticSystem::State state = [&] {
     if (!request.is_prestressed) return system.rest();
     const Equilibrium found = find_equilibrium(system);

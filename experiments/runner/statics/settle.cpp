@@ -49,7 +49,8 @@ AnalysisResult settle(const RunRequest& run, const AnalysisRequest& request) {
   asked.is_forced = true; // the scene's step is not taken
   asked.integrator = run.integrator.value_or("velocity_verlet");
   const RunPlan plan = plan_run(asked);
-  const std::uint8_t dofs = why_not_planar(plan.scene.problem).empty() ? dofs_of(Model::planar) : dofs_of(plan.model);
+  const std::uint8_t dofs =
+      why_not_planar(plan.scene.problem).empty() ? degrees_of(Model::planar) : degrees_of(plan.model);
   StaticSystem system(plan.scene.problem, rotation_of(plan.model), dofs, request.loads);
   Problem problem = held_still(plan.scene.problem, request.loads);
   problem.initial_motions.clear();

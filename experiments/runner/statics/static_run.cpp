@@ -31,17 +31,15 @@ Preconditioner chosen_preconditioner(const std::string& name) {
 
 /// Where nothing leaves the plane only what moves in it is unknown, and of linear equations as little as the smallest linear model has.
 std::uint8_t unknowns_of(Model model, const Problem& problem) {
-  if (dofs_of(model) != dof_all) return dofs_of(model);
-  if (model == Model::linear)
-    for (const Model less : {Model::axial, Model::bending})
-      if (why_not(less, problem).empty()) return dofs_of(less);
-  return why_not_planar(problem).empty() ? dofs_of(Model::planar) : std::uint8_t(dof_all);
+  if (degrees_of(model) != dof_all) return degrees_of(model);
+  if (model == Model::linear) return degrees_of(smallest_linear(problem));
+  return why_not_planar(problem).empty() ? degrees_of(Model::planar) : std::uint8_t(dof_all);
 }
 
 /// What a state in its plane would do if anything pushed it out; empty where it would come back. `fields`: 13 numbers an element.
 std::string out_of_plane(const Problem& problem, double loads, const std::vector<double>& fields) {
   try {
-    StaticSystem across(problem, Rotation::quaternion, dofs_of(Model::bending), loads);
+    StaticSystem across(problem, Rotation::quaternion, degrees_of(Model::bending), loads);
     const SparseMatrix tangent = across.tangent(across.inside(fields));
     Factors factors;
     factors.compute(tangent);
@@ -57,7 +55,7 @@ std::string out_of_plane(const Problem& problem, double loads, const std::vector
 /// there. Empty where it would, or where the model asked for knows no such motion.
 std::string stability_note(const Problem& problem, const AnalysisModel& of, double loads,
                            const AnalysisResult& result) {
-  const bool is_whole = of.is_auto || dofs_of(of.model) == dof_all;
+  const bool is_whole = of.is_auto || degrees_of(of.model) == dof_all;
   if (result.status != "ok" || !is_whole || is_linear(of.model) || unknowns_of(of.model, problem) == dof_all) return {};
   if (result.linear_solver == "direct") return out_of_plane(problem, loads, result.state);
   return fmt::format("whether it is stable out of its plane is not known: {} not say",
@@ -113,7 +111,7 @@ void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& re
   if (const std::string why = why_not_held(problem, unknowns_of(model, problem)); !why.empty())
     throw InputError(fmt::format("{}: {}", problem.name, why));
   const Problem relaxed = relaxed_problem(problem, request.masses == "scaled", request.loads);
-  const double loads = StaticSystem(problem, rotation_of(model), dofs_of(model), request.loads).load_norm();
+  const double loads = StaticSystem(problem, rotation_of(model), degrees_of(model), request.loads).load_norm();
   const Method method = fitted(relaxed, require_method(*asked.integrator), plan.dt);
   RelaxationSettings settings{request.tolerance, run.steps.value_or(RelaxationSettings{}.most_steps),
                               step_share * stable_step(relaxed, method).dt};
@@ -138,7 +136,7 @@ void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& re
   result.integrator = method.name;
   result.threads = run.threads;
   result.iterations = found.peaks;
-  result.unknowns = long(free_dofs(problem, dofs_of(model)).size());
+  result.unknowns = long(free_dofs(problem, degrees_of(model)).size());
   if (!found.is_settled) result.status = "not converged", result.reason = found.reason;
   if (found.is_settled) result.note = found.reason;
 }

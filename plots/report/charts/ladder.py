@@ -26,7 +26,7 @@ def ladder_verdicts(results):
         raise NotMeasured("tables/model_ladder.csv has no model")
     traces = []
     for (verdict, provable), rows in models.groupby(["verdict", "provable"], sort=False, dropna=False):
-        colour, symbol = VERDICTS.get(verdict, ("#999999", "triangle-up"))
+        colour, symbol = VERDICTS.get(verdict, ("#5F5F5F", "triangle-up"))
         traces.append(points(rows, "model_ladder", "model", "problem", ["verdict", "provable"], COLUMNS, mode="markers", name=verdict, legendgroup=verdict,
                              marker={"size": 13, "symbol": symbol, "color": colour}))
     if not chosen.empty:
@@ -50,7 +50,7 @@ def ladder_errors(results):
     good = good.assign(shown_error=good["error"].clip(LEAST, MOST))
     symbols, traces = by_order(["sufficient", "insufficient"], SYMBOLS), []
     for (_, model, verdict), rows in good.groupby(["problem", "model", "verdict"], sort=False):
-        colour = "ink" if model == "auto" else COLOURS.get(model, "#999999")
+        colour = "ink" if model == "auto" else COLOURS.get(model, "#5F5F5F")
         traces.append(points(rows, "model_ladder", "wall_s", "shown_error", ["problem", "model", "verdict"], COLUMNS, mode="markers", name=model, legendgroup=model,
                              marker={"size": 15 if model == "auto" else 9, "symbol": "circle-open" if model == "auto" else symbols.get(verdict, "x"), "color": colour, "line": {"width": 2, "color": colour}}))
     text = (f"Error against the spatial oracle over the time of a run, {good['problem'].nunique()} scenes; circles are within the scene's tolerance, squares are not, rings are `--model auto`. "

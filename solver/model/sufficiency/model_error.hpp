@@ -1,5 +1,5 @@
 #pragma once
-/// A bound of what the models of small rotations (bending, linear, small) leave out, from states of the run itself. Derivation and what it was compared with:
+/// A bound of what the models of small rotations (bending, membrane, linear, small) leave out, from states of the run itself. Derivation and what it was compared with:
 /// README.md beside this file.
 #include "solver/model/model.hpp"
 #include "solver/model/sufficiency/bound_structure.hpp"

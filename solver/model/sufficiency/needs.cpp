@@ -14,12 +14,13 @@ constexpr std::array<const char*, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz
 const char* why_a_dof_stays_zero(Model model) {
   if (model == Model::axial)
     return "nothing pushes or turns across x: links along x have forces along x and no moments";
-  if (model == Model::planar) return "mirrored about the plane z = const, the scene is itself";
+  if (is_of_plane(model)) return "mirrored about the plane z = const, the scene is itself";
   return "without forces in the plane the linear equations leave it at rest";
 }
 
-bool turns(const Problem& problem, Model model) {
-  return model != Model::axial && !(model == Model::linear && why_not_in_translation(problem).empty());
+/// All that a model of small rotations computes of elements that move alike.
+bool is_in_translation(const Problem& problem, Model model) {
+  return has_rotation_vectors(model) && why_not_in_translation(problem).empty();
 }
 
 template <class Has>
@@ -38,14 +39,13 @@ Need need(std::string name, bool is_needed, std::string why, std::string why_not
 Need damping(const Problem& problem, Model model) {
   const bool is_damped = any_link(
       problem, [](LinkLaw, const AxisConstants& a) { return a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{}; });
-  const bool is_strained = !(model == Model::linear && why_not_in_translation(problem).empty());
-  return need("damping of links", is_damped && is_strained, "links have d or dt",
+  return need("damping of links", is_damped && !is_in_translation(problem, model), "links have d or dt",
               is_damped ? "no link is strained" : "all constants d and dt are zero");
 }
 
 Need bending_stiffness(const Problem& problem, Model model) {
   const bool has = any_link(problem, [](LinkLaw, const AxisConstants& a) { return a.k_rot != Vec3{}; });
-  const bool is_turned = turns(problem, model);
+  const bool is_turned = model != Model::axial && !is_in_translation(problem, model);
   return need("rotational stiffness of links", has && is_turned, "links resist relative rotation",
               has ? "no element turns" : "kt is zero: links resist by their arms alone");
 }
@@ -65,8 +65,7 @@ Need tensor_inertia(const Problem& problem, Model model) {
   const bool has = std::ranges::any_of(problem.bodies, &Body::has_tensor_inertia);
   std::string why_not = "inertia is a scalar: w x J w vanishes";
   if (has)
-    why_not =
-        model == Model::planar ? "all spin is about z" : "no element turns, or rotations are small to first order";
+    why_not = is_of_plane(model) ? "all spin is about z" : "no element turns, or rotations are small to first order";
   const bool is_finite = model == Model::spatial || model == Model::small;
   return need("gyroscopic moment w x J w", has && is_finite, "inertia is a tensor, and spin may be about any axis",
               why_not);
@@ -100,29 +99,13 @@ Need frame(const Problem& problem) {
 
 } // namespace
 
-int degrees_of(Model model) {
-  switch (model) {
-  case Model::axial:
-    return dof_ux;
-  case Model::bending:
-    return dof_uz | dof_rx | dof_ry;
-  case Model::planar:
-    return dof_ux | dof_uy | dof_rz;
-  case Model::linear:
-  case Model::small:
-  case Model::spatial:
-    break;
-  }
-  return dof_all;
-}
-
 std::vector<Need> degrees_of_freedom(const Problem& problem, Model model) {
   int held = problem.clamps.size() == problem.lattice.element_count ? int(dof_all) : 0;
   for (const Clamp& clamp : problem.clamps) held &= clamp.dofs;
   std::vector<Need> needs;
   for (int dof = 0; dof < 6; ++dof) {
     const bool is_rotation = dof >= 3, has = degrees_of(model) & (1 << dof), is_held = held & (1 << dof);
-    const bool stays = is_rotation && !turns(problem, model);
+    const bool stays = is_rotation && is_in_translation(problem, model);
     std::string why_none = has ? "all elements move alike: nothing turns" : why_a_dof_stays_zero(model);
     if (is_held) why_none = "clamped on every element";
     needs.push_back(

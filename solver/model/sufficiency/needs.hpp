@@ -8,9 +8,6 @@
 
 namespace dss {
 
-/// Bits of the degrees of freedom that a model has (Dof).
-int degrees_of(Model model);
-
 struct Need {
   std::string name;
   bool is_needed = false;

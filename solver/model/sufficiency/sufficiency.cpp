@@ -83,6 +83,7 @@ std::string why_not(Model model, const Problem& problem) {
     return why_not_axial(problem);
   case Model::bending:
     return why_not_bending(problem);
+  case Model::membrane:
   case Model::planar:
     return why_not_planar(problem);
   case Model::linear:
@@ -95,11 +96,14 @@ std::string why_not(Model model, const Problem& problem) {
 
 std::string why_not_exact(Model model, const Problem& problem) {
   if (std::string reason = why_not(model, problem); !reason.empty()) return reason;
-  if (model == Model::linear || model == Model::small)
+  if (has_rotation_vectors(model))
     if (const std::string reason = why_not_in_translation(problem); !reason.empty())
       return "small rotations are assumed, and nothing proves that there are none: " + reason;
-  if (model == Model::bending) return "small rotations are assumed, and out of the plane there are some";
   return {};
+}
+
+Model smallest_exact(const Problem& problem) {
+  return *std::ranges::find_if(models, [&](Model model) { return why_not_exact(model, problem).empty(); });
 }
 
 } // namespace dss

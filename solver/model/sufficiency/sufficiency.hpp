@@ -18,7 +18,7 @@ std::string why_not_axial(const Problem& problem);
 /// is still linear: how far it may go is a question of the bound.
 std::string why_not_bending(const Problem& problem);
 
-/// Empty if all elements move alike and none turns, so that no link is strained and the linear model is exact, else one line.
+/// Empty if all elements move alike and none turns, so that no link is strained, and models of small rotations are exact, else one line.
 std::string why_not_in_translation(const Problem& problem);
 
 /// Empty if the model has every degree of freedom that the problem moves (spatial, small and linear have all six), else one line that says
@@ -27,6 +27,9 @@ std::string why_not(Model model, const Problem& problem);
 
 /// Empty if the model's results are proven to be those of the spatial model but for rounding, else one line.
 std::string why_not_exact(Model model, const Problem& problem);
+
+/// The model of least work whose results are proven to be those of the spatial model but for rounding: that one, if no other.
+Model smallest_exact(const Problem& problem);
 
 /// "body \"b\", element 12 starts with uy = 0.1 m" for the first element whose start has one of these fields, or an empty text.
 std::string start_with(const Problem& problem, std::initializer_list<Field> fields);
