@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <new>
 
+#include <sys/mman.h>
+
 namespace dss {
 namespace {
 
@@ -18,9 +20,13 @@ std::size_t number_bytes(const CompiledKernel& kernel) {
 
 std::size_t rounded_up(std::size_t value, std::size_t unit) { return (value + unit - 1) / unit * unit; }
 
+/// In huge pages from some small ones on: which of these collide in L2 is chance, and made one process in ten 10 to 20 % slower throughout.
 std::byte* allocate(std::size_t bytes) {
-  void* p = std::aligned_alloc(4096, rounded_up(bytes, 4096));
+  constexpr std::size_t small_page = 4096, huge_page = std::size_t(2) << 20;
+  const std::size_t unit = bytes > 16 * small_page ? huge_page : small_page, size = rounded_up(bytes, unit);
+  void* p = std::aligned_alloc(unit, size);
   if (p == nullptr) throw std::bad_alloc();
+  if (unit == huge_page) madvise(p, size, MADV_HUGEPAGE);
   return static_cast<std::byte*>(p);
 }
 
