@@ -1,16 +1,20 @@
-# Clone, then `make reproduce`, `make reproduce-gpu` or `make test`: each installs what is missing, configures, builds and runs.
+# After a clone: `make reproduce`, `make reproduce-gpu` or `make test`. Each installs missing
+# packages, configures, builds and runs.
 PRESET ?= release
 BUILD := build/$(PRESET)
 SCALE ?= host
 OUT ?= $(if $(filter host,$(SCALE)),results,build/results-$(SCALE))
 
-# Presets of Clang need it installed.
+# These presets need Clang.
 ifneq (,$(filter clang tsan,$(PRESET)))
 export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
-.PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies verify-cpu verify-devices
+.PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
+.PHONY: verify-cpu verify-devices
 
+# The program and its variants alone, without the tests.
+all: TARGETS := --target dssbench
 all: build
 
 dependencies:
@@ -21,24 +25,26 @@ build: dependencies
 	@rm -f $(PRESET).configure.log
 	@cmake --build --preset $(PRESET) $(TARGETS)
 
-# The report is tested in a browser.
+# The tests of the report need a browser.
 test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium
 test: build
 	@ctest --preset $(PRESET)
 
-# These come first, for work_precision reads what error_budget found; they time nothing, and take one core each.
+# These come first, because work_precision reads what error_budget found. They time nothing and use
+# one core each, so two run side by side.
 UNTIMED_STUDIES := error_budget failures continuum
-STUDIES := chain kernels table1_host table1 table2 table3 work_precision advise stability model_ladder statics balance cluster
+STUDIES := chain kernels table1_host table1 table2 table3 work_precision advise stability \
+  model_ladder statics balance cluster
 SIDE_BY_SIDE := --no-print-directory -j 2 --output-sync=target
 
-# The program and its variants alone: no tests to build.
 reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(MAKE) $(SIDE_BY_SIDE) verify-cpu verify-devices
 	@$(MAKE) $(SIDE_BY_SIDE) $(addprefix study-,$(UNTIMED_STUDIES))
 	@for study in $(STUDIES); do $(MAKE) --no-print-directory study-$$study || exit 1; done
 	@mkdir -p $(OUT)/fields
-	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 --output $(OUT)/fields/plate_paper.vtu >/dev/null
+	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 \
+	  --output $(OUT)/fields/plate_paper.vtu >/dev/null
 	@$(BUILD)/dssbench run l_bracket --output $(OUT)/fields/l_bracket.vtu --frames 6 >/dev/null
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
@@ -49,14 +55,18 @@ verify-devices:
 	@$(BUILD)/dssbench verify --quiet plate_paper --variant scalar,opencl,opencl-rhs
 
 study-%:
-	@start=$$(date +%s); $(BUILD)/dssbench experiment experiments/$*.json --scale $(SCALE) --out $(OUT) && echo "== $*: $$(($$(date +%s) - start)) s"
+	@start=$$(date +%s); $(BUILD)/dssbench experiment $* --scale $(SCALE) --out $(OUT) && \
+	  echo "== $*: $$(($$(date +%s) - start)) s"
 
-# All that needs a GPU. Without one the results that are there stay as they are.
+# All that needs a GPU. Without one, present results stay as they are.
 reproduce-gpu: TARGETS := --target dssbench
 reproduce-gpu: build
 	@$(BUILD)/dssbench list devices >$(BUILD)/devices.txt
-	@if awk '$$2 == "gpu" && !/unusable/ { found = 1 } END { exit !found }' $(BUILD)/devices.txt; then $(MAKE) --no-print-directory gpu-studies; \
-	else echo "reproduce-gpu: there is no GPU here, nothing was measured (dssbench list devices shows what there is)"; fi
+	@if awk '$$2 == "gpu" && !/unusable/ { found = 1 } END { exit !found }' \
+	  $(BUILD)/devices.txt; then \
+	  $(MAKE) --no-print-directory gpu-studies; \
+	else echo "reproduce-gpu: there is no GPU here, nothing was measured" \
+	  "(dssbench list devices shows what there is)"; fi
 
 gpu-studies:
 	@$(BUILD)/dssbench list devices --measure
@@ -65,7 +75,7 @@ gpu-studies:
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 
-# The page of the results that are there; nothing is measured.
+# Makes the page from present results. Measures nothing.
 report: dependencies
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 

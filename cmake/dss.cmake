@@ -3,31 +3,46 @@
 include(${CMAKE_CURRENT_LIST_DIR}/dssbench_variant.cmake)
 
 add_library(dss_options INTERFACE)
-target_include_directories(dss_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>)
+target_include_directories(dss_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+  $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>)
 target_compile_features(dss_options INTERFACE cxx_std_20)
-# -ffp-contract=off: a fused multiply-add is where the source says so, and nowhere else (DESIGN.md section 5).
+# -ffp-contract=off: a fused multiply-add is where the source says so, and nowhere else (DESIGN.md
+# section 5).
+# ggc: the compiler collects garbage less often, and so compiles 5 to 10 % faster.
 target_compile_options(dss_options INTERFACE -ffp-contract=off
-  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:SHELL:--param=ggc-min-expand=200 --param=ggc-min-heapsize=262144>> # collects garbage less often: compiles 5 to 10 % faster
-  $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wpedantic> $<BUILD_INTERFACE:-Wshadow> $<BUILD_INTERFACE:$<$<BOOL:${DSS_WERROR}>:-Werror>>)
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:SHELL:--param=ggc-min-expand=200 --param=ggc-min-heapsize=262144>>
+  $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wpedantic>
+  $<BUILD_INTERFACE:-Wshadow> $<BUILD_INTERFACE:$<$<BOOL:${DSS_WERROR}>:-Werror>>)
 if(DSS_SANITIZE)
   target_compile_options(dss_options INTERFACE -fsanitize=${DSS_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(dss_options INTERFACE -fsanitize=${DSS_SANITIZE})
   target_compile_definitions(dss_options INTERFACE DSS_SANITIZED)
 endif()
 
-# dss_unity(TARGET n): compiles its sources n at a time, since headers take most of the time; DSS_UNITY=OFF compiles each by itself. Sources with options
-# of their own stay by themselves. Not for the engine: as one file it was 2 % slower with AVX2.
+# dss_unity(TARGET n)
+#
+# Compiles the target's sources n at a time, because headers take most of the time. DSS_UNITY=OFF
+# compiles each source by itself. Sources with options of their own stay apart. The engine does not
+# use this: as one file it was 2 % slower with AVX2.
 function(dss_unity target size)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${DSS_UNITY} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE ${size})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${DSS_UNITY} UNITY_BUILD_MODE BATCH
+    UNITY_BUILD_BATCH_SIZE ${size})
 endfunction()
 
-# dss_add_variant(NAME ORDER n MARCH isa [VECTOR_BITS b] [BY_NAME] [NEEDS feature...] [OPTIONS flag...] [SOURCES file...])
+# dss_add_variant(NAME ORDER n MARCH isa [VECTOR_BITS b] [BY_NAME] [NEEDS feature...]
+#                 [OPTIONS flag...] [SOURCES file...])
 #
-# One MODULE library that exports one symbol, compiled for its own instruction set, and one entry of the registry that the loader reads.
-#   ORDER        place among the variants, slowest first: `--variant auto` takes the last that this CPU can run
-#   VECTOR_BITS  width of the packs of variants/engine (0: scalar); without SOURCES the module is that engine
-#   BY_NAME      never the choice of auto: it computes by other variants or on devices, and is asked itself whether it can run
-#   NEEDS        CPU features, as __builtin_cpu_supports names them, that are checked before the module is opened
+# Adds a variant: one MODULE library that exports one symbol and is compiled for its own instruction
+# set, and one entry of the registry that the loader reads.
+#   ORDER        place among the variants, slowest first; `--variant auto` takes the last one that
+#                this CPU can run
+#   MARCH        instruction set, as in the compiler's -march=
+#   VECTOR_BITS  width of the packs of variants/engine (0: scalar); without SOURCES the module
+#                consists of that engine
+#   BY_NAME      auto never chooses it, because it computes by other variants or on devices; the
+#                module itself tells whether it can run
+#   NEEDS        CPU features that are checked before the module is opened, with the names of
+#                __builtin_cpu_supports
 function(dss_add_variant name)
   cmake_parse_arguments(arg "BY_NAME" "ORDER;MARCH;VECTOR_BITS" "NEEDS;OPTIONS;SOURCES" ${ARGN})
   if(NOT arg_VECTOR_BITS)
@@ -43,14 +58,19 @@ function(dss_add_variant name)
     endif()
   endif()
   string(REPLACE "-" "_" target dss_variant_${name})
-  dssbench_variant_module(${target} NAME ${name} MARCH ${arg_MARCH} VECTOR_BITS ${arg_VECTOR_BITS} EXPORTS ${PROJECT_SOURCE_DIR}/variants/exports.map
-    OPTIONS ${arg_OPTIONS} SOURCES ${arg_SOURCES})
-  if(is_engine) # what its files include, parsed once
-    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/kernels/stage_row/stage_row.hpp ${PROJECT_SOURCE_DIR}/variants/api.hpp)
+  dssbench_variant_module(${target} NAME ${name} MARCH ${arg_MARCH} VECTOR_BITS ${arg_VECTOR_BITS}
+    EXPORTS ${PROJECT_SOURCE_DIR}/variants/exports.map OPTIONS ${arg_OPTIONS}
+    SOURCES ${arg_SOURCES})
+  if(is_engine) # all its files include these
+    target_precompile_headers(${target} PRIVATE
+      ${PROJECT_SOURCE_DIR}/kernels/stage_row/stage_row.hpp
+      ${PROJECT_SOURCE_DIR}/variants/api/api.hpp)
   endif()
   target_link_libraries(${target} PRIVATE dss_options dss_solver OpenMP::OpenMP_CXX)
-  target_compile_definitions(${target} PRIVATE $<$<BOOL:${DSS_FEWER_MODELS}>:DSS_FEWER_MODELS>)
-  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/variants)
+  target_compile_definitions(${target} PRIVATE
+    $<$<BOOL:${DSS_FEWER_MODELS}>:DSS_FEWER_MODELS>)
+  set_target_properties(${target} PROPERTIES
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/variants)
   install(TARGETS ${target} LIBRARY DESTINATION lib/dssbench/variants)
   set_property(GLOBAL APPEND PROPERTY DSS_VARIANT_TARGETS ${target})
   string(JOIN "," needs ${arg_NEEDS})
@@ -59,14 +79,18 @@ function(dss_add_variant name)
   else()
     set(is_by_name false)
   endif()
-  set_property(GLOBAL APPEND PROPERTY DSS_VARIANTS "${arg_ORDER}|{\"${name}\", \"${arg_MARCH}\", \"${needs}\", \"\", ${is_by_name}},")
+  set_property(GLOBAL APPEND PROPERTY DSS_VARIANTS
+    "${arg_ORDER}|{\"${name}\", \"${arg_MARCH}\", \"${needs}\", \"\", ${is_by_name}},")
 endfunction()
 
-# dss_add_missing_variant(NAME ORDER n REASON text): a variant that this build lacks; it is listed, and skipped with the reason.
+# dss_add_missing_variant(NAME ORDER n REASON text)
+#
+# A variant that this build lacks. It is listed, and skipped with the reason.
 function(dss_add_missing_variant name)
   cmake_parse_arguments(arg "" "ORDER;REASON" "" ${ARGN})
   message(STATUS "variant ${name}: ${arg_REASON}")
-  set_property(GLOBAL APPEND PROPERTY DSS_VARIANTS "${arg_ORDER}|{\"${name}\", \"\", \"\", \"${arg_REASON}\", true},")
+  set_property(GLOBAL APPEND PROPERTY DSS_VARIANTS
+    "${arg_ORDER}|{\"${name}\", \"\", \"\", \"${arg_REASON}\", true},")
 endfunction()
 
 # Writes generated/variants/registry.inc from all dss_add_variant calls.
@@ -78,23 +102,30 @@ function(dss_write_registry)
     string(REGEX REPLACE "^[0-9]+\\|" "" entry "${entry}")
     string(APPEND text "${entry}\n")
   endforeach()
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/variants/registry.inc CONTENT "${text}" @ONLY)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/variants/registry.inc CONTENT "${text}"
+    @ONLY)
 endfunction()
 
-# Environment of tests, one variable, since gtest_discover_tests takes lists apart. Compiled OpenCL programs, ours and PoCL's, are kept in the build tree
-# for all tests together. Under the thread sanitizer, without OpenCL, LLVM's OpenMP runtime loads Archer, which tells it of barriers; without, every barrier
-# is a race.
+# The environment of tests. It has only one variable, because gtest_discover_tests splits lists. The
+# build tree keeps the compiled OpenCL programs, ours and PoCL's, for all tests together. Under the
+# thread sanitizer (which is built without OpenCL) LLVM's OpenMP runtime loads Archer, which tells
+# the sanitizer of barriers. Without Archer every barrier would count as a race.
 set(dss_test_environment "XDG_CACHE_HOME=${PROJECT_BINARY_DIR}/cache")
 if(DSS_SANITIZE MATCHES "thread")
-  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-resource-dir OUTPUT_VARIABLE clang_resources OUTPUT_STRIP_TRAILING_WHITESPACE)
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-resource-dir
+    OUTPUT_VARIABLE clang_resources OUTPUT_STRIP_TRAILING_WHITESPACE)
   find_library(DSS_ARCHER archer HINTS ${clang_resources}/../.. REQUIRED)
   set(dss_test_environment "OMP_TOOL_LIBRARIES=${DSS_ARCHER}")
 endif()
 
-set(dss_test_options $<$<CONFIG:Release>:-O1>) # what is tested has its own
+set(dss_test_options $<$<CONFIG:Release>:-O1>) # of the tests; the code under test has its own
 
-# dss_test(name [TEAMS filter] source...): a GoogleTest executable over the solver and the variants; ctest runs each of its tests by itself, labelled with
-# its folder. Tests that TEAMS names, as --gtest_filter does, have threads that wait for each other: beside other tests they would take ten times as long.
+# dss_test(NAME [TEAMS filter] source...)
+#
+# A GoogleTest executable over the solver and the variants. ctest runs each of its tests by itself,
+# with the label of its folder.
+#   TEAMS  names tests, as --gtest_filter does, whose threads wait for each other; they reserve two
+#          processors, since beside other tests they would take ten times as long
 function(dss_test name)
   cmake_parse_arguments(arg "" "TEAMS" "" ${ARGN})
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
@@ -107,14 +138,17 @@ function(dss_test name)
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(properties LABELS ${kind} ENVIRONMENT "${dss_test_environment}")
   if(arg_TEAMS)
-    gtest_discover_tests(${name} TEST_FILTER "${arg_TEAMS}" TEST_LIST ${name}_teams PROPERTIES ${properties} PROCESSORS 2 DISCOVERY_MODE PRE_TEST)
+    gtest_discover_tests(${name} TEST_FILTER "${arg_TEAMS}" TEST_LIST ${name}_teams
+      PROPERTIES ${properties} PROCESSORS 2 DISCOVERY_MODE PRE_TEST)
     set(others TEST_FILTER "-${arg_TEAMS}")
   endif()
   gtest_discover_tests(${name} ${others} PROPERTIES ${properties} DISCOVERY_MODE PRE_TEST)
 endfunction()
 
-# dss_embed(TARGET FILES path...): puts files of the source tree, by their paths from its root, into a target, where dss::embedded(path) gives their text
-# (variants/opencl/embedded.hpp). Call it once a target.
+# dss_embed(TARGET FILES path...)
+#
+# Puts the text of files into a target. Paths start at the root of the source tree;
+# dss::embedded(path) gives the text (variants/opencl/embedded.hpp). Call it once for each target.
 function(dss_embed target)
   cmake_parse_arguments(arg "" "" "FILES" ${ARGN})
   set(definitions "")
@@ -125,14 +159,18 @@ function(dss_embed target)
       message(FATAL_ERROR "dss_embed(${target}): there is no ${file}")
     endif()
     string(MAKE_C_IDENTIFIER "dss_embedded_${path}" symbol)
-    string(APPEND definitions "asm(\".pushsection .rodata\\n.global ${symbol}\\n.hidden ${symbol}\\n${symbol}:\\n.incbin \\\"${file}\\\"\\n\"\n"
+    string(APPEND definitions
+      "asm(\".pushsection .rodata\\n.global ${symbol}\\n.hidden ${symbol}\\n${symbol}:\\n.incbin \\\"${file}\\\"\\n\"\n"
       "    \".global ${symbol}_end\\n.hidden ${symbol}_end\\n${symbol}_end:\\n.popsection\");\n"
       "extern \"C\" [[gnu::visibility(\"hidden\")]] const char ${symbol}[], ${symbol}_end[];\n")
-    string(APPEND cases "  if (path == \"${path}\") return {${symbol}, std::size_t(${symbol}_end - ${symbol})};\n")
+    string(APPEND cases
+      "  if (path == \"${path}\") return {${symbol}, std::size_t(${symbol}_end - ${symbol})};\n")
     list(APPEND files ${file})
   endforeach()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_embedded.cpp)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/embedded.cpp.in ${source} @ONLY)
-  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}" SKIP_UNITY_BUILD_INCLUSION ON) # or what it depends on is lost
+  # In a unity build OBJECT_DEPENDS would be lost.
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}"
+    SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${source})
 endfunction()

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Installs the Debian packages that dssbench needs and this machine lacks; without the right to, prints the one line to run.
+# Installs the Debian packages that dssbench needs and this machine lacks. A user who may not
+# install packages gets the line to run.
 set -eu
 packages="g++ cmake ninja-build pkg-config binutils libeigen3-dev libxsimd-dev libcli11-dev libfmt-dev nlohmann-json3-dev libmuparser-dev
 libmetis-dev libopenmpi-dev openmpi-bin libsimgrid-dev libgtest-dev libbenchmark-dev likwid ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd python3-matplotlib python3-pandas python3-jsonschema

@@ -1,24 +1,26 @@
 #pragma once
-/// The table of kernel cases: one table feeds the tests (C++ against packs against OpenCL), the declared costs and the
-/// microbenchmarks.
+/// The table of kernel cases. It feeds three users: the tests (C++ against packs against OpenCL),
+/// the declared costs, and the microbenchmarks.
+#include "kernels/model.hpp"
 #include "kernels/physics.hpp"
-#include "solver/model/model.hpp"
 
 #include <cstddef>
 #include <span>
 
 namespace dss {
 
-/// One kernel on plain operands: `inputs` numbers in, `outputs` numbers out, an element (or a link) at a time.
+/// One kernel on plain operands: `inputs` numbers in, `outputs` numbers out, for one element or one
+/// link.
 template <class Real>
 struct KernelCase {
-  const char* name; ///< the function case_<name> of kernels/cases.h
+  const char* name; ///< the function case_<name> of kernels/case_functions.h
   Model model;
   int inputs, outputs;
-  int flops; ///< declared; a fused multiply-add counts two, a sign change none (tests count them)
+  int flops; ///< declared cost: a fused multiply-add counts two, a sign change none; tests count it
   void (*evaluate)(const Real* in, Real* out);
 };
 
+/// All cases of all models. Operands are numbers of type `Real`.
 template <class Real>
 std::span<const KernelCase<Real>> kernel_cases() {
   using S = SpatialPhysics<Real>;
@@ -27,8 +29,8 @@ std::span<const KernelCase<Real>> kernel_cases() {
   using L = LinearPhysics<Real>;
   using B = BendingPhysics<Real>;
   using M = MembranePhysics<Real>;
-  constexpr Model spatial = Model::spatial, small = Model::small, linear = Model::linear, bending = Model::bending,
-                  membrane = Model::membrane, planar = Model::planar;
+  constexpr Model spatial = Model::spatial, small = Model::small, linear = Model::linear,
+                  bending = Model::bending, membrane = Model::membrane, planar = Model::planar;
   static constexpr KernelCase<Real> cases[] = {
       {"paper_link_x", spatial, 26, 9, 118, S::case_paper_link_x},
       {"paper_link_y", spatial, 26, 9, 118, S::case_paper_link_y},

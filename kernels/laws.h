@@ -1,4 +1,5 @@
-/* The laws of motion over the operations of an algebra, which comes before. The order counts. */
+/* The laws of motion, in the operations of the algebra that the includer has included before. The
+ * order of these includes matters. */
 // clang-format off
 #include "kernels/link_force/link_force.h"
 #include "kernels/motion/motion.h"

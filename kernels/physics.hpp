@@ -1,22 +1,24 @@
 #pragma once
-/// The shared physics as C++: each model is the same headers over its own algebra, instantiated for a scalar or a pack
-/// of lanes.
+/// The shared physics as C++. Each model includes the same headers over its own algebra, for a
+/// scalar or for a pack of lanes.
+#include "kernels/model.hpp"
 #include "kernels/simd/simd.hpp"
-#include "solver/model/model.hpp"
 
 DSS_INLINE_BEGIN
 namespace dss {
 
-/// Compile-time switches: a term that is absent is not compiled in (DESIGN.md section 2).
+/// Compile-time switches. A term that is absent is not compiled in (DESIGN.md section 2).
 struct Terms {
-  bool is_material = false;   ///< material link law, else the paper's
-  bool is_damped = false;     ///< velocity-dependent link terms
-  bool is_bending = false;    ///< rotational stiffness in the paper's law (the material law always has it)
-  bool is_gyroscopic = false; ///< tensor inertia
+  bool is_material = false; ///< material link law, else the paper's law
+  bool is_damped = false;   ///< link terms that depend on velocities
+  /// Rotational stiffness in the paper's law; the material law always has it.
+  bool is_bending = false;
+  bool is_gyroscopic = false; ///< inertia is a tensor
   bool is_tied = false;       ///< stabilization
-  bool is_oblong = false;     ///< the model's edges differ (paper's law: a square's or cube's faces share constants)
+  /// Edges of an element differ. Used by the paper's law: equal edges share their constants.
+  bool is_oblong = false;
   constexpr bool has_couples() const { return is_material || is_damped || is_bending; }
-  /// Forces depend on velocities: leapfrog then carries a prediction of them.
+  /// True if forces depend on velocities. The leapfrog method then carries predicted velocities.
   constexpr bool is_velocity_dependent() const { return is_damped || is_gyroscopic || is_tied; }
   constexpr bool operator==(const Terms&) const = default;
   constexpr bool covers(const Terms& need) const {
@@ -26,12 +28,13 @@ struct Terms {
   }
 };
 
-// The shared headers have no include guards: each model includes them with its own algebra.
+// The shared headers have no include guards, because each model includes them with its own algebra.
 #define REAL Real
 #define FMA(a, b, c) simd::fma(a, b, c)
 #define SPLAT(a) Real(a)
 
-// Of each: numbers of an element; axes along which elements are linked; is_common: many runs take it, so that it is worth the compiler's time.
+// Each model: `fields` numbers an element; `axes` along which elements are linked; `is_common` if
+// many runs use the model, so that specialised code is worth its compile time.
 
 template <class Real>
 struct SpatialPhysics {
@@ -44,7 +47,7 @@ struct SpatialPhysics {
 #include "kernels/laws.h"
 #define STRESS
 #include "kernels/stress/stress.h"
-#include "kernels/cases.h"
+#include "kernels/case_functions.h"
 #undef STRESS
   // clang-format on
 #undef AXES
@@ -59,7 +62,7 @@ struct SmallPhysics {
   // clang-format off
 #include "kernels/algebra/small.h"
 #include "kernels/laws.h"
-#include "kernels/cases.h"
+#include "kernels/case_functions.h"
   // clang-format on
 #undef AXES
 };
@@ -74,7 +77,7 @@ struct LinearPhysics {
   // clang-format off
 #include "kernels/algebra/linear.h"
 #include "kernels/laws.h"
-#include "kernels/cases.h"
+#include "kernels/case_functions.h"
   // clang-format on
 #undef LINEAR
 #undef AXES
@@ -90,7 +93,7 @@ struct BendingPhysics {
   // clang-format off
 #include "kernels/algebra/bending.h"
 #include "kernels/laws.h"
-#include "kernels/cases.h"
+#include "kernels/case_functions.h"
   // clang-format on
 #undef LINEAR
 #undef AXES
@@ -107,7 +110,7 @@ struct MembranePhysics {
   // clang-format off
 #include "kernels/algebra/membrane.h"
 #include "kernels/laws.h"
-#include "kernels/cases.h"
+#include "kernels/case_functions.h"
   // clang-format on
 #undef LINEAR
 #undef PLANAR
@@ -124,7 +127,7 @@ struct PlanarPhysics {
   // clang-format off
 #include "kernels/algebra/planar.h"
 #include "kernels/laws.h"
-#include "kernels/cases.h"
+#include "kernels/case_functions.h"
   // clang-format on
 #undef PLANAR
 #undef AXES
@@ -149,7 +152,7 @@ struct AxialPhysics {
 #undef FMA
 #undef SPLAT
 
-/// action.operator()<Physics>() with the physics of a model.
+/// Calls action.operator()<Physics>() with the physics of a model.
 template <class Real, class Action>
 auto with_physics(Model model, Action&& action) {
   switch (model) {
@@ -171,7 +174,8 @@ auto with_physics(Model model, Action&& action) {
   return action.template operator()<SpatialPhysics<Real>>();
 }
 
-/// Calls visit(component) for each component of a vec, spin, rotor or element, in the order in which fields are stored.
+/// Calls visit(component) for each component of a vec, spin, rotor or element, in the order in
+/// which the fields are stored.
 template <class Tuple, class Visit>
 constexpr void each_component(Tuple& t, Visit&& visit) {
   if constexpr (requires { t.u; }) {
@@ -187,6 +191,7 @@ constexpr void each_component(Tuple& t, Visit&& visit) {
   }
 }
 
+/// Number of components of a vec, spin, rotor or element.
 template <class Tuple>
 constexpr int component_count() {
   Tuple t{};
@@ -195,7 +200,7 @@ constexpr int component_count() {
   return n;
 }
 
-/// Component by component combine(a, b).
+/// Returns combine(a, b), component by component.
 template <class Tuple, class Combine>
 inline Tuple each_pair(const Tuple& a, const Tuple& b, Combine&& combine) {
   Tuple r{};

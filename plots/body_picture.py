@@ -7,6 +7,7 @@ Example: plots/body_picture.py results/fields/l_bracket.pvd --output results/fig
 """
 import argparse
 import base64
+import functools
 import math
 import pathlib
 import sys
@@ -18,7 +19,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
-from report.pictures import drawn_now, save  # noqa: E402
+from render.check import Unreadable  # noqa: E402
+from render.pictures import drawn_now, save  # noqa: E402
 
 TYPES = {"Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
 # Corners of the faces of a VTK hexahedron, anticlockwise as seen from outside.
@@ -101,7 +103,7 @@ def write(figure, output):
 
 
 def draw(path, output, wanted):
-    """One state."""
+    """One state; returns the files written."""
     body = Body(path)
     magnification = magnification_of([body], wanted)
     highest, unit, label = scale_of([body])
@@ -115,6 +117,7 @@ def draw(path, output, wanted):
     axes.set_title(f"{len(body.stress)} elements; displacements x {magnification:.3g} (largest {body.largest:.3g} m)", fontsize=10)
     figure.colorbar(faces, ax=axes, label=label, extend="max")
     write(figure, output)
+    return [output]
 
 
 def states_of(series):
@@ -151,15 +154,14 @@ def draw_series(series, output, wanted):
     return [output, strip]
 
 
-def draw_all(fields, figures):
-    """A picture of each .pvd and of each .vtu that none of them lists; returns the files written."""
+def pictures_of(fields, figures):
+    """(file, function that draws it) of each .pvd, and of each .vtu that none of them lists."""
     series = sorted(fields.glob("*.pvd"))
     listed = {path for file in series for _, path in states_of(file)}
-    written = [output for file in series for output in draw_series(file, figures / f"{file.stem}.png", None)]
-    for path in sorted(set(fields.glob("*.vtu")) - listed):
-        written.append(figures / f"{path.stem}.png")
-        draw(path, written[-1], None)
-    return written
+    for path in series + sorted(set(fields.glob("*.vtu")) - listed):
+        draw_file = draw_series if path.suffix == ".pvd" else draw
+        output = figures / f"{path.stem}.png"
+        yield output, functools.partial(draw_file, path, output, None)
 
 
 def main():
@@ -172,11 +174,11 @@ def main():
         sys.exit(f"{arguments.file}: no such file; make it with `dssbench run SCENE --output FILE.vtu` (with --frames: FILE.pvd)")
     if arguments.file.suffix not in (".vtu", ".pvd"):
         sys.exit(f"{arguments.file}: neither a .vtu nor a .pvd")
-    if arguments.file.suffix == ".pvd":
-        print(*draw_series(arguments.file, arguments.output, arguments.magnification), sep="\n")
-    else:
-        draw(arguments.file, arguments.output, arguments.magnification)
-        print(arguments.output)
+    draw_file = draw_series if arguments.file.suffix == ".pvd" else draw
+    try:
+        print(*draw_file(arguments.file, arguments.output, arguments.magnification), sep="\n")
+    except Unreadable as fault:
+        sys.exit(str(fault))
 
 
 if __name__ == "__main__":

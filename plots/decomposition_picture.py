@@ -14,7 +14,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
-from report.pictures import drawn_now, save  # noqa: E402
+from render.check import Unreadable  # noqa: E402
+from render.pictures import drawn_now, save  # noqa: E402
 
 # Okabe and Ito: told apart with any colour vision. More parts repeat them, never beside each other if that can be.
 COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999")
@@ -139,7 +140,10 @@ def main():
     parser.add_argument("file", type=pathlib.Path, help="file of `dssbench decompose --output`")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help="PNG, SVG or PDF")
     arguments = parser.parse_args()
-    draw(read(arguments.file), arguments.output)
+    try:
+        draw(read(arguments.file), arguments.output)
+    except Unreadable as fault:
+        sys.exit(str(fault))
     print(arguments.output)
 
 

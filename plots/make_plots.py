@@ -1,63 +1,65 @@
 #!/usr/bin/python3
-"""All figures of a directory of results: a bar chart for each table, lines over ranks and over sizes where it has them, pictures of each .vtu and .pvd in fields/.
+"""All figures of a directory of results: the charts of its tables, and pictures of its bodies.
 
-Reads DIR/tables/*.csv and DIR/fields/, writes DIR/figures/. No solver runs.
+Reads DIR/tables, DIR/raw and DIR/fields, writes DIR/figures. No solver runs. Every figure is
+checked: one that a reader cannot read is an error, after all others are drawn.
 Example: plots/make_plots.py --results results
 """
 import argparse
+import functools
 import pathlib
 import sys
 
-import advice
-import balance_lines
 import body_picture
-import cluster_lines
-import continuum
-import error_budget
-import failure_atlas
-import figure9_lines
-import model_ladder
-import scaling_lines
-import speedup_bars
-import stability_map
-import statics
-import work_precision
+from charts import figures_of
+from render import pictures, png
+from render.check import Unreadable
+from tables.results import FAULTS, NotMeasured, Results
+
+
+def draw_figure(results, entries, output):
+    """The charts of one figure that can be made. @returns the file, or why there is none"""
+    charts, reasons = [], {}
+    for entry in entries:
+        try:
+            charts.append(entry.make(results))
+        except NotMeasured as reason:
+            reasons[f"{output.name}: {reason}"] = None
+    if not charts:
+        return list(reasons)
+    png.draw(charts, output, pictures.measured_by(results.directory, entries[0].table))
+    return [output]
+
+
+def draw_all(results):
+    """All figures. @returns the errors"""
+    figures, errors = results.directory / "figures", []
+    jobs = []
+    for name, entries in figures_of(results).items():
+        output = figures / f"{name}.png"
+        jobs.append((output, functools.partial(draw_figure, results, entries, output)))
+    for output, draw in [*jobs, *body_picture.pictures_of(results.directory / "fields", figures)]:
+        try:
+            print(*draw(), sep="\n")
+        except Unreadable as fault:
+            errors.append(str(fault))
+        except FAULTS as fault:
+            errors.append(f"{output} cannot be drawn: {type(fault).__name__}: {fault}")
+    return errors
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--results", type=pathlib.Path, default=pathlib.Path("results"), help="directory with tables/ and fields/")
-    arguments = parser.parse_args()
-    results = arguments.results
-    tables, fields = sorted((results / "tables").glob("*.csv")), results / "fields"
-    if not tables and not any(fields.glob("*.vtu")):
-        sys.exit(f"{results}: no tables/*.csv and no fields/*.vtu; run `dssbench experiment` first")
-    for table in tables:
-        output = results / "figures" / f"{table.stem}.png"
-        if table.stem.endswith("_simulated"):
-            print(cluster_lines.draw(table, output) or output)
-            continue
-        if table.stem in ("stability_energy", "stability_map"):  # drawn with stability.csv
-            continue
-        if stability_map.draw(table, results / "figures" / f"{table.stem}_map.png") is None:
-            print(results / "figures" / f"{table.stem}_map.png")
-            continue
-        if table.stem in ("kernels", "ceilings", "attribution", "chain"):  # charts of the report alone
-            continue
-        if table.stem.startswith("work_precision_"):  # what the chart shows already, in words
-            continue
-        if any(kind.draw(table, output) is None for kind in (advice, balance_lines, failure_atlas, continuum, statics, work_precision, error_budget, model_ladder)):
-            print(output)
-            continue
-        print(speedup_bars.draw(table, None, output) or output)
-        output = results / "figures" / f"{table.stem}_scaling.png"
-        if scaling_lines.draw(table, output) is None:  # most tables have no ranks
-            print(output)
-        output = results / "figures" / f"{table.stem}_figure9.png"
-        if figure9_lines.draw(table, output) is None:  # most tables have no plates of the paper's figure
-            print(output)
-    for output in body_picture.draw_all(fields, results / "figures"):
-        print(output)
+    parser.add_argument("--results", type=pathlib.Path, default=pathlib.Path("results"),
+                        help="directory with tables/ and fields/")
+    results = Results(parser.parse_args().results)
+    if not results.names() and not any((results.directory / "fields").glob("*.vtu")):
+        sys.exit(f"{results.directory}: no tables/*.csv and no fields/*.vtu; "
+                 "run `dssbench experiment` first")
+    errors = draw_all(results)
+    if errors:
+        sys.exit("\n".join(errors))
 
 
 if __name__ == "__main__":

@@ -10,12 +10,12 @@ import pathlib
 import re
 import sys
 
+from charts import CHARTS
+from render.pictures import revision
 from report import library, markdown, page, paper_tables, summary
-from report.age import Ages
-from report.charts import CHARTS
-from report.pictures import revision
-from report.results import FAULTS, ROOT, Lack, NotMeasured, Results, study_of
-from report.words import escaped, prose
+from tables.age import Ages
+from tables.results import FAULTS, ROOT, Lack, NotMeasured, Results, study_of
+from tables.words import escaped, prose
 
 MOST_BYTES = 10_000_000
 
@@ -81,10 +81,11 @@ def old_and_missing(missing, ages):
     return page.element("section", page.element("h2", "Old and missing") + content, id="old-and-missing")
 
 
-def chart_of(results, ages, plotly, name, title, table, make):
+def chart_of(results, ages, plotly, entry):
     """A chart and its section."""
-    chart = make(results)
-    return chart, page.chart_section(name, title, chart, ages.line(table), scale_of(results, ages, table), bool(plotly))
+    chart = entry.make(results)
+    return chart, page.chart_section(entry.name, entry.title, chart, ages.line(entry.table),
+                                     scale_of(results, ages, entry.table), bool(plotly))
 
 
 def build(results, plotly):
@@ -93,19 +94,19 @@ def build(results, plotly):
     grids = [(grid, ages.line(table), command_text(results, ages, table), "")
              for name, title, table, make in paper_tables.TABLES if (grid := attempt(missing, name, title, table, lambda: make(results)))]
     grids += other_grids(results, missing)
-    for name, title, table, make in CHARTS:
-        drawn = attempt(missing, name, title, table, lambda: chart_of(results, ages, plotly, name, title, table, make))
+    for entry in CHARTS:
+        drawn = attempt(missing, entry.name, entry.title, entry.table, lambda: chart_of(results, ages, plotly, entry))
         if drawn:
-            charts[name] = drawn[0]
+            charts[entry.name] = drawn[0]
         sections.append(drawn[1] if drawn else page.missing_section(missing[-1]))
-    drawn_later = {name for name, _, _, _ in CHARTS}
+    drawn_later = {entry.name for entry in CHARTS}
     sentences = summary.sentences(results, missing, ages)
     body = [page.element("section", page.element("h2", "Summary") + page.element("ol", "".join(page.element("li", prose(text)) for text in sentences), class_="summary"), id="summary"),
             old_and_missing(missing, ages), page.element("h2", "Tables of the paper", id="tables")]
     body += [page.grid_section(grid, age, page.element("code", escaped(made_by)), folder) for grid, age, made_by, folder in grids]
     body += [page.missing_section(lack) for lack in missing if lack.name not in drawn_later]
     body += [page.element("h2", "Charts", id="charts-of-studies"), *sections, page.pictures_section(results), page.environment_section(ages), page.tables_section(results, ages)]
-    contents = [("summary", "Summary"), ("old-and-missing", "Old and missing"), ("tables", "Tables 1-3")] + [(name, title) for name, title, _, _ in CHARTS]
+    contents = [("summary", "Summary"), ("old-and-missing", "Old and missing"), ("tables", "Tables 1-3")] + [(entry.name, entry.title) for entry in CHARTS]
     contents += [("pictures", "Pictures"), ("environment", "Environment"), ("all-tables", "All tables")]
     text = markdown.write(sentences, [grid[:3] for grid in grids], results.figures(), by_study(missing), ages)
     return page.assemble(origin_text(results, ages), contents, body, charts, plotly), text, missing
@@ -133,7 +134,7 @@ def main():
     html, text, missing = build(results, plotly_text(arguments.environment))
     size = len(html.encode("utf-8"))
     if size > MOST_BYTES:
-        sys.exit(f"{arguments.results}/report.html would have {size / 1e6:.1f} MB; at most {MOST_BYTES / 1e6:.0f} MB are allowed: thin out what plots/report/charts draws")
+        sys.exit(f"{arguments.results}/report.html would have {size / 1e6:.1f} MB; at most {MOST_BYTES / 1e6:.0f} MB are allowed: thin out what plots/charts draws")
     for name, content in (("report.html", html), ("REPORT.md", text)):
         unfinished = results.directory / f".{name}.new"
         unfinished.write_text(content, encoding="utf-8")

@@ -25,14 +25,19 @@ static std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
   const std::string list = fmt::format("known: {}", fmt::join(known, ", "));
-  const auto suggest = [&](const std::string& one) { return fmt::format("did you mean \"{}\"? {}", one, list); };
-  const auto whole = std::find_if(known.begin(), known.end(),
-                                  [&](const std::string& one) { return name.size() > 1 && one.starts_with(name); });
-  if (whole != known.end()) return suggest(*whole);
-  const auto best = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(name, a) < edit_distance(name, b);
+  const auto suggest = [&](const std::string& one) {
+    return fmt::format("did you mean \"{}\"? {}", one, list);
+  };
+  const auto whole = std::find_if(known.begin(), known.end(), [&](const std::string& one) {
+    return name.size() > 1 && one.starts_with(name);
   });
-  if (best == known.end() || edit_distance(name, *best) > std::max<std::size_t>(2, name.size() / 2)) return list;
+  if (whole != known.end()) return suggest(*whole);
+  const auto best =
+      std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+        return edit_distance(name, a) < edit_distance(name, b);
+      });
+  if (best == known.end() || edit_distance(name, *best) > std::max<std::size_t>(2, name.size() / 2))
+    return list;
   return suggest(*best);
 }
 

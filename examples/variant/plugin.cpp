@@ -1,20 +1,22 @@
-/// The variant `wider`: every problem in the next wider numbers than asked for, double for f32 and long double for f64,
-/// so that what it differs by from other variants is their rounding. The oracle, which is in the solver's library, does
-/// the computing; a variant of your own does it here.
+/// The variant `wider`: computes every problem in wider numbers than asked for, double for f32 and
+/// long double for f64. Its difference to other variants is their rounding error. The oracle of the
+/// solver's library computes here; in a variant of your own, your code does.
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
-#include "variants/tried_steps.hpp"
+#include "variants/api/tried_steps.hpp"
 
 namespace {
 
 template <class T>
-class WiderExecutor final : public dss::Executor {
+class WiderExecutor final : public dss::Executor, public dss::StepTrials {
 public:
   explicit WiderExecutor(const dss::Setup& setup)
       : setup_(setup), oracle_(setup.problem, setup.method, setup.dt, rotation_of(setup.model)),
         row_width_(dss::signal_count(setup.problem)), stages_(setup.method.stages) {}
 
-  void write(std::size_t first, std::span<const double> fields) override { oracle_.write(fields, first); }
+  void write(std::size_t first, std::span<const double> fields) override {
+    oracle_.write(fields, first);
+  }
   void read(std::size_t first, std::span<double> fields) override { oracle_.read(fields, first); }
   void derivative(std::span<const double> signals, std::span<double> rates) override {
     oracle_.derivative(signals, rates);
@@ -27,6 +29,7 @@ public:
     if (breakdown) return {false, breakdown->step, breakdown->element, breakdown->what};
     return {true, steps, 0};
   }
+  dss::StepTrials* step_trials() override { return this; }
   dss::StepMaxima try_step(double dt, std::span<const double> signals) override {
     return oracle_.try_step(dt, signals);
   }

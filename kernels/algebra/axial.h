@@ -1,5 +1,7 @@
-/* Algebra of the axial model in the shared subset: motions along x alone, of elements that are linked along x alone and do not turn. Vectors have
- * the component x; spins and rotors have none, and since a struct is not empty in C, hold a number that nothing reads. */
+/* Algebra of the axial model (shared subset). Elements are linked along x, move along x and do not
+ * turn. A vector has only the component x. Spins and rotors have no components. They hold one
+ * number that nothing reads, because C has no empty struct. space.h and spatial.h explain the
+ * operations. */
 
 typedef struct {
   REAL x;
@@ -55,7 +57,7 @@ static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
   vec r = {SPLAT(0)};
   return r;
 }
-typedef spin lever; /* along the force, always */
+typedef spin lever; /* the lever is parallel to the force: no moment */
 static inline lever lever_of(vec turn, const int axis, REAL half_edge) {
   (void)turn;
   (void)axis;
@@ -74,7 +76,9 @@ static inline spin lever_moment(lever a, const int axis, vec f, spin t) {
   (void)f;
   return t;
 }
-static inline spin lever_cross(lever a, const int axis, vec f) { return lever_moment(a, axis, f, spin_zero()); }
+static inline spin lever_cross(lever a, const int axis, vec f) {
+  return lever_moment(a, axis, f, spin_zero());
+}
 
 static inline vec vec_principal(vec a, const int axis, REAL across, REAL along) {
   vec r = {axis == 0 ? FMA(along, a.x, across * a.x) : across * a.x};

@@ -1,5 +1,6 @@
-/* Algebra of the bending model in the shared subset: linear.h restricted to the deflection out of a plane z = const and the rotations about axes in
- * it. Vectors have the component z, spins and rotors x and y; operations and their meaning as there. */
+/* Algebra of the bending model (shared subset): linear.h restricted to the deflection uz and the
+ * rotations about x and y. A vector has the component z; spins and rotors have x and y. space.h and
+ * spatial.h explain the operations. */
 
 typedef struct {
   REAL z;
@@ -72,7 +73,7 @@ static inline spin lever_cross(lever a, const int axis, vec f) {
   return r;
 }
 
-/* Links lie in the plane: the deflection is across them. */
+/* All links lie in the plane, so the deflection is always across the link. */
 static inline vec vec_principal(vec a, const int axis, REAL across, REAL along) {
   (void)axis;
   (void)along;

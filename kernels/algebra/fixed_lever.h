@@ -1,4 +1,5 @@
-/* Levers of elements whose arms stay as they are at rest: along their axis, so that a length is all. */
+/* Levers of the linear models. The arm keeps its direction at rest, along the axis, so its length
+ * [m] is enough. */
 typedef REAL lever;
 static inline lever lever_of(vec turn, const int axis, REAL half_edge) {
   (void)turn;

@@ -1,5 +1,6 @@
-/* Algebra of the linear model in the shared subset: small.h with arms that stay as they are at rest, so that forces are linear in the state.
- * Includers define LINEAR, which makes the material law linear too (kernels/link_force/link_force.h). */
+/* Algebra of the linear model (shared subset): small.h with arms that keep their direction at rest,
+ * so forces are linear in the state. The includer defines LINEAR, which makes the material law
+ * linear too (kernels/link_force/link_force.h). */
 #include "kernels/algebra/rotation_vector.h"
 
 #include "kernels/algebra/fixed_lever.h"
@@ -55,7 +56,7 @@ static inline spin spin_principal(spin a, REAL z, REAL xz, REAL yz) {
   return r;
 }
 
-/* J^-1 t with J = diag(inertia): the gyroscopic term is of second order. */
+/* J^-1 t with J = diag(inertia). The gyroscopic term is of second order and left out. */
 static inline spin spin_euler(spin t, spin w, rotor q, spin inertia, spin inverse_inertia) {
   (void)w;
   (void)q;

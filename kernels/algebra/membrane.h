@@ -1,5 +1,6 @@
-/* Algebra of the membrane model in the shared subset: linear.h restricted to displacements in a plane z = const and rotations about its normal, as
- * bending.h is to those out of it. Vectors have the components x and y, spins and rotors z; operations and their meaning as there. */
+/* Algebra of the membrane model (shared subset): linear.h restricted to the displacements ux, uy
+ * and the rotation about z. A vector has the components x and y; spins and rotors have z. space.h
+ * and spatial.h explain the operations. */
 
 #include "kernels/algebra/plane.h"
 
@@ -68,7 +69,7 @@ static inline rotor rotor_cayley(rotor q, spin b) {
   rotor r = {FMA(SPLAT(2), b.z, q.z)};
   return r;
 }
-/* The axis of rotation is a principal axis: no gyroscopic term. */
+/* The axis of rotation is a principal axis, so there is no gyroscopic term. */
 static inline spin spin_euler(spin t, spin w, rotor q, spin inertia, spin inverse_inertia) {
   (void)w;
   (void)q;

@@ -1,6 +1,6 @@
-/* Algebra of the planar model in the shared subset: spatial.h restricted to motions in the plane z = const, where it is
- * exact. Vectors have two components, a spin is the one about z, a rotor is (1 + s, 0, 0, z). Operations and their
- * meaning as there. */
+/* Algebra of the planar model (shared subset): spatial.h restricted to motion in a plane z = const.
+ * It is exact for such motion. A vector has the components x and y, a spin has z, and a rotor is
+ * the quaternion (1 + s, 0, 0, z). space.h and spatial.h explain the operations. */
 
 #include "kernels/algebra/plane.h"
 
@@ -29,7 +29,9 @@ static inline spin rotor_relative(rotor i, rotor j) {
   spin r = {FMA(j.z, i0, -(j0 * i.z))};
   return r;
 }
-static inline REAL rotor_relative_s(rotor i, rotor j) { return FMA(i.s, j.s, i.s + j.s) + i.z * j.z; }
+static inline REAL rotor_relative_s(rotor i, rotor j) {
+  return FMA(i.s, j.s, i.s + j.s) + i.z * j.z;
+}
 static inline spin rotor_vector(rotor q) {
   spin r = {q.z};
   return r;
@@ -43,7 +45,8 @@ static inline rotor rotor_spun(rotor q, spin w) {
   return r;
 }
 static inline rotor rotor_cayley_change(rotor q, spin b) {
-  REAL q0 = q.s + SPLAT(1), n2 = spin_norm2(b), c = SPLAT(2) / (SPLAT(1) + n2), ds = -(c * n2), d = c * b.z;
+  REAL q0 = q.s + SPLAT(1), n2 = spin_norm2(b), c = SPLAT(2) / (SPLAT(1) + n2), ds = -(c * n2),
+       d = c * b.z;
   rotor r = {FMA(ds, q0, -(d * q.z)), FMA(ds, q.z, d * q0)};
   return r;
 }
@@ -53,7 +56,7 @@ static inline rotor rotor_cayley(rotor q, spin b) {
   return r;
 }
 
-/* The axis of rotation is a principal axis: no gyroscopic term. */
+/* The axis of rotation is a principal axis, so there is no gyroscopic term. */
 static inline spin spin_euler(spin t, spin w, rotor q, spin inertia, spin inverse_inertia) {
   (void)w;
   (void)q;

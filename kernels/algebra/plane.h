@@ -1,4 +1,5 @@
-/* Vectors in the plane z = const and spins about its normal, of models that move in it alone. Operations and their meaning as in space.h. */
+/* Vectors in the plane z = const and spins about z, for the models that move in that plane. space.h
+ * explains the operations. */
 
 typedef struct {
   REAL x, y;
@@ -51,8 +52,7 @@ static inline spin spin_axpy(REAL k, spin a, spin b) {
   return r;
 }
 static inline REAL spin_norm2(spin a) { return a.z * a.z; }
-/* A spin about z has no part along a direction in the plane, and turns none into another spin: the twist terms vanish.
- */
+/* A spin about z has no component along a direction in the plane, so the twist terms vanish. */
 static inline REAL spin_dot(spin a, vec n) {
   (void)a;
   (void)n;
@@ -86,8 +86,9 @@ static inline spin vec_moment(vec a, vec f, spin t) {
   return r;
 }
 
-/* By a right angle, counter-clockwise and back. In the plane a face of the y axis is a face of the x axis turned so (and
- * scaled by the ratio of the edges), and turned(a) x f = a x turned_back(f). */
+/* Turn a vector by +90 degrees, and back by -90 degrees. In the plane, a face on the y axis is a
+ * face on the x axis turned by +90 degrees and scaled by the ratio of the edges. The moments follow
+ * from turned(a) x f = a x turned_back(f). */
 static inline vec vec_turned(vec a) {
   vec r = {-a.y, a.x};
   return r;

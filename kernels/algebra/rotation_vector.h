@@ -1,5 +1,5 @@
-/* Rotors of small rotations in space: r, half the rotation vector, which is what the vector part of a quaternion is to first order. Rotations add up,
- * and A = I + 2 [r]x. */
+/* Rotors of small rotations in space: r is half the rotation vector. To first order r is the vector
+ * part of the quaternion. Rotations add up, and A = I + 2 [r]x. */
 #include "kernels/algebra/space.h"
 
 typedef struct {
@@ -20,7 +20,7 @@ static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
   }
 }
 
-/* The rotation from i to j; its s is of second order. */
+/* Rotation from i to j. The scalar part s is of second order, so it is zero here. */
 static inline spin rotor_relative(rotor i, rotor j) {
   spin r = {j.x - i.x, j.y - i.y, j.z - i.z};
   return r;
@@ -42,7 +42,7 @@ static inline rotor rotor_spun(rotor q, spin w) {
   rotor r = {w.x, w.y, w.z};
   return r;
 }
-/* The change of r by a rotation vector of 4 b. */
+/* Change of r by the rotation vector 4 b. */
 static inline rotor rotor_cayley_change(rotor q, spin b) {
   (void)q;
   rotor r = {SPLAT(2) * b.x, SPLAT(2) * b.y, SPLAT(2) * b.z};

@@ -1,5 +1,7 @@
-/* Algebra of the model of small rotations in the shared subset: spatial.h with rotation vectors in place of quaternions, A = I + [theta]x, exact
- * to first order in them. Arms turn, and products with forces and velocities are kept. Inertia stays in the axes of the frame. */
+/* Algebra of the small model (shared subset): spatial.h with rotation vectors in place of
+ * quaternions, A = I + [theta]x, exact to first order in theta. Arms turn with the element.
+ * Products of a rotation with forces or velocities are kept. The inertia stays in the axes of the
+ * frame. */
 #include "kernels/algebra/rotation_vector.h"
 #include "kernels/algebra/turning_lever.h"
 

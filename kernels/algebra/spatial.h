@@ -1,14 +1,15 @@
-/* Algebra of the spatial model in the shared subset: vectors and spins have three components, a rotor is a unit
- * quaternion. Words from the includer: REAL, FMA(a, b, c) = a * b + c, SPLAT(scalar). The laws of motion are written in
- * these operations alone (kernels/README.md), so a model is an algebra: the others are the same list. */
+/* Algebra of the spatial model (shared subset). Vectors and spins have three components; a rotor is
+ * a unit quaternion. A model is an algebra: the laws of motion use only these operations, and every
+ * other algebra defines the same list (kernels/README.md). The includer defines the words REAL,
+ * FMA(a, b, c) = a * b + c and SPLAT(scalar). */
 #include "kernels/algebra/space.h"
 
 typedef struct {
   REAL s, x, y, z;
-} rotor; /* unit quaternion (1 + s, x, y, z): the rest state is all zeros */
+} rotor; /* unit quaternion (1 + s, x, y, z); all zeros at rest */
 
-/* (A - I) (edge / 2) e_axis: how far the rotation moves the centre of a face. Column of A - I = 2 (q0 [r]x + [r]x^2).
- */
+/* (A - I) (edge / 2) e_axis: displacement of a face's centre by the rotation. It is a column of
+ * A - I = 2 (q0 [r]x + [r]x^2). */
 static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
   REAL q0 = q.s + SPLAT(1);
   if (axis == 0) {
@@ -25,14 +26,15 @@ static inline vec rotor_turn(rotor q, const int axis, REAL edge) {
     return r;
   }
 }
-/* A e_axis */
+/* A e_axis: direction of a body axis in the global frame */
 static inline vec rotor_column(rotor q, const int axis) {
   return vec_along(rotor_turn(q, axis, SPLAT(2)), axis, SPLAT(1));
 }
 
 #include "kernels/algebra/turning_lever.h"
 
-/* Vector part and s of p = q_j conj(q_i), the rotation from i to j in global axes. */
+/* Vector part of p = q_j conj(q_i), the rotation from i to j in global axes; then its
+ * s = p0 - 1. */
 static inline spin rotor_relative(rotor i, rotor j) {
   REAL i0 = i.s + SPLAT(1), j0 = j.s + SPLAT(1);
   spin r = {FMA(j.x, i0, FMA(-j0, i.x, FMA(j.z, i.y, -(j.y * i.z)))),
@@ -43,30 +45,32 @@ static inline spin rotor_relative(rotor i, rotor j) {
 static inline REAL rotor_relative_s(rotor i, rotor j) {
   return FMA(i.s, j.s, i.s + j.s) + FMA(i.x, j.x, FMA(i.y, j.y, i.z * j.z));
 }
-/* Vector part of a rotor: half the rotation vector where the rotation is small. */
+/* Vector part of a rotor: half the rotation vector if the rotation is small. */
 static inline spin rotor_vector(rotor q) {
   spin r = {q.x, q.y, q.z};
   return r;
 }
 
-/* A component that is not finite if the rotor is not. */
+/* One component that is not finite if the rotor is not. */
 static inline REAL rotor_sign_of_life(rotor q) { return q.s; }
 
-/* w q = 2 q', w in global axes */
+/* w q = 2 q', with w in global axes */
 static inline rotor rotor_spun(rotor q, spin w) {
   REAL q0 = q.s + SPLAT(1);
-  rotor r = {FMA(-w.x, q.x, FMA(-w.y, q.y, -(w.z * q.z))), FMA(w.x, q0, FMA(w.y, q.z, -(w.z * q.y))),
-             FMA(w.y, q0, FMA(w.z, q.x, -(w.x * q.z))), FMA(w.z, q0, FMA(w.x, q.y, -(w.y * q.x)))};
+  rotor r = {FMA(-w.x, q.x, FMA(-w.y, q.y, -(w.z * q.z))),
+             FMA(w.x, q0, FMA(w.y, q.z, -(w.z * q.y))), FMA(w.y, q0, FMA(w.z, q.x, -(w.x * q.z))),
+             FMA(w.z, q0, FMA(w.x, q.y, -(w.y * q.x)))};
   return r;
 }
-/* dq q with dq = (1 - |b|^2, 2 b) / (1 + |b|^2): the Cayley map of the spin 4 b, a rotation by 4 atan |b| that keeps
- * |q| = 1; and what it changes of q */
+/* Cayley map: dq q with dq = (1 - |b|^2, 2 b) / (1 + |b|^2), a rotation by 4 atan |b| about b that
+ * keeps |q| = 1. rotor_cayley_change gives dq q - q, rotor_cayley gives dq q. */
 static inline rotor rotor_cayley_change(rotor q, spin b) {
   REAL q0 = q.s + SPLAT(1), n2 = spin_norm2(b), c = SPLAT(2) / (SPLAT(1) + n2), ds = -(c * n2);
   spin d = spin_scale(c, b);
-  rotor r = {
-      FMA(ds, q0, -FMA(d.x, q.x, FMA(d.y, q.y, d.z * q.z))), FMA(ds, q.x, FMA(d.x, q0, FMA(d.y, q.z, -(d.z * q.y)))),
-      FMA(ds, q.y, FMA(d.y, q0, FMA(d.z, q.x, -(d.x * q.z)))), FMA(ds, q.z, FMA(d.z, q0, FMA(d.x, q.y, -(d.y * q.x))))};
+  rotor r = {FMA(ds, q0, -FMA(d.x, q.x, FMA(d.y, q.y, d.z * q.z))),
+             FMA(ds, q.x, FMA(d.x, q0, FMA(d.y, q.z, -(d.z * q.y)))),
+             FMA(ds, q.y, FMA(d.y, q0, FMA(d.z, q.x, -(d.x * q.z)))),
+             FMA(ds, q.z, FMA(d.z, q0, FMA(d.x, q.y, -(d.y * q.x))))};
   return r;
 }
 static inline rotor rotor_cayley(rotor q, spin b) {
@@ -75,8 +79,8 @@ static inline rotor rotor_cayley(rotor q, spin b) {
   return r;
 }
 
-/* Angular acceleration J^-1 (t - w x J w) of a box with principal moments inertia about its own axes, J = A
- * diag(inertia) A^T. */
+/* Euler's equation: angular acceleration J^-1 (t - w x J w) of a box, J = A diag(inertia) A^T.
+ * `inertia` holds the principal moments about the box's own axes. */
 static inline spin spin_euler(spin t, spin w, rotor q, spin inertia, spin inverse_inertia) {
   vec cx = rotor_column(q, 0), cy = rotor_column(q, 1), cz = rotor_column(q, 2);
   spin wb = {spin_dot(w, cx), spin_dot(w, cy), spin_dot(w, cz)},

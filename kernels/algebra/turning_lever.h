@@ -1,7 +1,10 @@
-/* Levers of elements that turn: the arm a = A c from a centre to the centre of a face, as a vector; `turn` is (A - I) c. */
+/* Levers of elements that turn: the arm a = A c from the centre of an element to the centre of a
+ * face. `turn` is (A - I) c. */
 typedef vec lever;
-static inline lever lever_of(vec turn, const int axis, REAL half_edge) { return vec_along(turn, axis, half_edge); }
-/* t + w x a; a x f; t + a x f */
+static inline lever lever_of(vec turn, const int axis, REAL half_edge) {
+  return vec_along(turn, axis, half_edge);
+}
+/* lever_rate: t + w x a; lever_cross: a x f; lever_moment: t + a x f */
 static inline vec lever_rate(spin w, lever a, const int axis, vec t) {
   (void)axis;
   return spin_cross_add(w, a, t);

@@ -1,19 +1,23 @@
-/* Motion of one element (DESIGN.md section 2): from the total force and moment on it to what the update needs.
+/* Motion of one element (DESIGN.md section 2), from its total force and moment:
  *   u' = v,   v' = force / m,   q' = w q / 2,   w' = turn / I
- * The factors 1/m, 1/2 and 1/I meet the step's factor in the update's constants (kernels/rk_update), never in the loop. */
+ * The constants of the update (kernels/rk_update) hold the factors 1/m, 1/2 and 1/I times the step,
+ * so the loop does not multiply by them. */
 
-/* What w' is proportional to: the moment itself where the inertia is a scalar I (a cube), else w' by Euler's equation,
- * with I = 1. */
-static inline spin turn(spin moment, element e, spin inertia, spin inverse_inertia, const int is_gyroscopic) {
+/* `turn` is proportional to w'. It is the moment if the inertia is a scalar I (a cube). Otherwise
+ * it is w' from Euler's equation, and I = 1. */
+static inline spin turn(spin moment, element e, spin inertia, spin inverse_inertia,
+                        const int is_gyroscopic) {
   if (is_gyroscopic) return spin_euler(moment, e.w, e.q, inertia, inverse_inertia);
   return moment;
 }
 
 typedef struct {
   REAL k, d, k2_rot, d_rot;
-} tie_law; /* stabilization: [N/m], [N s/m], twice k_rot [N m/rad], [N m s/rad] */
+  /* Stabilization constants: k [N/m], d [N s/m], k2_rot twice k_rot [N m/rad], d_rot [N m s/rad] */
+} tie_law;
 
-/* Stabilization s(y', y): springs and dampers between the element and the frame, added to its force and moment. */
+/* Stabilization s(y', y): springs and dampers between element and frame. Each function adds its
+ * part to the element's force or moment. */
 static inline vec tie_force(element e, tie_law tie, vec force) {
   return vec_axpy(-tie.k, e.u, vec_axpy(-tie.d, e.v, force));
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// What a stage does with the force and the turn of a pack (kernels/motion/motion.h), for every family of methods. Passed to
-/// StageRow::run; turn_scale: w' over turn.
+/// What each action does with the force and the turn of a pack (kernels/motion/motion.h), for every
+/// family of methods. StageRow::run calls it for each pack. turn_scale is w' divided by turn.
 #include "kernels/physics.hpp"
 #include "kernels/stage_row/row.hpp"
 
@@ -9,7 +9,8 @@
 DSS_INLINE_BEGIN
 namespace dss {
 
-/// Notices lanes that stop being finite at one multiply-add a component: 0 * x is 0 unless x is infinite or NaN.
+/// Detects lanes that become infinite or NaN, at one multiply-add a component: 0 * x is 0 unless x
+/// is infinite or NaN.
 template <class R, class T>
 struct FiniteCheck {
   R sum = R(T(0));
@@ -21,25 +22,32 @@ struct FiniteCheck {
   bool passed() const { return simd::is_zero(sum); }
 };
 
-/// What an update has in place of one action. In line, the actions that few runs take are most of a row's code and of the time to compile it. Rows that many
-/// runs take have them so, in a function of their own (a call costs 7 to 16 %); in other rows they are one function apart, for all terms.
-inline constexpr int any_action = -1;   ///< all: the usual ones in line, the rare ones apart
-inline constexpr int rare_action = -2;  ///< all that common rows have no function of their own for
-inline constexpr int apart_action = -3; ///< the rare ones
+/// Values of fixed_action besides a single action. The rare actions would be most of a row's code
+/// and of its compile time if they were inlined. Common rows (many runs use them) have one function
+/// for each common action and one function with the rest inlined (rare_action). Other rows call one
+/// noinline function for the rare actions (apart_action), shared by all terms.
+inline constexpr int any_action = -1;   ///< all: common actions inlined, rare ones called
+inline constexpr int rare_action = -2;  ///< all without a function of their own in common rows
+inline constexpr int apart_action = -3; ///< only the rare ones
+/// True for actions that few runs use.
 constexpr bool is_rare(row_action action) {
-  return action != plain_stage && action != combined_stage && action != leapfrog_step && action != predicted_step;
+  return action != plain_stage && action != combined_stage && action != leapfrog_step &&
+         action != predicted_step;
 }
 
 DSS_INLINE_END
-/// One pack's update by an action that is apart. Returns 0, or NaN if it left a velocity that is not finite.
+/// Updates one pack by a rare action. Returns 0, or NaN if a velocity is not finite.
 template <class P, class T, int W>
-[[gnu::noinline]] typename P::real update_apart(const RowTask<T>& task, T scale_of_turn, std::ptrdiff_t at,
-                                                const typename P::element& e, const typename P::vec& force,
+[[gnu::noinline]] typename P::real update_apart(const RowTask<T>& task, T scale_of_turn,
+                                                std::ptrdiff_t at, const typename P::element& e,
+                                                const typename P::vec& force,
                                                 const typename P::spin& turn);
 DSS_INLINE_BEGIN
 
-/// The action of a task on one pack after the other, as rk_update.h computes it. W: numbers from a component of a pack to the next.
-/// fixed_action: the one action of all tasks, which saves a branch a pack; or a set of actions, of which the task says which.
+/// Applies the action of a task to one pack after the other (formulas: rk_update.h).
+/// @tparam W  numbers from a component of a pack to the next
+/// @tparam fixed_action  the one action of all tasks, which saves a branch a pack; or a set of
+///     actions (any_action, ...), and the task selects one of them
 template <class P, class T, int W = simd::lanes<T>, int fixed_action = any_action>
 class RowUpdate {
 public:
@@ -50,11 +58,14 @@ public:
   using element = typename P::element;
 
   explicit RowUpdate(const RowTask<T>& task, T scale_of_turn)
-      : task_(task), action_(is_fixed ? row_action(fixed_action) : task.action), is_last_(task.is_last),
-        base_(task.base), increment_{task.increment[0], task.increment[1], task.increment[2]}, out_(task.out),
-        low_(task.low), alpha_{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])}, beta_u_(task.beta),
-        beta_v_(task.beta * task.body->inverse_mass), beta_q_(task.beta * T(0.5)), beta_w_(task.beta * scale_of_turn),
-        smoothing_(task.alpha[0]), ahead_(task.alpha[1] * task.beta), inverse_mass_(task.body->inverse_mass),
+      : task_(task), action_(is_fixed ? row_action(fixed_action) : task.action),
+        is_last_(task.is_last),
+        base_(task.base), increment_{task.increment[0], task.increment[1], task.increment[2]},
+        out_(task.out),
+        low_(task.low), alpha_{R(task.alpha[0]), R(task.alpha[1]), R(task.alpha[2])},
+        beta_u_(task.beta), beta_v_(task.beta * task.body->inverse_mass),
+        beta_q_(task.beta * T(0.5)), beta_w_(task.beta * scale_of_turn), smoothing_(task.alpha[0]),
+        ahead_(task.alpha[1] * task.beta), inverse_mass_(task.body->inverse_mass),
         turn_scale_(scale_of_turn) {}
 
   void operator()(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
@@ -69,15 +80,18 @@ public:
 
 private:
   static constexpr bool is_fixed = fixed_action >= 0;
-  static constexpr bool is_compensated = sizeof(T) <= sizeof(float); ///< double precision needs no low parts
+  static constexpr bool is_compensated =
+      sizeof(T) <= sizeof(float); ///< double precision needs no low parts
   static constexpr bool has(row_action action) {
     if (is_fixed) return action == fixed_action;
     if (fixed_action == any_action) return !is_rare(action);
     if (fixed_action == apart_action) return is_rare(action);
-    return action != plain_stage && action != combined_stage && action != kept_stage && action != kept_step;
+    return action != plain_stage && action != combined_stage && action != kept_stage &&
+           action != kept_step;
   }
 
-  /// By value: of what is passed on no address may be taken in line, or it had to be in memory for the usual actions too.
+  /// Passed by value: taking an address would force the operands into memory for common actions
+  /// too.
   R act_apart(std::ptrdiff_t at, element e, vec force, spin turn) const {
     return update_apart<P, T, W>(task_, turn_scale_, at, e, force, turn);
   }
@@ -85,19 +99,22 @@ private:
     switch (is_fixed ? row_action(fixed_action) : action_) {
     case plain_stage:
       if constexpr (has(plain_stage))
-        return runge_kutta(at, e, force, turn,
-                           [&](std::ptrdiff_t n, R beta, R rate) { return P::rk_first(load(base_ + n), beta, rate); });
+        return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
+          return P::rk_first(load(base_ + n), beta, rate);
+        });
       break;
     case combined_stage:
       if constexpr (has(combined_stage))
         return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
-          return P::rk_combined(load(base_ + n), beta, rate, load(increment_[0] + n), load(increment_[1] + n),
-                                load(increment_[2] + n), alpha_[0], alpha_[1], alpha_[2]);
+          return P::rk_combined(load(base_ + n), beta, rate, load(increment_[0] + n),
+                                load(increment_[1] + n), load(increment_[2] + n), alpha_[0],
+                                alpha_[1], alpha_[2]);
         });
       break;
     case wide_stage:
       if constexpr (has(wide_stage))
-        return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) { return wide(n, beta, rate); });
+        return runge_kutta(at, e, force, turn,
+                           [&](std::ptrdiff_t n, R beta, R rate) { return wide(n, beta, rate); });
       break;
     case error_stage:
       if constexpr (has(error_stage))
@@ -107,8 +124,9 @@ private:
       break;
     case kept_error:
       if constexpr (has(kept_error) && is_compensated)
-        return runge_kutta(at, e, force, turn,
-                           [&](std::ptrdiff_t n, R beta, R rate) { return kept_wide(n, beta, rate); });
+        return runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
+          return kept_wide(n, beta, rate);
+        });
       break;
     case leapfrog_step:
       if constexpr (has(leapfrog_step)) return leapfrog(at, e, e.v, e.w, force, turn, false);
@@ -120,10 +138,12 @@ private:
       }
       break;
     case kept_stage:
-      if constexpr (has(kept_stage) && is_compensated) return kept_runge_kutta<false>(at, e, force, turn);
+      if constexpr (has(kept_stage) && is_compensated)
+        return kept_runge_kutta<false>(at, e, force, turn);
       break;
     case kept_step:
-      if constexpr (has(kept_step) && is_compensated) return kept_runge_kutta<true>(at, e, force, turn);
+      if constexpr (has(kept_step) && is_compensated)
+        return kept_runge_kutta<true>(at, e, force, turn);
       break;
     case kept_leapfrog:
     case kept_predicted:
@@ -133,7 +153,8 @@ private:
     default:
       break;
     }
-    check.add_one(R(std::numeric_limits<T>::quiet_NaN())); // what is not compiled must not pass
+    // An action that is not compiled must fail the check.
+    check.add_one(R(std::numeric_limits<T>::quiet_NaN()));
   }
   static R load(const T* p) { return simd::load(p); }
   template <class Tuple>
@@ -147,9 +168,10 @@ private:
     each_component(t, [&](R& c) { simd::store(p, c), p += W; });
   }
 
-  /// next(place, beta, rate) gives what a component becomes.
+  /// next(place, beta, rate) returns the new value of a component.
   template <class Next>
-  void runge_kutta(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn, Next&& next) {
+  void runge_kutta(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn,
+                   Next&& next) {
     const auto each = [&](R beta, auto rates) {
       each_component(rates, [&](R& k) {
         k = next(at, beta, k);
@@ -176,12 +198,14 @@ private:
     return t;
   }
 
-  /// Leaves the increment, or of a last stage the state's low part, behind the field.
+  /// Stores the increment behind the field. The last stage stores the state's low part there
+  /// instead.
   template <bool is_step>
   void kept_runge_kutta(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
     const auto with = [&](auto&& increment) {
       runge_kutta(at, e, force, turn, [&](std::ptrdiff_t n, R beta, R rate) {
-        const R d = increment(n, beta, rate), y = load(base_ + n), s = load(base_ + low_ + n) + d, sum = y + s;
+        const R d = increment(n, beta, rate), y = load(base_ + n), s = load(base_ + low_ + n) + d,
+                sum = y + s;
         simd::store(out_ + low_ + n, is_step ? P::lost_of_sum(y, s, sum) : d);
         return sum;
       });
@@ -215,10 +239,11 @@ private:
     return half;
   }
 
-  /// One step in place. With velocity-dependent forces the fields v and w of a row hold the prediction p that the links
-  /// see, and the half-step velocities follow the 13 (7) fields of the pack; without them v and w are the velocities themselves.
-  void leapfrog(std::ptrdiff_t at, const element& e, const vec& v_half, const spin& w_half, const vec& force,
-                const spin& turn, bool is_predicted) {
+  /// One step in place. If forces depend on velocities, the fields v and w of a row hold the
+  /// prediction p that the links see, and the half-step velocities follow the pack's fields.
+  /// Otherwise v and w are the half-step velocities.
+  void leapfrog(std::ptrdiff_t at, const element& e, const vec& v_half, const spin& w_half,
+                const vec& force, const spin& turn, bool is_predicted) {
     T* p = out_ + at;
     const auto next = P::leapfrog(e, v_half, w_half, P::vec_scale(inverse_mass_, force),
                                   P::spin_scale(R(turn_scale_), turn), beta_u_, smoothing_, ahead_);
@@ -232,11 +257,11 @@ private:
     }
     check.add(next.v_half);
     check.add(next.w_half);
-    check.add_one(
-        P::rotor_sign_of_life(next.q)); // the Cayley map squares what it turns by, which may leave the range first
+    // The Cayley map squares its argument, so q may overflow before w does.
+    check.add_one(P::rotor_sign_of_life(next.q));
   }
 
-  /// Sums y + (low + d), and their low parts, component by component.
+  /// Sums y + (low + d) and their low parts, component by component.
   template <class Tuple>
   struct Sum {
     Tuple value, low;
@@ -246,7 +271,8 @@ private:
       low = each_pair(y, s, [](const R& a, const R& b) { return P::lost_of_sum(a, b, a + b); });
     }
   };
-  /// The same with low parts of u, velocities, q and spins behind all else, in the order of the fields.
+  /// Leapfrog step with compensated sums. The low parts of u, v, q and w follow all other numbers
+  /// of the pack, in the order of the fields.
   void kept_in_place(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
     const bool is_predicted = action_ == kept_predicted;
     const Velocities half = is_predicted ? half_velocities(at) : Velocities{e.v, e.w};
@@ -260,12 +286,15 @@ private:
     const Sum<vec> v(half.v, v_low, P::vec_scale(h, a));
     const Sum<spin> w(half.w, w_low, P::spin_scale(h, alpha));
     const Sum<vec> u(e.u, u_low, P::vec_scale(h, v.value));
-    const Sum<rotor> q(e.q, q_low, P::rotor_cayley_change(e.q, P::spin_scale(R(T(0.25)) * h, w.value)));
+    const Sum<rotor> q(e.q, q_low,
+                       P::rotor_cayley_change(e.q, P::spin_scale(R(T(0.25)) * h, w.value)));
     T* p = out_ + at;
     store_all(p, u.value);
-    store_all(p, is_predicted ? P::vec_predicted(e.v, half.v, v.value, a, smoothing_, ahead_) : v.value);
+    store_all(p, is_predicted ? P::vec_predicted(e.v, half.v, v.value, a, smoothing_, ahead_)
+                              : v.value);
     store_all(p, q.value);
-    store_all(p, is_predicted ? P::spin_predicted(e.w, half.w, w.value, alpha, smoothing_, ahead_) : w.value);
+    store_all(p, is_predicted ? P::spin_predicted(e.w, half.w, w.value, alpha, smoothing_, ahead_)
+                              : w.value);
     if (is_predicted) {
       store_all(p, v.value);
       store_all(p, w.value);
@@ -287,15 +316,16 @@ private:
   T* const out_;
   const std::ptrdiff_t low_;
   const R alpha_[3], beta_u_, beta_v_, beta_q_, beta_w_;
-  const R smoothing_, ahead_; ///< of the leapfrog's prediction
+  const R smoothing_, ahead_; ///< constants of the leapfrog prediction
   const R inverse_mass_;
   const T turn_scale_;
 };
 
 DSS_INLINE_END
 template <class P, class T, int W>
-typename P::real update_apart(const RowTask<T>& task, T scale_of_turn, std::ptrdiff_t at, const typename P::element& e,
-                              const typename P::vec& force, const typename P::spin& turn) {
+typename P::real update_apart(const RowTask<T>& task, T scale_of_turn, std::ptrdiff_t at,
+                              const typename P::element& e, const typename P::vec& force,
+                              const typename P::spin& turn) {
   RowUpdate<P, T, W, apart_action> update(task, scale_of_turn);
   update(at, e, force, turn);
   return update.check.sum;

@@ -1,7 +1,8 @@
 #pragma once
-/// Packs of lanes for the instruction set that the including module is compiled for; the only file that includes xsimd.
-/// DSS_VECTOR_BITS: 0 (a pack is a scalar), 256 (AVX2 and FMA) or 512 (AVX-512 F, DQ, VL).
-/// xsimd 8.1 (Debian 12) has no AVX-512 FMA and no two-source lane shifts: those few operations are intrinsics here.
+/// Packs of lanes for the instruction set that the including module is compiled for; the only file
+/// that includes xsimd. DSS_VECTOR_BITS: 0 (a pack is a scalar), 256 (AVX2 and FMA) or 512 (AVX-512
+/// F, DQ, VL). xsimd 8.1 (Debian 12) has no AVX-512 FMA and no two-source lane shifts: those few
+/// operations are intrinsics here.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -15,8 +16,9 @@
 #include <xsimd/xsimd.hpp>
 #endif
 
-// Every call in the hot loop must be inlined: GCC does so for a flattened row kernel (DSS_FLATTEN), Clang wants it said at each
-// function. Not under sanitizers, where one flattened kernel would compile for minutes.
+// Every call in the hot loop must be inlined: GCC does so for a flattened row kernel (DSS_FLATTEN),
+// Clang wants it said at each function. Not under sanitizers, where one flattened kernel would
+// compile for minutes.
 #ifdef DSS_SANITIZED
 #define DSS_FLATTEN
 #define DSS_INLINE_BEGIN
@@ -24,7 +26,8 @@
 #else
 #define DSS_FLATTEN [[gnu::flatten]]
 #ifdef __clang__
-#define DSS_INLINE_BEGIN _Pragma("clang attribute push(__attribute__((always_inline)), apply_to = function)")
+#define DSS_INLINE_BEGIN                                                                           \
+  _Pragma("clang attribute push(__attribute__((always_inline)), apply_to = function)")
 #define DSS_INLINE_END _Pragma("clang attribute pop")
 #else
 #define DSS_INLINE_BEGIN
@@ -46,8 +49,8 @@ using Batch = xsimd::batch<T, xsimd::avx512dq>;
 template <class T>
 using Batch = xsimd::batch<T, xsimd::avx2>;
 #endif
-/// xsimd's batch with a unary minus that the compiler can fold into a fused multiply-add (xsimd's is 0 - a, an
-/// instruction of its own).
+/// xsimd's batch with a unary minus that the compiler can fold into a fused multiply-add (xsimd's
+/// is 0 - a, an instruction of its own).
 template <class T>
 struct Pack {
   using Register = typename Batch<T>::register_type;
@@ -73,8 +76,8 @@ constexpr int lanes = DSS_VECTOR_BITS > 0 ? DSS_VECTOR_BITS / 8 / int(sizeof(T))
 template <class T>
 constexpr LaneMask all_lanes = LaneMask((1u << lanes<T>)-1);
 
-/// Scalar a * b + c: fused exactly where the module's instruction set has FMA (never a call of the C library's software
-/// fma).
+/// Scalar a * b + c: fused exactly where the module's instruction set has FMA (never a call of the
+/// C library's software fma).
 template <class T>
 inline T scalar_fma(T a, T b, T c) {
 #ifdef __FMA__
@@ -132,21 +135,29 @@ using PackF = Pack<float>;
 inline PackD fma(PackD a, PackD b, PackD c) { return _mm512_fmadd_pd(a, b, c); }
 inline PackF fma(PackF a, PackF b, PackF c) { return _mm512_fmadd_ps(a, b, c); }
 inline PackD shift_up(PackD below, PackD a) {
-  return _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(a), _mm512_castpd_si512(below), 7));
+  return _mm512_castsi512_pd(
+      _mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(a), _mm512_castpd_si512(below), 7));
 }
 inline PackF shift_up(PackF below, PackF a) {
-  return _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(a), _mm512_castps_si512(below), 15));
+  return _mm512_castsi512_ps(
+      _mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(a), _mm512_castps_si512(below), 15));
 }
 inline PackD shift_down(PackD a, PackD above) {
-  return _mm512_castsi512_pd(_mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(above), _mm512_castpd_si512(a), 1));
+  return _mm512_castsi512_pd(
+      _mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(above), _mm512_castpd_si512(a), 1));
 }
 inline PackF shift_down(PackF a, PackF above) {
-  return _mm512_castsi512_ps(_mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(above), _mm512_castps_si512(a), 1));
+  return _mm512_castsi512_ps(
+      _mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(above), _mm512_castps_si512(a), 1));
 }
 inline PackD keep(LaneMask mask, PackD a) { return _mm512_maskz_mov_pd(__mmask8(mask), a); }
 inline PackF keep(LaneMask mask, PackF a) { return _mm512_maskz_mov_ps(mask, a); }
-inline bool is_zero(PackD a) { return _mm512_cmp_pd_mask(a, _mm512_setzero_pd(), _CMP_EQ_OQ) == 0xff; }
-inline bool is_zero(PackF a) { return _mm512_cmp_ps_mask(a, _mm512_setzero_ps(), _CMP_EQ_OQ) == 0xffff; }
+inline bool is_zero(PackD a) {
+  return _mm512_cmp_pd_mask(a, _mm512_setzero_pd(), _CMP_EQ_OQ) == 0xff;
+}
+inline bool is_zero(PackF a) {
+  return _mm512_cmp_ps_mask(a, _mm512_setzero_ps(), _CMP_EQ_OQ) == 0xffff;
+}
 #elif DSS_VECTOR_BITS == 256
 using PackD = Pack<double>;
 using PackF = Pack<float>;
@@ -178,10 +189,18 @@ inline __m256i lane_select_32(LaneMask mask) {
   const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
   return _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask), bit), bit);
 }
-inline PackD keep(LaneMask mask, PackD a) { return _mm256_and_pd(a, _mm256_castsi256_pd(lane_select_64(mask))); }
-inline PackF keep(LaneMask mask, PackF a) { return _mm256_and_ps(a, _mm256_castsi256_ps(lane_select_32(mask))); }
-inline bool is_zero(PackD a) { return _mm256_movemask_pd(_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_EQ_OQ)) == 0xf; }
-inline bool is_zero(PackF a) { return _mm256_movemask_ps(_mm256_cmp_ps(a, _mm256_setzero_ps(), _CMP_EQ_OQ)) == 0xff; }
+inline PackD keep(LaneMask mask, PackD a) {
+  return _mm256_and_pd(a, _mm256_castsi256_pd(lane_select_64(mask)));
+}
+inline PackF keep(LaneMask mask, PackF a) {
+  return _mm256_and_ps(a, _mm256_castsi256_ps(lane_select_32(mask)));
+}
+inline bool is_zero(PackD a) {
+  return _mm256_movemask_pd(_mm256_cmp_pd(a, _mm256_setzero_pd(), _CMP_EQ_OQ)) == 0xf;
+}
+inline bool is_zero(PackF a) {
+  return _mm256_movemask_ps(_mm256_cmp_ps(a, _mm256_setzero_ps(), _CMP_EQ_OQ)) == 0xff;
+}
 #endif
 
 } // namespace dss::simd

@@ -1,7 +1,8 @@
-/* Members of the constants of a body as the laws need them (kernels/link_force/link_force.h, kernels/motion/motion.h), for a
- * struct in C++ and in OpenCL C. NUMBER: float or double. Forces and moments of the row kernel are in units of `unit` newtons:
- * the paper's k, 1 for the material law. Masses and ties are scaled to match. */
-NUMBER edge[3], edge_ratio; /* edge_ratio: y over x */
+/* Constants of a body as the laws need them (kernels/link_force/link_force.h,
+ * kernels/motion/motion.h): members of a struct in C++ and in OpenCL C. NUMBER is float or double.
+ * The row kernel computes forces and moments in units of `unit` newtons: k for the paper's law, 1
+ * for the material law. Masses and ties are scaled to match. */
+NUMBER edge[3], edge_ratio; /* edge_ratio: edge along y over edge along x */
 NUMBER inverse_unit;        /* 1 / unit */
 NUMBER tau, kt2, dt;        /* paper's law */
 struct {
@@ -9,4 +10,4 @@ struct {
 } axis[3]; /* material law */
 NUMBER mass, inverse_mass, inertia[3], inverse_inertia[3];
 NUMBER tie_k, tie_d, tie_k2_rot, tie_d_rot; /* stabilization */
-int is_accelerated;                         /* gravity or base acceleration acts */
+int is_accelerated;                         /* true if gravity or base acceleration acts */

@@ -1,16 +1,17 @@
 #pragma once
-/// Declared cost of the fused row kernel; a test counts the operations.
-#include "solver/model/model.hpp"
+/// Declared cost of the fused row kernel. A test counts the operations.
+#include "kernels/model.hpp"
 
 namespace dss {
 
-/// Flops an element and stage: paper's law, damped, no bending, equal edges, in the interior of a plate (two links an
-/// element). A fused multiply-add counts two. `stage`: out = y + beta f; `last_stage`: with three increments and the
-/// check for finite numbers.
+/// Flops an element and stage, for the paper's law, damped, without bending, equal edges, in the
+/// interior of a plate (two links an element). A fused multiply-add counts two. `stage` is
+/// out = y + beta f; `last_stage` has three increments and the check for finite numbers.
 struct RowFlops {
   int stage, last_stage;
   constexpr int rk4_step() const { return 3 * stage + last_stage; }
 };
+/// Declared flops of a model.
 constexpr RowFlops row_flops(Model model) {
   switch (model) {
   case Model::axial:

@@ -1,6 +1,7 @@
 #pragma once
-/// The fused row kernel by itself: rows of a plate's interior that read and write plain arrays, for microbenchmarks and their checks. Numbers are of
-/// the order of one and nothing flows back into what is read, so that every call computes the same.
+/// The fused row kernel alone, for microbenchmarks and their checks: rows in the interior of a
+/// plate that read and write plain arrays. Numbers are of order one. Rows of the result are never
+/// read as input, so every call computes the same.
 #include "kernels/stage_row/row.hpp"
 
 #include <cstddef>
@@ -8,18 +9,23 @@
 
 namespace dss {
 
-/// Rows of `row_elements` elements (a multiple of the lanes) one above the other, the first above the last.
-/// Arrays are of packs, fields after fields, as in a step: `in` holds all rows of the stage's input, then all of the base, then (last stage)
-/// of two increments, and a pack that is read and not used; `out` all rows of the result, then `most_carry` numbers an element of one row,
-/// zero before the first call. The last stage has the weights of RK4.
+/// Rows of `row_elements` elements (a multiple of the lanes), one above the other. The row above
+/// the last is the first. Arrays hold packs, as in a step.
+/// `in`: all rows of the stage's input, all rows of the base, for the last stage also of two
+/// increments, then one pack that is read but not used.
+/// `out`: all rows of the result, then `most_carry` numbers an element of one row, zero before the
+/// first call.
+/// The last stage has the weights of RK4.
 struct RowCase {
   bool is_last;
   int fields, lanes;
   static constexpr int most_carry = 6;
-  static constexpr int inputs(bool is_last) { return is_last ? 4 : 2; } ///< arrays of rows
+  static constexpr int inputs(bool is_last) {
+    return is_last ? 4 : 2;
+  } ///< number of arrays of rows
 };
 
-/// Constants of a body that keep numbers of the order of one there.
+/// Constants of a body that keep the numbers of order one.
 template <class T>
 BodyConstants<T> row_case_body() {
   BodyConstants<T> body{};
@@ -32,10 +38,11 @@ BodyConstants<T> row_case_body() {
 
 /// Calls stage(task) for each row, from the first to the last.
 template <class T, class Stage>
-void run_row_case(const RowCase& row_case, const T* in, T* out, std::size_t elements, std::size_t row_elements,
-                  Stage&& stage) {
+void run_row_case(const RowCase& row_case, const T* in, T* out, std::size_t elements,
+                  std::size_t row_elements, Stage&& stage) {
   const int packs = int(row_elements / std::size_t(row_case.lanes));
-  const std::size_t rows = elements / row_elements, row_size = row_elements * std::size_t(row_case.fields),
+  const std::size_t rows = elements / row_elements,
+                    row_size = row_elements * std::size_t(row_case.fields),
                     array_size = rows * row_size;
   const simd::LaneMask all = simd::LaneMask((1u << row_case.lanes) - 1);
   thread_local std::vector<PackMasks> masks;
@@ -51,7 +58,7 @@ void run_row_case(const RowCase& row_case, const T* in, T* out, std::size_t elem
   task.body = &body;
   task.signals = signals;
   task.beta = T(0.0625);
-  if (row_case.is_last) { // y1 + 2 y2 + y3 - y over three (DESIGN.md section 3)
+  if (row_case.is_last) { // (y1 + 2 y2 + y3 - y) / 3 (DESIGN.md section 3)
     task.beta = T(0.5);
     task.increments = 3;
     task.alpha[0] = T(1) / T(3), task.alpha[1] = T(2), task.alpha[2] = T(1);

@@ -1,7 +1,7 @@
 #pragma once
-/// The fused hot loop: one stage of one row of packs, from the stage's input to its output (README.md of this folder).
-/// Order of summation per element, whatever the threads and the lanes: x, y, z, each upper link before lower link;
-/// ties; wrenches.
+/// The fused hot loop: one stage of one row of packs, from the stage's input to its output
+/// (README.md of this folder). The order of summation of an element is x, y, z with the upper link
+/// before the lower; then ties; then wrenches. It depends on neither threads nor lanes.
 #include "kernels/physics.hpp"
 #include "kernels/rk_update/update.hpp"
 #include "kernels/stage_row/row.hpp"
@@ -12,10 +12,12 @@
 DSS_INLINE_BEGIN
 namespace dss {
 
+/// Value of fixed_fields: the stride of the task counts.
 inline constexpr int any_fields = 0;
 
-/// P: a model's physics over packs of T. terms: what is compiled in. fixed_fields: numbers of an element in a pack of any row; or
-/// any, as the task says.
+/// @tparam P  a model's physics over packs of T
+/// @tparam terms  terms that are compiled in
+/// @tparam fixed_fields  numbers an element in a pack of any row; any_fields: the task says
 template <class P, class T, Terms terms, int fixed_fields = any_fields>
 struct StageRow {
   using R = typename P::real;
@@ -25,27 +27,31 @@ struct StageRow {
   using rotor = typename P::rotor;
   static constexpr int W = simd::lanes<T>;
   static constexpr int wrench_components = component_count<vec>() + component_count<spin>();
-  /// Scalars a pack of link forces (and couples) takes in a carry buffer.
-  static constexpr int carry_size = (terms.has_couples() ? wrench_components : component_count<vec>()) * W;
+  /// Scalars that a pack of link forces (and couples) takes in a carry buffer.
+  static constexpr int carry_size =
+      (terms.has_couples() ? wrench_components : component_count<vec>()) * W;
 
   using prepared = typename P::prepared;
   using carried = typename P::carried;
   using wrench = typename P::wrench;
   using axis_law = typename P::axis_law;
   using exchange = typename P::exchange;
-  static constexpr typename P::term_flags flags{terms.is_material,   terms.is_damped, terms.is_bending,
-                                                terms.is_gyroscopic, terms.is_tied,   terms.is_oblong};
+  static constexpr
+      typename P::term_flags flags{terms.is_material,   terms.is_damped, terms.is_bending,
+                                   terms.is_gyroscopic, terms.is_tied,   terms.is_oblong};
 
   const RowTask<T>& task;
   const BodyConstants<T>& body = *task.body;
   const std::array<typename P::paper_law, 3> laws{paper_law(0), paper_law(1), paper_law(2)};
-  /// A spatial pack has more values alive than there are registers. What the next pack takes of its preparation is parked in memory
-  /// then: stored once, read where it is used, like the pack's numbers, once more for each axis and the update. GCC spills 28 vectors a pack
-  /// otherwise. Measured (GCC 12, Sapphire Rapids, in L1): spatial 1.08 to 1.13, with bending 0.99 to 1.01, small 0.95, linear 0.91.
-  static constexpr bool is_parked = P::axes == 3 && P::fields == 13 && !terms.is_material && !terms.is_bending && W > 1;
-  /// Plain packs, with every link in the plane and nothing applied, take a copy of the loop's body without branches. Measured
-  /// (GCC 12, Zen 4): planar 1.10 to 1.15 of the rate without it, spatial that is not parked 0.89, since straight code over 13
-  /// fields spills more; (Sapphire Rapids): linear 1.04, small 1.01.
+  /// A spatial pack has more live values than there are registers. Parked rows store what the next
+  /// pack takes of its preparation in memory once and load it where it is used. They also load the
+  /// pack's own numbers again for each axis and for the update. Otherwise the compiler spills more.
+  /// README.md has the measurements.
+  static constexpr bool is_parked =
+      P::axes == 3 && P::fields == 13 && !terms.is_material && !terms.is_bending && W > 1;
+  /// Plain packs have every link in the plane and no applied wrench. They take a copy of the loop's
+  /// body without branches. Spatial rows that are not parked are slower with it: straight code over
+  /// 13 fields spills more (README.md).
   static constexpr bool has_plain_path = P::axes < 3 || P::fields < 13 || is_parked;
   static bool has_all_links(const PackMasks& masks) {
     if constexpr (P::axes == 1) return masks.link_x == simd::all_lanes<T>;
@@ -97,7 +103,9 @@ struct StageRow {
             R(a.k_z),           R(a.k_xz),          R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
   }
 
-  axis_law law(int axis) const { return {laws[0], laws[std::size_t(axis)], material(axis), R(body.edge_ratio)}; }
+  axis_law law(int axis) const {
+    return {laws[0], laws[std::size_t(axis)], material(axis), R(body.edge_ratio)};
+  }
   prepared prepare(const T* p) const { return P::prepare(load_element(p), laws[0], flags); }
 
   static constexpr int parked_size = is_parked ? 4 * component_count<vec>() * W : 1;
@@ -135,26 +143,31 @@ struct StageRow {
     return c;
   }
 
-  /// Links across y or z. `upper`: the upper row; `carry`, `from`: carry buffers; each may be null where no mask needs it.
+  /// Links across y or z. `upper` is the upper row; `carry` and `from` are carry buffers. Each may
+  /// be null if no mask needs it.
   template <bool is_plain>
-  void add_across(const prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below, const T* upper,
-                  T* carry, const T* from, int pack, std::ptrdiff_t stride, wrench& sum) const {
+  void add_across(const prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below,
+                  const T* upper, T* carry, const T* from, int pack, std::ptrdiff_t stride,
+                  wrench& sum) const {
     if (!is_plain && (above | below) == 0) return;
     const typename P::side own = P::side_across(i, axis, law(axis), flags);
     exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
-      up = P::link_across(i.e, own.upper, load_element(upper + std::ptrdiff_t(pack) * stride), axis, law(axis), flags);
+      up = P::link_across(i.e, own.upper, load_element(upper + std::ptrdiff_t(pack) * stride), axis,
+                          law(axis), flags);
       mask_links<is_plain>(above, up);
     }
     carried low{zero<vec>(), zero<spin>()};
     if (is_plain || below != 0) low = load_carry(from + std::ptrdiff_t(pack) * carry_size);
     sum = P::wrench_across(sum, up, low, own.arm, axis, law(axis), flags);
+    // The carry buffer may be the same as `from`, which has been read.
     if (is_plain || above != 0)
-      store_carry(carry + std::ptrdiff_t(pack) * carry_size, P::carried_by(up, flags)); // perhaps over what was read
+      store_carry(carry + std::ptrdiff_t(pack) * carry_size, P::carried_by(up, flags));
   }
 
   template <bool is_plain>
-  wrench links_x(const prepared& i, const prepared& next, simd::LaneMask mask, carried& previous) const {
+  wrench links_x(const prepared& i, const prepared& next, simd::LaneMask mask,
+                 carried& previous) const {
     element j{};
     vec lower, upper;
     if constexpr (terms.is_material) {
@@ -196,17 +209,19 @@ struct StageRow {
     each_component(turn, hold);
   }
   template <class Tuple>
-  static Tuple splat(const T* values) { // components x, y, z, of which the model has some
+  // `values` are x, y, z; a model takes the components that it has.
+  static Tuple splat(const T* values) {
     Tuple t{};
     if constexpr (requires { t.x; }) t.x = R(values[0]);
     if constexpr (requires { t.y; }) t.y = R(values[1]);
     if constexpr (requires { t.z; }) t.z = R(values[2]);
     return t;
   }
-  /// w' over turn (kernels/motion/motion.h). A scalar inertia is the same about every axis; the plane has one about z.
+  /// w' divided by turn (kernels/motion/motion.h). A scalar inertia is the same about every axis. A
+  /// planar model has only the inertia about z.
   T turn_scale() const { return terms.is_gyroscopic ? T(1) : body.inverse_inertia[2]; }
 
-  /// Only the links across `axis` from this row to the upper one, into the carry buffer.
+  /// Computes only the links across `axis` from this row to the upper one, into the carry buffer.
   void prime(const int axis) const {
     for (int pack = 0; pack < task.packs; ++pack) {
       const simd::LaneMask above = axis == 1 ? task.masks[pack].link_y : task.masks[pack].link_z;
@@ -214,18 +229,19 @@ struct StageRow {
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * task.stride;
       const element i = load_element(task.in + place);
       const element j = load_element((axis == 1 ? task.upper_y : task.upper_z) + place);
-      exchange up = P::link_across(i, P::upper_across(i, axis, law(axis), flags), j, axis, law(axis), flags);
+      exchange up =
+          P::link_across(i, P::upper_across(i, axis, law(axis), flags), j, axis, law(axis), flags);
       mask_links(above, up);
       store_carry((axis == 1 ? task.carry_y : task.carry_z) + std::ptrdiff_t(pack) * carry_size,
                   P::carried_by(up, flags));
     }
   }
 
-  /// Runs update(place, element, force, turn) for every pack of the row.
+  /// Calls update(place, element, force, turn) for every pack of the row.
   template <class Update>
   void run(Update&& update) const {
-    // Local copies: stores of packs may alias anything, and would force what is behind a reference to be read again for
-    // every pack.
+    // Local copies: stores of packs may alias anything, so the compiler would read members through
+    // a reference again for every pack.
     const PackMasks* all_masks = task.masks;
     const T *const in = task.in, *const upper_y = task.upper_y, *const upper_z = task.upper_z;
     T *const carry_y = task.carry_y, *const carry_z = task.carry_z;
@@ -236,13 +252,16 @@ struct StageRow {
     const std::ptrdiff_t stride = fixed_fields != any_fields ? fixed_fields * W : task.stride;
     const bool is_accelerated = body.is_accelerated;
     const vec frame = splat<vec>(task.signals);
-    const spin inertia = splat<spin>(body.inertia), inverse_inertia = splat<spin>(body.inverse_inertia);
-    const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot), R(body.tie_d_rot)};
+    const spin inertia = splat<spin>(body.inertia),
+               inverse_inertia = splat<spin>(body.inverse_inertia);
+    const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot),
+                                  R(body.tie_d_rot)};
     prepared next = prepare(in);
     alignas(64) T places[2][std::size_t(parked_size)];
     if constexpr (is_parked) park(places[0], next);
     carried previous{zero<vec>(), zero<spin>()};
-    const auto one_pack = [&]<bool is_plain>(const int pack, const bool is_applied, std::bool_constant<is_plain>) {
+    const auto one_pack = [&]<bool is_plain>(const int pack, const bool is_applied,
+                                             std::bool_constant<is_plain>) {
       const PackMasks& masks = all_masks[pack];
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * stride;
       prepared i = next;
@@ -250,8 +269,8 @@ struct StageRow {
       next = prepare(in + place + stride);
       const auto read_again = [&] {
         if constexpr (is_parked) {
-          std::atomic_signal_fence(
-              std::memory_order_acq_rel); // or the compiler keeps, and spills, what it has read before
+          // Fence for the compiler, which would otherwise keep earlier loads and spill them.
+          std::atomic_signal_fence(std::memory_order_acq_rel);
           i = parked(places[pack & 1], in + place);
         }
       };
@@ -260,9 +279,11 @@ struct StageRow {
       wrench sum = links_x<is_plain>(i, next, masks.link_x, previous);
       read_again();
       if constexpr (P::axes > 1)
-        add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack, stride, sum);
+        add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack,
+                             stride, sum);
       if constexpr (P::axes > 2 && !is_plain)
-        add_across<false>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, stride, sum);
+        add_across<false>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, stride,
+                          sum);
       sum = P::wrench_finished(sum, i, laws[0], tie, flags);
       if (is_applied) apply_wrenches(pack, sum);
       if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);
@@ -273,7 +294,8 @@ struct StageRow {
     };
     for (int pack = 0; pack < packs; ++pack) {
       const bool is_applied = unsigned(pack - applied_first) < unsigned(applied_packs);
-      if (has_plain_path && has_all_links(all_masks[pack]) && !is_applied && !is_accelerated) [[likely]]
+      if (has_plain_path && has_all_links(all_masks[pack]) && !is_applied && !is_accelerated)
+          [[likely]]
         one_pack(pack, false, std::true_type{});
       else
         one_pack(pack, is_applied, std::false_type{});

@@ -1,8 +1,9 @@
-/* What the links of one element add up to, in the shared subset: from the elements on both sides of its faces to its force
- * and moment. How elements and link forces reach one another (lanes of a pack, rows, work-items) is the includer's
- * business. Order of summation, whatever that is: x, y, z, the upper link before the lower; ties. */
+/* Sum of the links of one element: its wrench, that is force and moment (shared subset). The
+ * includer brings elements and link forces together (lanes of a pack, rows, work-items). The order
+ * of summation is always x, y, z; the upper link before the lower; then ties. */
 
-/* What is compiled in: constants at every call (kernels/physics.hpp has them as Terms). */
+/* Which terms are compiled in. The flags are constants at every call; C++ has them as Terms
+ * (kernels/physics.hpp). */
 typedef struct {
   int is_material, is_damped, is_bending, is_gyroscopic, is_tied, is_oblong;
 } term_flags;
@@ -16,14 +17,15 @@ static inline int has_couples(const term_flags terms) {
 #define IS_PLANAR 0
 #endif
 
-/* The laws of the links across one axis. */
+/* Laws of the links across one axis. */
 typedef struct {
-  paper_law x, own; /* of the x axis, and of this one */
+  paper_law x, own; /* of the x axis; of this axis */
   material_law material;
-  REAL edge_ratio; /* y over x */
+  REAL edge_ratio; /* edge along y over edge along x */
 } axis_law;
 
-/* An element with what its links share (paper's law): k x + d x' of its centre, its faces on the x axis. */
+/* An element with what its links share (paper's law): u + tau v of its centre, its faces on the x
+ * axis. */
 typedef struct {
   element e;
   vec pull, lower_x;
@@ -41,8 +43,8 @@ static inline prepared prepare(element e, paper_law law_x, const term_flags term
   return r;
 }
 
-/* What a link hands to the element behind it: the force on i, and the couple that is added there (paper's law:
- * subtracted). */
+/* What a link hands to the element on its upper side: the force on i and a couple. The material law
+ * adds the couple there, the paper's law subtracts it. */
 typedef struct {
   vec force;
   spin couple;
@@ -52,8 +54,8 @@ static inline carried carried_by(exchange x, const term_flags terms) {
   return c;
 }
 
-/* Sums over an element's links. In the plane, forces on the y faces are turned onto the x face, so that one product gives
- * the moment of all. */
+/* Sums over an element's links. In the plane, forces on y faces are turned onto the x face, so that
+ * one cross product gives the moment of all links. */
 typedef struct {
   vec force;
   spin moment, couple;
@@ -65,8 +67,9 @@ static inline vec scaled_to_y(vec a, REAL edge_ratio, const term_flags terms) {
   return terms.is_oblong ? vec_scale(edge_ratio, a) : a;
 }
 
-/* Face of an element on axis 1 or 2; the plane's is its x face, turned. */
-static inline face face_across(element e, face x, const int axis, axis_law law, const term_flags terms) {
+/* Face of an element on axis 1 or 2. In the plane it is the x face, turned. */
+static inline face face_across(element e, face x, const int axis, axis_law law,
+                               const term_flags terms) {
   face f;
 #if IS_PLANAR
   (void)e, (void)axis;
@@ -78,8 +81,9 @@ static inline face face_across(element e, face x, const int axis, axis_law law, 
 #endif
   return f;
 }
-/* The same where the x face is not at hand. */
-static inline face face_across_alone(element e, const int axis, axis_law law, const term_flags terms) {
+/* The same if the caller does not have the x face. */
+static inline face face_across_alone(element e, const int axis, axis_law law,
+                                     const term_flags terms) {
 #if IS_PLANAR
   return face_across(e, element_face(e, 0, law.x, terms.is_damped), axis, law, terms);
 #else
@@ -90,14 +94,16 @@ static inline lever material_arm(element e, const int axis, material_law law) {
   return face_arm(e.q, axis, law.edge_i, SPLAT(0.5) * law.edge_i);
 }
 
-/* Exchange over the link from i to j; `lower` is j's lower face (paper's law), `upper` i's upper face. */
-static inline exchange link_exchange(element i, vec upper, element j, vec lower, const int axis, axis_law law,
-                                     const term_flags terms) {
+/* Exchange over the link from i to j. `lower` is the lower face of j (paper's law), `upper` the
+ * upper face of i. */
+static inline exchange link_exchange(element i, vec upper, element j, vec lower, const int axis,
+                                     axis_law law, const term_flags terms) {
   exchange x;
   if (terms.is_material) return material_link(i, j, axis, law.material, terms.is_damped);
   x.force = vec_sub(lower, upper);
-  x.couple_i =
-      has_couples(terms) ? paper_couple(i.q, i.w, j.q, j.w, law.own, terms.is_bending, terms.is_damped) : spin_zero();
+  x.couple_i = has_couples(terms)
+                   ? paper_couple(i.q, i.w, j.q, j.w, law.own, terms.is_bending, terms.is_damped)
+                   : spin_zero();
   x.couple_j = spin_zero();
   return x;
 }
@@ -105,7 +111,7 @@ static inline exchange link_exchange(element i, vec upper, element j, vec lower,
 /* An element's side to its upper neighbour across axis 1 or 2. */
 typedef struct {
   lever arm;
-  vec upper; /* what link_across takes of i */
+  vec upper; /* operand of link_across that describes i */
 } side;
 static inline side side_across(prepared i, const int axis, axis_law law, const term_flags terms) {
   side s;
@@ -119,28 +125,32 @@ static inline side side_across(prepared i, const int axis, axis_law law, const t
   }
   return s;
 }
-/* Upper face of an element by itself on axis 1 or 2, where its x face is not at hand. */
+/* Upper face of an element on axis 1 or 2, if the caller does not have its x face. */
 static inline vec upper_across(element i, const int axis, axis_law law, const term_flags terms) {
   if (terms.is_material) return i.u;
   return upper_face(centre_pull(i, law.x, terms.is_damped), face_across_alone(i, axis, law, terms));
 }
-/* Exchange with the element j across a y or z face; `upper` is i's upper face. */
+/* Exchange with the element j across a y or z face; `upper` is the upper face of i. */
 static inline exchange link_across(element i, vec upper, element j, const int axis, axis_law law,
                                    const term_flags terms) {
   vec lower = j.u;
   if (!terms.is_material)
-    lower = lower_face(centre_pull(j, law.x, terms.is_damped), face_across_alone(j, axis, law, terms));
+    lower =
+        lower_face(centre_pull(j, law.x, terms.is_damped), face_across_alone(j, axis, law, terms));
   return link_exchange(i, upper, j, lower, axis, law, terms);
 }
 
-/* The x links start the sums: what the upper link exchanges, and what the lower one carried here. */
-static inline wrench wrench_of_x(prepared i, exchange up, carried low, axis_law law, const term_flags terms) {
+/* The x links start the sums: `up` is the upper link's exchange, `low` what the lower link carried
+ * here. */
+static inline wrench wrench_of_x(prepared i, exchange up, carried low, axis_law law,
+                                 const term_flags terms) {
   wrench sum;
   sum.force = vec_sub(up.force, low.force);
   sum.on_x_face = vec_add(up.force, low.force);
   sum.moment = spin_zero();
   if (!has_one_lever(terms))
-    sum.moment = lever_cross(terms.is_material ? material_arm(i.e, 0, law.material) : i.x.arm, 0, sum.on_x_face);
+    sum.moment = lever_cross(terms.is_material ? material_arm(i.e, 0, law.material) : i.x.arm, 0,
+                             sum.on_x_face);
   sum.couple = spin_zero();
   if (terms.is_material)
     sum.couple = spin_add(up.couple_i, low.couple);
@@ -148,14 +158,15 @@ static inline wrench wrench_of_x(prepared i, exchange up, carried low, axis_law 
     sum.couple = spin_sub(up.couple_i, low.couple);
   return sum;
 }
-/* The links of another axis; `arm` is the element's upper arm on it. */
-static inline wrench wrench_across(wrench sum, exchange up, carried low, lever arm, const int axis, axis_law law,
-                                   const term_flags terms) {
+/* Adds the links of axis 1 or 2; `arm` is the element's upper arm on that axis. */
+static inline wrench wrench_across(wrench sum, exchange up, carried low, lever arm, const int axis,
+                                   axis_law law, const term_flags terms) {
   vec both = vec_add(up.force, low.force);
   sum.force = vec_sub(vec_add(sum.force, up.force), low.force);
 #if IS_PLANAR
   if (has_one_lever(terms))
-    sum.on_x_face = vec_add(sum.on_x_face, scaled_to_y(vec_turned_back(both), law.edge_ratio, terms));
+    sum.on_x_face =
+        vec_add(sum.on_x_face, scaled_to_y(vec_turned_back(both), law.edge_ratio, terms));
   else
     sum.moment = lever_moment(arm, axis, both, sum.moment);
 #else
@@ -168,8 +179,9 @@ static inline wrench wrench_across(wrench sum, exchange up, carried low, lever a
     sum.couple = spin_sub(spin_add(sum.couple, up.couple_i), low.couple);
   return sum;
 }
-/* Couples join the moment, and ties both. */
-static inline wrench wrench_finished(wrench sum, prepared i, paper_law law_x, tie_law tie, const term_flags terms) {
+/* Adds the couples to the moment, and the ties to force and moment. */
+static inline wrench wrench_finished(wrench sum, prepared i, paper_law law_x, tie_law tie,
+                                     const term_flags terms) {
   if (has_one_lever(terms)) sum.moment = lever_cross(i.x.arm, 0, sum.on_x_face);
   if (terms.is_material)
     sum.moment = spin_add(sum.moment, sum.couple);
@@ -182,18 +194,22 @@ static inline wrench wrench_finished(wrench sum, prepared i, paper_law law_x, ti
   return sum;
 }
 
-/* A link outside the grid, by itself: what it exerts on i and, its force negated, on j. */
+/* A link outside the grid: force and moment on i; on j the negative force and moment_j. */
 typedef struct {
   vec force;
   spin moment_i, moment_j;
 } pair_wrench;
-static inline pair_wrench wrench_of_pair(element i, element j, const int axis, const int is_material,
-                                         material_law material, paper_law law_i, paper_law law_j) {
+static inline pair_wrench wrench_of_pair(element i, element j, const int axis,
+                                         const int is_material, material_law material,
+                                         paper_law law_i, paper_law law_j) {
   pair_wrench w;
-  exchange x = is_material ? material_link(i, j, axis, material, 1) : paper_link(i, j, axis, law_i, law_j, 1, 1);
+  exchange x = is_material ? material_link(i, j, axis, material, 1)
+                           : paper_link(i, j, axis, law_i, law_j, 1, 1);
   w.force = x.force;
-  w.moment_i = lever_moment(face_arm(i.q, axis, law_i.edge, law_i.half_edge), axis, x.force, x.couple_i);
-  w.moment_j = lever_moment(face_arm(j.q, axis, law_j.edge, law_j.half_edge), axis, x.force, x.couple_j);
+  w.moment_i =
+      lever_moment(face_arm(i.q, axis, law_i.edge, law_i.half_edge), axis, x.force, x.couple_i);
+  w.moment_j =
+      lever_moment(face_arm(j.q, axis, law_j.edge, law_j.half_edge), axis, x.force, x.couple_j);
   return w;
 }
 #undef IS_PLANAR

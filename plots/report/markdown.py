@@ -1,5 +1,5 @@
 """REPORT.md: the summary, Tables 1 to 3, the figures, what is old and what is missing."""
-from . import pictures
+from render import pictures
 
 
 def cell_text(cell):

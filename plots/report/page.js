@@ -1,5 +1,5 @@
 "use strict";
-// Theme, filters and charts of the page. What is drawn was made by plots/report/charts; nothing is computed here.
+// Theme, filters and charts of the page. What is drawn was made by plots/render/page.py; nothing is computed here.
 (() => {
   const root = document.documentElement;
   const specs = JSON.parse(document.getElementById("charts").textContent);
@@ -31,10 +31,11 @@
 
   // On a phone names of rows would leave no room for the rows: they are cut, and said whole by each mark and in the table.
   function narrow(layout, traces) {
-    const axis = layout.yaxis;
-    if (axis.type === "category") axis.tickvals = axis.ticktext = axis.categoryarray || [...new Set(traces.flatMap((trace) => trace.y))];
-    if (axis.ticktext) axis.ticktext = axis.ticktext.map((text) => text.length > 16 ? text.slice(0, 15) + "\u2026" : text);
-    if (layout.xaxis.ticktext) layout.xaxis.tickangle = -90;
+    for (const axis of Object.keys(layout).filter((key) => /^yaxis/.test(key)).map((key) => layout[key])) {
+      if (axis.type === "category") axis.tickvals = axis.ticktext = axis.categoryarray || [...new Set(traces.flatMap((trace) => trace.y))];
+      if (axis.ticktext) axis.ticktext = axis.ticktext.map((text) => text.length > 16 ? text.slice(0, 15) + "\u2026" : text);
+    }
+    for (const key of Object.keys(layout).filter((key) => /^xaxis/.test(key))) if (layout[key].ticktext) layout[key].tickangle = -90;
     for (const trace of traces.filter((one) => one.marker)) {
       const size = trace.marker.size;
       if (Array.isArray(size)) trace.marker.size = size.map((one) => 0.5 * one);
@@ -55,6 +56,9 @@
     const spec = JSON.parse(JSON.stringify(specs[node.dataset.chart]), (key, value) => words[value] || value);
     const traces = spec.traces.filter((trace) => fits(trace.meta, chosen)), seen = new Set();
     for (const trace of traces) {
+      // What points say stands once for each row of the table.
+      const hover = trace.type === "bar" ? "hovertext" : "text";
+      if (trace.customdata && !trace[hover]) trace[hover] = trace.customdata.map((line) => spec.hovers[line]);
       const group = trace.legendgroup || trace.name;
       trace.showlegend = trace.showlegend !== false && Boolean(trace.name) && trace.type !== "heatmap" && !seen.has(group);
       seen.add(group);

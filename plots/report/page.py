@@ -4,9 +4,10 @@ import json
 import pathlib
 import string
 
-from . import pictures
-from .results import NotMeasured, study_of
-from .words import choice, escaped, is_missing, prose, shown
+from render import pictures
+from render.page import spec
+from tables.results import NotMeasured, study_of
+from tables.words import choice, escaped, is_missing, prose, shown
 
 HERE = pathlib.Path(__file__).parent
 PICTURES = {"plate_paper.png": "The paper's plate, deformed, coloured by von Mises stress", "l_bracket.png": "The bracket of the scene l_bracket, deformed, coloured by von Mises stress",
@@ -180,7 +181,7 @@ def safe_json(data):
 def assemble(origin, contents, body, charts, library):
     """The whole page. `library` is the text of plotly.min.js, or empty."""
     template = string.Template((HERE / "page.html").read_text(encoding="utf-8"))
-    specs = {name: {"traces": chart.traces, "layout": chart.layout, "height": chart.height} for name, chart in charts.items()} if library else {}
+    specs = {name: spec(chart) for name, chart in charts.items()} if library else {}
     listed = element("ul", "".join(element("li", element("a", escaped(title), href=f"#{name}")) for name, title in contents))
     return template.substitute(style=(HERE / "page.css").read_text(encoding="utf-8"), origin=origin, contents=listed, body="\n".join(body), charts=safe_json(specs),
                                library=library, script=(HERE / "page.js").read_text(encoding="utf-8"))

@@ -3,8 +3,8 @@ import dataclasses
 
 import pandas
 
-from .results import NotMeasured
-from .words import is_missing, shown, with_interval
+from tables.results import NotMeasured
+from tables.words import is_missing, shown, with_interval
 
 NETWORKS = {"gigabit": "1 GbE", "ten_gigabit": "10 GbE", "fdr": "FDR"}
 

@@ -1,7 +1,7 @@
 """Three sentences on the whole, with figures from the tables."""
-from .charts.chain import best_link
-from .results import FAULTS, NotMeasured
-from .words import shown, with_interval
+from charts.chain import best_link
+from tables.results import FAULTS, NotMeasured
+from tables.words import shown, with_interval
 
 
 def of_speed(results):

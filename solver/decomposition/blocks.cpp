@@ -1,4 +1,4 @@
-/// Blocks: recursive coordinate bisection in the bodies' rest positions.
+/// Blocks: recursive bisection in the coordinates of the bodies' rest positions.
 #include "solver/decomposition/methods.hpp"
 
 #include <array>
@@ -10,13 +10,13 @@
 namespace dss {
 namespace {
 
-/// Cells of a body between these planes, on each axis low <= index < high.
+/// Cells of a body between planes: low <= index < high on each axis.
 struct Bounds {
   std::array<int, 3> low{}, high{};
   bool is_empty() const { return low[0] >= high[0]; }
 };
 
-/// All cells whose centres have one coordinate.
+/// All cells whose centres share one coordinate.
 struct Plane {
   double position = 0; ///< [m]
   double cost = 0;
@@ -41,11 +41,14 @@ private:
     const Body& b = division_.problem.bodies[body];
     return b.origin[axis] + b.edge[axis] * (index + 0.5);
   }
-  std::size_t body_of(const Segment& segment) const { return std::size_t(division_.grid.row(segment.row).body); }
+  std::size_t body_of(const Segment& segment) const {
+    return std::size_t(division_.grid.row(segment.row).body);
+  }
   double cost_of(const Segment& segment) const { return division_.body_cost[body_of(segment)]; }
   std::vector<Bounds> bounds_of(const CellSet& set) const;
   std::array<double, 3> extents(const std::vector<Bounds>& bounds) const;
-  std::vector<Plane> planes(const CellSet& set, const std::vector<Bounds>& bounds, std::size_t axis) const;
+  std::vector<Plane> planes(const CellSet& set, const std::vector<Bounds>& bounds,
+                            std::size_t axis) const;
   std::optional<Cut> choose_cut(const CellSet& set, int parts, double fraction) const;
   std::pair<CellSet, CellSet> split(const CellSet& set, const Cut& cut) const;
   std::pair<CellSet, CellSet> split_in_order(const CellSet& set, int parts, double fraction) const;
@@ -55,11 +58,13 @@ private:
 
 std::vector<Bounds> Bisection::bounds_of(const CellSet& set) const {
   constexpr int far = std::numeric_limits<int>::max();
-  std::vector<Bounds> bounds(division_.problem.bodies.size(), Bounds{{far, far, far}, {-far, -far, -far}});
+  std::vector<Bounds> bounds(division_.problem.bodies.size(),
+                             Bounds{{far, far, far}, {-far, -far, -far}});
   for (const Segment& segment : set.segments()) {
     const Row& row = division_.grid.row(segment.row);
     Bounds& b = bounds[std::size_t(row.body)];
-    const std::array<int, 3> low = {segment.x_begin, row.y, row.z}, high = {segment.x_end, row.y + 1, row.z + 1};
+    const std::array<int, 3> low = {segment.x_begin, row.y, row.z},
+                             high = {segment.x_end, row.y + 1, row.z + 1};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       b.low[axis] = std::min(b.low[axis], low[axis]);
       b.high[axis] = std::max(b.high[axis], high[axis]);
@@ -83,11 +88,13 @@ std::array<double, 3> Bisection::extents(const std::vector<Bounds>& bounds) cons
   return extent;
 }
 
-// Cells are counted along x by their segments' ends alone: +1 where one begins, -1 where it ends.
-std::vector<Plane> Bisection::planes(const CellSet& set, const std::vector<Bounds>& bounds, std::size_t axis) const {
+// Counts cells along x from the ends of segments: +1 where a segment begins, -1 where it ends.
+std::vector<Plane> Bisection::planes(const CellSet& set, const std::vector<Bounds>& bounds,
+                                     std::size_t axis) const {
   std::vector<std::vector<std::ptrdiff_t>> cells(bounds.size());
   for (std::size_t body = 0; body < bounds.size(); ++body)
-    if (!bounds[body].is_empty()) cells[body].resize(std::size_t(bounds[body].high[axis] - bounds[body].low[axis]) + 1);
+    if (!bounds[body].is_empty())
+      cells[body].resize(std::size_t(bounds[body].high[axis] - bounds[body].low[axis]) + 1);
   for (const Segment& segment : set.segments()) {
     const Row& row = division_.grid.row(segment.row);
     std::vector<std::ptrdiff_t>& count = cells[std::size_t(row.body)];
@@ -105,20 +112,24 @@ std::vector<Plane> Bisection::planes(const CellSet& set, const std::vector<Bound
     for (std::size_t k = 0; k < cells[body].size(); ++k)
       if (cells[body][k] > 0)
         all.push_back({centre(body, axis, bounds[body].low[axis] + int(k)),
-                       double(cells[body][k]) * division_.body_cost[body], std::size_t(cells[body][k])});
+                       double(cells[body][k]) * division_.body_cost[body],
+                       std::size_t(cells[body][k])});
   }
-  std::stable_sort(all.begin(), all.end(), [](const Plane& a, const Plane& b) { return a.position < b.position; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Plane& a, const Plane& b) { return a.position < b.position; });
   return all;
 }
 
-/// The cut between planes that comes nearest to the wanted fraction of the cost and leaves enough cells on either side.
-/// Across the longest extent if it has one; of equal extents the later axis, so that rows stay whole.
+/// Cut between planes that is nearest to the wanted fraction of the cost and leaves enough cells on
+/// each side. Axes are tried from the longest extent on. Among equal extents the later axis comes
+/// first, so that rows stay whole.
 std::optional<Cut> Bisection::choose_cut(const CellSet& set, int parts, double fraction) const {
   const std::vector<Bounds> bounds = bounds_of(set);
   const std::array<double, 3> extent = extents(bounds);
   std::array<std::size_t, 3> axes = {2, 1, 0};
-  std::stable_sort(axes.begin(), axes.end(),
-                   [&](std::size_t a, std::size_t b) { return extent[a] > extent[b] * (1 + 1e-9); });
+  std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) {
+    return extent[a] > extent[b] * (1 + 1e-9);
+  });
   const auto least_left = std::size_t(parts / 2), least_right = std::size_t(parts - parts / 2);
   for (const std::size_t axis : axes) {
     const std::vector<Plane> all = planes(set, bounds, axis);
@@ -130,7 +141,8 @@ std::optional<Cut> Bisection::choose_cut(const CellSet& set, int parts, double f
       left_cost += all[k].cost;
       left_cells += all[k].cells;
       const double gap = all[k + 1].position - all[k].position;
-      if (gap < 1e-6 * extent[axis] / double(all.size())) continue; // one plane of two bodies, but for rounding
+      // These are one plane of two bodies, except for rounding.
+      if (gap < 1e-6 * extent[axis] / double(all.size())) continue;
       if (left_cells < least_left || cells - left_cells < least_right) continue;
       const double miss = std::abs(left_cost - fraction * cost);
       if (miss >= nearest) continue;
@@ -145,7 +157,8 @@ std::optional<Cut> Bisection::choose_cut(const CellSet& set, int parts, double f
 std::pair<CellSet, CellSet> Bisection::split(const CellSet& set, const Cut& cut) const {
   const std::size_t bodies = division_.problem.bodies.size();
   const std::vector<Bounds> bounds = bounds_of(set);
-  std::vector<int> first_right(bodies); // index of each body's first plane beyond the cut
+  // Index of each body's first plane beyond the cut.
+  std::vector<int> first_right(bodies);
   for (std::size_t body = 0; body < bodies; ++body) {
     int low = bounds[body].low[cut.axis], high = bounds[body].high[cut.axis];
     while (low < high) {
@@ -169,19 +182,23 @@ std::pair<CellSet, CellSet> Bisection::split(const CellSet& set, const Cut& cut)
   return sides;
 }
 
-/// Where no plane leaves a cell for every part: the cells in the lattice's order, cut anywhere.
-std::pair<CellSet, CellSet> Bisection::split_in_order(const CellSet& set, int parts, double fraction) const {
+/// Splits the cells in the lattice's order, at any place. Used if no plane leaves a cell for every
+/// part.
+std::pair<CellSet, CellSet> Bisection::split_in_order(const CellSet& set, int parts,
+                                                      double fraction) const {
   double cost = 0;
-  for (const Segment& segment : set.segments()) cost += cost_of(segment) * (segment.x_end - segment.x_begin);
+  for (const Segment& segment : set.segments())
+    cost += cost_of(segment) * (segment.x_end - segment.x_begin);
   double wanted = fraction * cost;
   std::size_t left = 0;
   for (const Segment& segment : set.segments()) {
-    const double cells =
-        std::clamp(std::round(wanted / cost_of(segment)), 0.0, double(segment.x_end - segment.x_begin));
+    const double cells = std::clamp(std::round(wanted / cost_of(segment)), 0.0,
+                                    double(segment.x_end - segment.x_begin));
     left += std::size_t(cells);
     wanted -= double(segment.x_end - segment.x_begin) * cost_of(segment);
   }
-  left = std::clamp(left, std::size_t(parts / 2), set.cell_count() - std::size_t(parts - parts / 2));
+  left =
+      std::clamp(left, std::size_t(parts / 2), set.cell_count() - std::size_t(parts - parts / 2));
   std::pair<CellSet, CellSet> sides;
   for (const Segment& segment : set.segments()) {
     const int here = int(std::min(left, std::size_t(segment.x_end - segment.x_begin)));

@@ -9,11 +9,13 @@ bool begins_before(const Segment& a, const Segment& b) {
   return std::tie(a.row, a.x_begin) < std::tie(b.row, b.x_begin);
 }
 
-/// First segment that ends after cell x of the row, or that lies in a later row.
-std::vector<Segment>::const_iterator first_after(const std::vector<Segment>& segments, int row, int x) {
-  return std::upper_bound(segments.begin(), segments.end(), Cell{row, x}, [](const Cell& cell, const Segment& segment) {
-    return std::tie(cell.row, cell.x) < std::tie(segment.row, segment.x_end);
-  });
+/// First segment that ends after cell x of the row, or that is in a later row.
+std::vector<Segment>::const_iterator first_after(const std::vector<Segment>& segments, int row,
+                                                 int x) {
+  return std::upper_bound(
+      segments.begin(), segments.end(), Cell{row, x}, [](const Cell& cell, const Segment& segment) {
+        return std::tie(cell.row, cell.x) < std::tie(segment.row, segment.x_end);
+      });
 }
 
 } // namespace
@@ -27,7 +29,8 @@ CellSet::CellSet(std::vector<Segment> segments) {
 
 void CellSet::append(const Segment& segment) {
   if (segment.x_begin >= segment.x_end) return;
-  if (!segments_.empty() && segments_.back().row == segment.row && segment.x_begin <= segments_.back().x_end)
+  if (!segments_.empty() && segments_.back().row == segment.row &&
+      segment.x_begin <= segments_.back().x_end)
     segments_.back().x_end = std::max(segments_.back().x_end, segment.x_end);
   else
     segments_.push_back(segment);
@@ -49,9 +52,12 @@ CellSet difference(const CellSet& a, const CellSet& b) {
   auto other = b.segments().begin();
   const auto end = b.segments().end();
   for (const Segment& segment : a.segments()) {
-    while (other != end && std::tie(other->row, other->x_end) <= std::tie(segment.row, segment.x_begin)) ++other;
+    while (other != end &&
+           std::tie(other->row, other->x_end) <= std::tie(segment.row, segment.x_begin))
+      ++other;
     int begin = segment.x_begin;
-    for (auto hole = other; hole != end && hole->row == segment.row && hole->x_begin < segment.x_end; ++hole) {
+    for (auto hole = other;
+         hole != end && hole->row == segment.row && hole->x_begin < segment.x_end; ++hole) {
       result.append({segment.row, begin, hole->x_begin});
       begin = hole->x_end;
     }
@@ -65,9 +71,13 @@ CellSet intersection(const CellSet& a, const CellSet& b) {
   auto other = b.segments().begin();
   const auto end = b.segments().end();
   for (const Segment& segment : a.segments()) {
-    while (other != end && std::tie(other->row, other->x_end) <= std::tie(segment.row, segment.x_begin)) ++other;
-    for (auto both = other; both != end && both->row == segment.row && both->x_begin < segment.x_end; ++both)
-      result.append({segment.row, std::max(segment.x_begin, both->x_begin), std::min(segment.x_end, both->x_end)});
+    while (other != end &&
+           std::tie(other->row, other->x_end) <= std::tie(segment.row, segment.x_begin))
+      ++other;
+    for (auto both = other;
+         both != end && both->row == segment.row && both->x_begin < segment.x_end; ++both)
+      result.append({segment.row, std::max(segment.x_begin, both->x_begin),
+                     std::min(segment.x_end, both->x_end)});
   }
   return result;
 }
@@ -82,20 +92,23 @@ CellGrid::CellGrid(const Problem& problem) : lattice_(&problem.lattice) {
 
 std::size_t CellGrid::elements_of(int r) const {
   const auto next = std::size_t(r) + 1;
-  const std::size_t end = next < lattice_->rows.size() ? lattice_->rows[next].first_element : lattice_->element_count;
+  const std::size_t end =
+      next < lattice_->rows.size() ? lattice_->rows[next].first_element : lattice_->element_count;
   return end - row(r).first_element;
 }
 
 std::size_t CellGrid::element_count(const Segment& segment) const {
   if (!has_holes(segment.row)) return std::size_t(segment.x_end - segment.x_begin);
   std::size_t count = 0;
-  for (int x = segment.x_begin; x < segment.x_end; ++x) count += lattice_->is_present(row(segment.row), x);
+  for (int x = segment.x_begin; x < segment.x_end; ++x)
+    count += lattice_->is_present(row(segment.row), x);
   return count;
 }
 
 Cell CellGrid::cell_of(std::size_t element) const {
-  const auto after = std::upper_bound(lattice_->rows.begin(), lattice_->rows.end(), element,
-                                      [](std::size_t e, const Row& row) { return e < row.first_element; });
+  const auto after =
+      std::upper_bound(lattice_->rows.begin(), lattice_->rows.end(), element,
+                       [](std::size_t e, const Row& row) { return e < row.first_element; });
   const int r = int(after - lattice_->rows.begin()) - 1;
   const Row& here = row(r);
   std::size_t further = element - here.first_element;
@@ -107,7 +120,8 @@ Cell CellGrid::cell_of(std::size_t element) const {
 
 CellSet CellGrid::all() const {
   CellSet cells;
-  for (int r = 0; r < int(lattice_->rows.size()); ++r) cells.append({r, row(r).x_begin, row(r).x_end});
+  for (int r = 0; r < int(lattice_->rows.size()); ++r)
+    cells.append({r, row(r).x_begin, row(r).x_end});
   return present(cells);
 }
 
@@ -121,13 +135,14 @@ Segment CellGrid::clipped(int r, int x_begin, int x_end) const {
   return {r, std::max(x_begin, row(r).x_begin), std::min(x_end, row(r).x_end)};
 }
 
-// Each of the five directions gives segments in ascending order, since the rows of a body ascend by z, then y; merging
-// them costs less than sorting.
+// Each of the five directions gives ascending segments, because the rows of a body ascend by z,
+// then y. Merging them costs less than sorting.
 CellSet CellGrid::dilated(const CellSet& set) const {
   std::vector<Segment> wider;
   wider.reserve(5 * set.segments().size());
   const auto merge_from = [&](std::size_t sorted) {
-    std::inplace_merge(wider.begin(), wider.begin() + std::ptrdiff_t(sorted), wider.end(), begins_before);
+    std::inplace_merge(wider.begin(), wider.begin() + std::ptrdiff_t(sorted), wider.end(),
+                       begins_before);
   };
   for (const Segment& segment : set.segments())
     wider.push_back(clipped(segment.row, segment.x_begin - 1, segment.x_end + 1));

@@ -9,7 +9,7 @@ namespace {
 
 using Shares = std::span<const Share>;
 
-/// Links along x: where one segment ends and another part's begins.
+/// Links along x, between the end of a segment and the begin of another part's segment.
 std::size_t cut_in_row(const CellGrid& grid, Shares shares) {
   std::size_t count = 0;
   for (std::size_t k = 1; k < shares.size(); ++k) {
@@ -21,7 +21,7 @@ std::size_t cut_in_row(const CellGrid& grid, Shares shares) {
   return count;
 }
 
-/// Links between two neighbouring rows: where their segments face each other and differ in part.
+/// Links between two neighbouring rows, where segments of different parts face each other.
 std::size_t cut_between(const CellGrid& grid, Shares lower, Shares upper) {
   std::size_t count = 0;
   auto a = lower.begin(), b = upper.begin();
@@ -34,7 +34,8 @@ std::size_t cut_between(const CellGrid& grid, Shares lower, Shares upper) {
         count += std::size_t(end - begin);
       } else {
         for (int x = begin; x < end; ++x)
-          count += grid.lattice().is_present(grid.row(r), x) && grid.lattice().is_present(grid.row(s), x);
+          count += grid.lattice().is_present(grid.row(r), x) &&
+                   grid.lattice().is_present(grid.row(s), x);
       }
     }
     a->segment.x_end < b->segment.x_end ? ++a : ++b;
@@ -43,9 +44,10 @@ std::size_t cut_between(const CellGrid& grid, Shares lower, Shares upper) {
 }
 
 int owner_of(const Decomposition& decomposition, const Cell& cell) {
-  const auto found = std::upper_bound(decomposition.shares.begin(), decomposition.shares.end(), cell,
-                                      [](const Cell& c, const Share& share) {
-                                        return std::tie(c.row, c.x) < std::tie(share.segment.row, share.segment.x_end);
+  const auto found = std::upper_bound(decomposition.shares.begin(), decomposition.shares.end(),
+                                      cell, [](const Cell& c, const Share& share) {
+                                        return std::tie(c.row, c.x) <
+                                               std::tie(share.segment.row, share.segment.x_end);
                                       });
   return found->part;
 }
@@ -55,7 +57,7 @@ int owner_of(const Decomposition& decomposition, const Cell& cell) {
 std::size_t cut_links(const Problem& problem, const Decomposition& decomposition) {
   const CellGrid grid(problem.lattice);
   const std::size_t rows = problem.lattice.rows.size();
-  std::vector<std::size_t> first(rows + 1, 0); // share of each row
+  std::vector<std::size_t> first(rows + 1, 0); // index of each row's first share
   for (const Share& share : decomposition.shares) ++first[std::size_t(share.segment.row) + 1];
   for (std::size_t r = 0; r < rows; ++r) first[r + 1] += first[r];
   const auto of_row = [&](std::size_t r) {
@@ -68,7 +70,8 @@ std::size_t cut_links(const Problem& problem, const Decomposition& decomposition
       if (upper >= 0) count += cut_between(grid, of_row(r), of_row(std::size_t(upper)));
   }
   for (const ExtraLink& link : problem.extra_links)
-    count += owner_of(decomposition, grid.cell_of(link.i)) != owner_of(decomposition, grid.cell_of(link.j));
+    count += owner_of(decomposition, grid.cell_of(link.i)) !=
+             owner_of(decomposition, grid.cell_of(link.j));
   return count;
 }
 

@@ -16,44 +16,50 @@ constexpr std::array<std::string_view, 3> methods = {"strips", "blocks", "metis"
 
 std::vector<std::string> method_names() { return {methods.begin(), methods.end()}; }
 
-/// Weights as they count: 1 each if none are given.
-std::vector<double> resolved(const std::vector<double>& weights, std::size_t count, const char* what,
-                             const char* owner) {
+/// The given weights, or 1 for each if none are given.
+std::vector<double> resolved(const std::vector<double>& weights, std::size_t count,
+                             const char* what, const char* owner) {
   if (weights.empty()) return std::vector<double>(count, 1.0);
   if (weights.size() != count)
-    throw InputError(fmt::format("{} {} for {} {}; give one for each, or none", weights.size(), what, count, owner));
+    throw InputError(fmt::format("{} {} for {} {}; give one for each, or none", weights.size(),
+                                 what, count, owner));
   for (std::size_t k = 0; k < count; ++k)
     if (!(weights[k] > 0) || !std::isfinite(weights[k]))
-      throw InputError(
-          fmt::format("{}: {} is not a positive number; give 1 to all that count the same", what, weights[k]));
+      throw InputError(fmt::format(
+          "{}: {} is not a positive number; give 1 to all that count the same", what, weights[k]));
   return weights;
 }
 
 void require_divisible(const Problem& problem, std::string_view method, int parts) {
   const auto refuse_more_than = [&](std::size_t most, const char* what) {
     if (std::size_t(parts) > most)
-      throw InputError(fmt::format("scene {} has {} {} for {} parts of method {}; take at most {} parts", problem.name,
-                                   most, what, parts, method, most));
+      throw InputError(
+          fmt::format("scene {} has {} {} for {} parts of method {}; take at most {} parts",
+                      problem.name, most, what, parts, method, most));
   };
-  if (parts < 1) throw InputError(fmt::format("parts: {} is not a number of parts; take 1 or more", parts));
+  if (parts < 1)
+    throw InputError(fmt::format("parts: {} is not a number of parts; take 1 or more", parts));
   refuse_more_than(problem.lattice.element_count, "elements");
   if (method == "strips") refuse_more_than(problem.lattice.rows.size(), "rows");
 }
 
 [[noreturn]] void fail(const Segment& segment, const std::string& what) {
-  throw InputError(fmt::format("segment [{}, {}, {}]: {}", segment.row, segment.x_begin, segment.x_end, what));
+  throw InputError(
+      fmt::format("segment [{}, {}, {}]: {}", segment.row, segment.x_begin, segment.x_end, what));
 }
 
-void require_inside(const Share& share, const Decomposition& decomposition, const Lattice& lattice) {
+void require_inside(const Share& share, const Decomposition& decomposition,
+                    const Lattice& lattice) {
   const Segment& s = share.segment;
   if (share.part < 0 || share.part >= decomposition.parts)
-    fail(s, fmt::format("there is no part {}; parts are 0 .. {}", share.part, decomposition.parts - 1));
+    fail(s, fmt::format("there is no part {}; parts are 0 .. {}", share.part,
+                        decomposition.parts - 1));
   if (s.row < 0 || std::size_t(s.row) >= lattice.rows.size())
     fail(s, fmt::format("there is no row {}; rows are 0 .. {}", s.row, lattice.rows.size() - 1));
   const Row& row = lattice.rows[std::size_t(s.row)];
   if (s.x_begin < row.x_begin || s.x_end > row.x_end || s.x_begin >= s.x_end)
-    fail(s,
-         fmt::format("is not a range of cells of row {}, which has x = {} .. {}", s.row, row.x_begin, row.x_end - 1));
+    fail(s, fmt::format("is not a range of cells of row {}, which has x = {} .. {}", s.row,
+                        row.x_begin, row.x_end - 1));
 }
 
 void require_holes(const Lattice& lattice, const CellGrid& grid, int row, int x_begin, int x_end) {
@@ -62,7 +68,8 @@ void require_holes(const Lattice& lattice, const CellGrid& grid, int row, int x_
   const int limit = grid.has_holes(row) ? x_end : x_begin + 1;
   for (int x = x_begin; x < limit; ++x)
     if (lattice.is_present(here, x))
-      throw InputError(fmt::format("row {}: the element at x = {} belongs to no part; give it to one", row, x));
+      throw InputError(
+          fmt::format("row {}: the element at x = {} belongs to no part; give it to one", row, x));
 }
 
 } // namespace
@@ -97,12 +104,14 @@ std::vector<Share> tidy(const std::vector<Share>& shares, const Lattice& lattice
   return result;
 }
 
-Decomposition decompose(const Problem& problem, std::string_view method, int parts, const Weights& weights) {
+Decomposition decompose(const Problem& problem, std::string_view method, int parts,
+                        const Weights& weights) {
   if (const std::string why = why_no_decomposition(method); !why.empty())
     throw InputError(fmt::format("method {}: {}", method, why));
   require_divisible(problem, method, parts);
   const CellGrid grid(problem);
-  const Division division{problem, grid, resolved(weights.speed, std::size_t(parts), "speeds", "parts"),
+  const Division division{problem, grid,
+                          resolved(weights.speed, std::size_t(parts), "speeds", "parts"),
                           resolved(weights.body_cost, problem.bodies.size(), "costs", "bodies")};
   std::vector<Share> shares = method == "strips"   ? divide_in_strips(division)
                               : method == "blocks" ? divide_in_blocks(division)
@@ -123,7 +132,7 @@ std::vector<std::size_t> part_elements(const Decomposition& decomposition, const
 
 void require_fit(const Decomposition& decomposition, const Lattice& lattice) {
   const CellGrid grid(lattice);
-  int row = 0, x = lattice.rows.at(0).x_begin; // elements before here are covered
+  int row = 0, x = lattice.rows.at(0).x_begin; // elements before this cell are covered
   const auto skip_to = [&](int next_row) {
     while (row < next_row) {
       require_holes(lattice, grid, row, x, grid.row(row).x_end);
@@ -134,7 +143,8 @@ void require_fit(const Decomposition& decomposition, const Lattice& lattice) {
     const Segment& s = share.segment;
     require_inside(share, decomposition, lattice);
     if (std::tie(s.row, s.x_begin) < std::tie(row, x))
-      fail(s, fmt::format("of part {} overlaps a segment before it, or is not in ascending order", share.part));
+      fail(s, fmt::format("of part {} overlaps a segment before it, or is not in ascending order",
+                          share.part));
     skip_to(s.row);
     require_holes(lattice, grid, row, x, s.x_begin);
     x = s.x_end;
@@ -144,7 +154,8 @@ void require_fit(const Decomposition& decomposition, const Lattice& lattice) {
   for (std::size_t part = 0; part < elements.size(); ++part)
     if (elements[part] == 0)
       throw InputError(
-          fmt::format("part {} has no element; give it some, or take fewer than {} parts", part, decomposition.parts));
+          fmt::format("part {} has no element; give it some, or take fewer than {} parts", part,
+                      decomposition.parts));
 }
 
 } // namespace dss

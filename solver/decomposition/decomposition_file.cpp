@@ -9,7 +9,7 @@
 namespace dss {
 namespace {
 
-/// Text that is written as it grows: a large file is never in memory whole.
+/// Text that is written in pieces, so that a large file is never in memory as a whole.
 class Writer {
 public:
   explicit Writer(const std::string& path) : file_(path) {}
@@ -20,7 +20,7 @@ public:
     fmt::format_to(std::back_inserter(text_), form, std::forward<Values>(values)...);
     file_.write(text_);
   }
-  /// The items of an array, each as `write_item` writes it.
+  /// Writes an array; write_item writes each item.
   template <class Items, class WriteItem>
   void add_array(const Items& items, WriteItem&& write_item) {
     bool is_first = true;
@@ -43,18 +43,21 @@ std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void write_head(Writer& writer, const Problem& problem, const Decomposition& decomposition, int depth) {
-  writer.add(
-      "{{\"decomposition\": {},\n\"scene\": {}, \"method\": {}, \"elements\": {}, \"rows\": {}, \"depth\": {},\n", 1,
-      quoted(problem.name), quoted(decomposition.method), problem.lattice.element_count, problem.lattice.rows.size(),
-      depth);
+void write_head(Writer& writer, const Problem& problem, const Decomposition& decomposition,
+                int depth) {
+  writer.add("{{\"decomposition\": {},\n\"scene\": {}, \"method\": {}, \"elements\": {}, \"rows\": "
+             "{}, \"depth\": {},\n",
+             1, quoted(problem.name), quoted(decomposition.method), problem.lattice.element_count,
+             problem.lattice.rows.size(), depth);
   writer.add("\"bodies\": ");
   writer.add_array(problem.bodies, [&](const Body& body) {
-    writer.add("{{\"name\": {}, \"edge\": [{}, {}, {}], \"origin\": [{}, {}, {}]}}", quoted(body.name), body.edge[0],
-               body.edge[1], body.edge[2], body.origin[0], body.origin[1], body.origin[2]);
+    writer.add("{{\"name\": {}, \"edge\": [{}, {}, {}], \"origin\": [{}, {}, {}]}}",
+               quoted(body.name), body.edge[0], body.edge[1], body.edge[2], body.origin[0],
+               body.origin[1], body.origin[2]);
   });
   writer.add(",\n\"row_places\": ");
-  writer.add_array(problem.lattice.rows, [&](const Row& row) { writer.add("[{}, {}, {}]", row.body, row.y, row.z); });
+  writer.add_array(problem.lattice.rows,
+                   [&](const Row& row) { writer.add("[{}, {}, {}]", row.body, row.y, row.z); });
 }
 
 void write_part(Writer& writer, const CellGrid& grid, const Zones& zones, int index) {
@@ -63,12 +66,15 @@ void write_part(Writer& writer, const CellGrid& grid, const Zones& zones, int in
     writer.add_array(addresses.runs_of(grid, set),
                      [&](const Run& run) { writer.add("[{}, {}]", run.global, run.count); });
   };
-  writer.add("\n{{\"part\": {}, \"own_elements\": {},\n \"segments\": ", index, zones.own.cell_count());
-  writer.add_array(zones.own.segments(),
-                   [&](const Segment& s) { writer.add("[{}, {}, {}]", s.row, s.x_begin, s.x_end); });
+  writer.add("\n{{\"part\": {}, \"own_elements\": {},\n \"segments\": ", index,
+             zones.own.cell_count());
+  writer.add_array(zones.own.segments(), [&](const Segment& s) {
+    writer.add("[{}, {}, {}]", s.row, s.x_begin, s.x_end);
+  });
   writer.add(",\n \"addresses\": ");
-  writer.add_array(addresses.runs_of(grid, zones.own),
-                   [&](const Run& run) { writer.add("[{}, {}, {}]", run.local, run.global, run.count); });
+  writer.add_array(addresses.runs_of(grid, zones.own), [&](const Run& run) {
+    writer.add("[{}, {}, {}]", run.local, run.global, run.count);
+  });
   writer.add(",\n \"boundary\": ");
   writer.add_array(zones.faces, [&](const Zones::Face& face) {
     writer.add("\n  {{\"part\": {}, \"send\": ", face.part);
@@ -82,8 +88,8 @@ void write_part(Writer& writer, const CellGrid& grid, const Zones& zones, int in
 
 } // namespace
 
-void write_decomposition(const std::string& path, const Problem& problem, const Decomposition& decomposition,
-                         int depth) {
+void write_decomposition(const std::string& path, const Problem& problem,
+                         const Decomposition& decomposition, int depth) {
   const CellGrid grid(problem);
   Writer writer(path);
   write_head(writer, problem, decomposition, depth);

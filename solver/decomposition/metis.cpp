@@ -20,26 +20,29 @@ namespace dss {
 
 std::string why_no_metis() { return "built without METIS; install libmetis-dev and build again"; }
 
-std::vector<Share> divide_by_metis(const Division&) { throw InputError("method metis: " + why_no_metis()); }
+std::vector<Share> divide_by_metis(const Division&) {
+  throw InputError("method metis: " + why_no_metis());
+}
 
 #else
 namespace {
 
-/// Neighbours of each element in METIS's form: those of element e are neighbour[first[e]] .. neighbour[first[e + 1] -
-/// 1].
+/// Neighbours of each element in the form of METIS. Those of element e are neighbour[first[e]] ..
+/// neighbour[first[e + 1] - 1].
 struct Graph {
   std::vector<idx_t> first, neighbour, weight;
   idx_t size() const { return idx_t(first.size()) - 1; }
 };
 
-/// METIS wants each link once in each direction: extra links that repeat another, or a link of the grid, are left out.
+/// METIS wants each link once in each direction. So extra links that repeat another extra link or a
+/// link of the grid are left out.
 std::vector<std::pair<std::size_t, std::size_t>> extra_pairs(const Division& division) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (const ExtraLink& link : division.problem.extra_links) {
     const Cell i = division.grid.cell_of(link.i), j = division.grid.cell_of(link.j);
     const Row& row = division.grid.row(i.row);
-    const bool is_beside =
-        i.x == j.x && (row.lower_y == j.row || row.upper_y == j.row || row.lower_z == j.row || row.upper_z == j.row);
+    const bool is_beside = i.x == j.x && (row.lower_y == j.row || row.upper_y == j.row ||
+                                          row.lower_z == j.row || row.upper_z == j.row);
     const bool is_in_row = i.row == j.row && std::abs(i.x - j.x) <= 1;
     if (!is_beside && !is_in_row) pairs.push_back(std::minmax(link.i, link.j));
   }
@@ -48,14 +51,15 @@ std::vector<std::pair<std::size_t, std::size_t>> extra_pairs(const Division& div
   return pairs;
 }
 
-/// Weights as whole numbers, to three digits of the smallest if their sum allows.
+/// Weights as whole numbers, with three digits for the smallest if the sum allows it.
 std::vector<idx_t> whole_weights(const Division& division) {
   const auto& cost = division.body_cost;
   if (std::adjacent_find(cost.begin(), cost.end(), std::not_equal_to<>()) == cost.end()) return {};
   double sum = 0;
   division.grid.lattice().for_each_element(
       [&](std::size_t, const Row& row, int) { sum += cost[std::size_t(row.body)]; });
-  const double scale = std::min(1000 / *std::min_element(cost.begin(), cost.end()), double(1 << 30) / sum);
+  const double scale =
+      std::min(1000 / *std::min_element(cost.begin(), cost.end()), double(1 << 30) / sum);
   std::vector<idx_t> weight;
   division.grid.lattice().for_each_element([&](std::size_t, const Row& row, int) {
     weight.push_back(std::max(idx_t(1), idx_t(std::lround(cost[std::size_t(row.body)] * scale))));
@@ -72,8 +76,9 @@ Graph graph_of(const Division& division) {
   };
   constexpr std::size_t most = std::numeric_limits<idx_t>::max();
   if (6 * lattice.element_count + 2 * extra.size() > most)
-    throw InputError(fmt::format("method metis: {} elements are more than this METIS can take ({} at most); use blocks",
-                                 lattice.element_count, most / 6));
+    throw InputError(fmt::format(
+        "method metis: {} elements are more than this METIS can take ({} at most); use blocks",
+        lattice.element_count, most / 6));
   Graph graph;
   graph.first.assign(lattice.element_count + 1, 0);
   for_each_pair([&](std::size_t i, std::size_t j) {
@@ -110,15 +115,17 @@ bool is_connected(const Graph& graph) {
   return count == graph.size();
 }
 
-/// The largest ratio of a part's share of the weight to the share that it should have; infinite if a part is empty.
-double imbalance(const Graph& graph, const std::vector<real_t>& wanted, const std::vector<idx_t>& part) {
+/// Largest ratio of a part's share of the weight to its wanted share; infinite if a part is empty.
+double imbalance(const Graph& graph, const std::vector<real_t>& wanted,
+                 const std::vector<idx_t>& part) {
   std::vector<double> sum(wanted.size(), 0);
   for (std::size_t e = 0; e < part.size(); ++e)
     sum[std::size_t(part[e])] += graph.weight.empty() ? 1 : double(graph.weight[e]);
   const double all = std::accumulate(sum.begin(), sum.end(), 0.0);
   double worst = 0;
   for (std::size_t p = 0; p < sum.size(); ++p)
-    worst = sum[p] > 0 ? std::max(worst, sum[p] / all / double(wanted[p])) : std::numeric_limits<double>::infinity();
+    worst = sum[p] > 0 ? std::max(worst, sum[p] / all / double(wanted[p]))
+                       : std::numeric_limits<double>::infinity();
   return worst;
 }
 
@@ -132,14 +139,16 @@ std::vector<idx_t> partition(Graph& graph, std::vector<real_t>& wanted, Manner m
   options[METIS_OPTION_CONTIG] = manner == Manner::k_way_contiguous;
   idx_t elements = graph.size(), constraints = 1, parts = idx_t(wanted.size()), cut = 0;
   std::vector<idx_t> part(std::size_t(elements), 0);
-  const auto function = manner == Manner::recursive ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  const auto function =
+      manner == Manner::recursive ? METIS_PartGraphRecursive : METIS_PartGraphKway;
   const int status = function(&elements, &constraints, graph.first.data(), graph.neighbour.data(),
-                              graph.weight.empty() ? nullptr : graph.weight.data(), nullptr, nullptr, &parts,
-                              wanted.data(), nullptr, options, &cut, part.data());
+                              graph.weight.empty() ? nullptr : graph.weight.data(), nullptr,
+                              nullptr, &parts, wanted.data(), nullptr, options, &cut, part.data());
   return status == METIS_OK ? part : std::vector<idx_t>{};
 }
 
-/// Contiguous parts if the bodies hang together and that balances; else what balances best.
+/// Contiguous parts if the bodies are connected and the balance is good; otherwise the best
+/// balance.
 std::vector<idx_t> best_partition(const Division& division) {
   Graph graph = graph_of(division);
   if (division.parts() == 1) return std::vector<idx_t>(std::size_t(graph.size()), 0);
@@ -151,7 +160,8 @@ std::vector<idx_t> best_partition(const Division& division) {
   for (const Manner manner : {Manner::k_way_contiguous, Manner::k_way, Manner::recursive}) {
     if (manner == Manner::k_way_contiguous && !is_connected(graph)) continue;
     std::vector<idx_t> part = partition(graph, wanted, manner);
-    const double excess = part.empty() ? std::numeric_limits<double>::infinity() : imbalance(graph, wanted, part);
+    const double excess =
+        part.empty() ? std::numeric_limits<double>::infinity() : imbalance(graph, wanted, part);
     if (excess >= least) continue;
     least = excess;
     best = std::move(part);
@@ -159,7 +169,8 @@ std::vector<idx_t> best_partition(const Division& division) {
   }
   if (best.empty())
     throw InputError(fmt::format(
-        "method metis: METIS leaves one of {} parts without elements; take fewer parts, or blocks", division.parts()));
+        "method metis: METIS leaves one of {} parts without elements; take fewer parts, or blocks",
+        division.parts()));
   return best;
 }
 
@@ -172,8 +183,8 @@ std::vector<Share> divide_by_metis(const Division& division) {
   std::vector<Share> shares;
   division.grid.for_each_run(division.grid.all(), [&](const Segment& run, std::size_t first) {
     for (int x = run.x_begin; x < run.x_end; ++x, ++first)
-      if (!shares.empty() && shares.back().part == part[first] && shares.back().segment.row == run.row &&
-          shares.back().segment.x_end == x)
+      if (!shares.empty() && shares.back().part == part[first] &&
+          shares.back().segment.row == run.row && shares.back().segment.x_end == x)
         ++shares.back().segment.x_end;
       else
         shares.push_back({{run.row, x, x + 1}, int(part[first])});

@@ -8,8 +8,9 @@
 namespace dss {
 namespace {
 
-/// Local numbers of those elements that are here, in their order.
-std::vector<std::size_t> restricted(const std::vector<std::size_t>& elements, const Addresses& addresses) {
+/// Local numbers of the given elements that are in this part, in their order.
+std::vector<std::size_t> restricted(const std::vector<std::size_t>& elements,
+                                    const Addresses& addresses) {
   std::vector<std::size_t> here;
   for (const std::size_t element : elements)
     if (const auto local = addresses.local(element)) here.push_back(*local);
@@ -23,7 +24,8 @@ std::vector<std::size_t> local_elements(const std::vector<Run>& runs) {
   return elements;
 }
 
-/// Rows of the elements of a set, without their neighbours. @param global_row  gets the row of each in the original
+/// Rows of the elements of a set, without their neighbour rows.
+/// @param global_row  output: row of the original lattice, for each row
 Lattice cut_rows(const CellGrid& grid, const CellSet& set, std::vector<int>& global_row) {
   Lattice lattice;
   grid.for_each_run(set, [&](const Segment& run, std::size_t) {
@@ -48,7 +50,7 @@ Lattice cut_rows(const CellGrid& grid, const CellSet& set, std::vector<int>& glo
   return lattice;
 }
 
-/// Rows are neighbours where the original's are and both are here.
+/// Sets neighbour rows: two rows are neighbours if they are in the original and both are here.
 void join_rows(Lattice& lattice, const Lattice& original, const std::vector<int>& global_row) {
   const auto local_row = [&](int global) {
     const auto found = std::lower_bound(global_row.begin(), global_row.end(), global);
@@ -66,13 +68,16 @@ bool is_damped(const ExtraLink& link) {
   return c.d_normal != 0 || c.d_shear != 0 || c.d_rot != Vec3{};
 }
 
-/// Clamps, loads, extra links and initial motions of the elements that are here. Loads and motions stay in the list
-/// when none of their elements is here: their numbers are the same in every part.
+/// Copies clamps, loads, extra links and initial motions of the elements in this part. Loads and
+/// motions without elements here stay in the lists, so that their numbers are the same in every
+/// part.
 void restrict_terms(const Problem& original, const Addresses& addresses, Problem& problem) {
   for (const Clamp& clamp : original.clamps)
-    if (const auto element = addresses.local(clamp.element)) problem.clamps.push_back({*element, clamp.dofs});
+    if (const auto element = addresses.local(clamp.element))
+      problem.clamps.push_back({*element, clamp.dofs});
   for (const Load& load : original.loads)
-    problem.loads.push_back({restricted(load.elements, addresses), load.force, load.torque, load.signal});
+    problem.loads.push_back(
+        {restricted(load.elements, addresses), load.force, load.torque, load.signal});
   problem.has_damped_links_elsewhere = original.has_damped_links_elsewhere;
   for (ExtraLink link : original.extra_links) {
     problem.has_damped_links_elsewhere = problem.has_damped_links_elsewhere || is_damped(link);
@@ -83,12 +88,13 @@ void restrict_terms(const Problem& original, const Addresses& addresses, Problem
     problem.extra_links.push_back(link);
   }
   for (const InitialMotion& motion : original.initial_motions) {
-    problem.initial_motions.push_back({restricted(motion.elements, addresses), motion.displacement, motion.rotation,
-                                       motion.velocity, motion.angular_velocity, motion.is_rigid, motion.centre});
+    problem.initial_motions.push_back({restricted(motion.elements, addresses), motion.displacement,
+                                       motion.rotation, motion.velocity, motion.angular_velocity,
+                                       motion.is_rigid, motion.centre});
   }
 }
 
-/// What is the same in every part.
+/// Copies everything that is the same in every part.
 void copy_common(const Problem& original, Problem& problem) {
   problem.name = original.name;
   problem.bodies = original.bodies;
@@ -126,7 +132,7 @@ Part make_part(const Problem& problem, const Decomposition& decomposition, int i
   return part;
 }
 
-/// What a part computes, row by row.
+/// Measures what a part computes, row by row.
 static void measure_rows(const Lattice& lattice, const Zones& zones, PartSize& size) {
   struct RowCells {
     std::size_t layer = 0, own = 0, all = 0;
@@ -136,7 +142,8 @@ static void measure_rows(const Lattice& lattice, const Zones& zones, PartSize& s
   for (std::size_t layer = 0; layer <= zones.layers.size(); ++layer)
     for (const Segment& segment : (layer == 0 ? zones.own : zones.layers[layer - 1]).segments()) {
       RowCells& row = rows.try_emplace(segment.row, RowCells{layer}).first->second;
-      const auto cells = std::size_t(segment.x_end - segment.x_begin); // of these sets all are present
+      // All cells of these sets are present.
+      const auto cells = std::size_t(segment.x_end - segment.x_begin);
       row.all += cells;
       if (layer == 0) row.own += cells;
       row.has_halo |= layer > 0;
@@ -145,8 +152,8 @@ static void measure_rows(const Lattice& lattice, const Zones& zones, PartSize& s
   for (const auto& [r, row] : rows) {
     size.row_elements[row.layer] += row.all;
     const Row& place = lattice.rows[std::size_t(r)];
-    const bool reads_halo =
-        std::ranges::any_of(std::array{r, place.lower_y, place.upper_y, place.lower_z, place.upper_z}, [&](int beside) {
+    const bool reads_halo = std::ranges::any_of(
+        std::array{r, place.lower_y, place.upper_y, place.lower_z, place.upper_z}, [&](int beside) {
           const auto found = rows.find(beside);
           return found != rows.end() && found->second.has_halo;
         });
@@ -154,7 +161,8 @@ static void measure_rows(const Lattice& lattice, const Zones& zones, PartSize& s
   }
 }
 
-PartSize part_size(const Problem& problem, const Decomposition& decomposition, int index, int depth) {
+PartSize part_size(const Problem& problem, const Decomposition& decomposition, int index,
+                   int depth) {
   const Zones zones = find_zones(CellGrid(problem), decomposition, index, depth);
   PartSize size;
   size.own_elements = zones.own.cell_count();

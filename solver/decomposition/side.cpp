@@ -5,11 +5,12 @@
 namespace dss {
 namespace {
 
-/// Row of the part's lattice that holds an element.
+/// Row of the part's lattice with this element.
 int row_of_element(const Part& part, std::size_t element) {
   const auto& rows = part.problem.lattice.rows;
-  const auto after = std::upper_bound(rows.begin(), rows.end(), element,
-                                      [](std::size_t e, const Row& row) { return e < row.first_element; });
+  const auto after =
+      std::upper_bound(rows.begin(), rows.end(), element,
+                       [](std::size_t e, const Row& row) { return e < row.first_element; });
   return int(after - rows.begin()) - 1;
 }
 

@@ -13,17 +13,20 @@ CellSet own_cells(const CellGrid& grid, const Decomposition& decomposition, int 
   return grid.present(cells);
 }
 
-/// The pieces of a set by the part that owns them.
+/// Splits a set into pieces by the part that owns them.
 void sort_by_owner(const CellSet& set, const Decomposition& decomposition,
                    std::map<int, std::vector<Segment>>& pieces) {
   const std::vector<Share>& shares = decomposition.shares;
   for (const Segment& wanted : set.segments()) {
-    auto share = std::upper_bound(shares.begin(), shares.end(), wanted, [](const Segment& piece, const Share& s) {
-      return std::tie(piece.row, piece.x_begin) < std::tie(s.segment.row, s.segment.x_end);
-    });
-    for (; share != shares.end() && share->segment.row == wanted.row && share->segment.x_begin < wanted.x_end; ++share)
-      pieces[share->part].push_back(
-          {wanted.row, std::max(wanted.x_begin, share->segment.x_begin), std::min(wanted.x_end, share->segment.x_end)});
+    auto share = std::upper_bound(
+        shares.begin(), shares.end(), wanted, [](const Segment& piece, const Share& s) {
+          return std::tie(piece.row, piece.x_begin) < std::tie(s.segment.row, s.segment.x_end);
+        });
+    for (; share != shares.end() && share->segment.row == wanted.row &&
+           share->segment.x_begin < wanted.x_end;
+         ++share)
+      pieces[share->part].push_back({wanted.row, std::max(wanted.x_begin, share->segment.x_begin),
+                                     std::min(wanted.x_end, share->segment.x_end)});
   }
 }
 
@@ -37,8 +40,8 @@ void append_run(std::vector<Run>& runs, const Run& run) {
 
 } // namespace
 
-// A part's elements within `depth` of mine are all in my halo, so the distance to them is all that matters for what I
-// send; being symmetric, it gives the other part the same list.
+// All elements of another part within `depth` of this part are in this part's halo. The distance is
+// symmetric, so what this part sends is what the other part receives.
 Zones find_zones(const CellGrid& grid, const Decomposition& decomposition, int index, int depth) {
   Zones zones;
   zones.own = own_cells(grid, decomposition, index);

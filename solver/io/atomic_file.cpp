@@ -64,25 +64,28 @@ void AtomicFile::commit() {
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0) fail("write", errno);
-  if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0) fail("replace", errno);
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0)
+    fail("replace", errno);
   temporary_.clear();
 }
 
 void AtomicFile::fail(const char* what, int reason) const {
-  throw InputError(
-      fmt::format("{}: cannot {}: {}; give a path in a directory that exists, may be written and has space", target_,
-                  what, std::strerror(reason)));
+  throw InputError(fmt::format(
+      "{}: cannot {}: {}; give a path in a directory that exists, may be written and has space",
+      target_, what, std::strerror(reason)));
 }
 
 void require_writable(const std::string& target) {
-  AtomicFile probe(target); // its destructor removes the temporary: nothing was committed
+  AtomicFile probe(target); // its destructor removes the temporary file, because nothing was
+                            // committed
 }
 
 std::string read_text(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
     throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
-  if (S_ISDIR(status.st_mode)) throw InputError(fmt::format("{}: is a directory; give a file", path));
+  if (S_ISDIR(status.st_mode))
+    throw InputError(fmt::format("{}: is a directory; give a file", path));
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
   return {std::istreambuf_iterator<char>(stream), {}};

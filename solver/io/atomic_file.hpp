@@ -1,12 +1,14 @@
 #pragma once
-/// Files that appear whole or not at all: written to a temporary beside the target, then renamed.
+/// Files that appear whole or not at all. They are written to a temporary file beside the target
+/// and then renamed.
 #include <string>
 #include <string_view>
 
 namespace dss {
 
-/// A file under construction. Without commit() nothing is left behind and an earlier file stays as it was.
-/// A target that exists and is no regular file (a pipe, a terminal, /dev/full) is written in place.
+/// A file under construction. Without commit() nothing is left behind, and an earlier file stays
+/// unchanged. A target that exists and is not a regular file (a pipe, a terminal, /dev/full) is
+/// written in place.
 class AtomicFile {
 public:
   /// @throws InputError if the file cannot be created: one line with the path and the reason
@@ -15,9 +17,11 @@ public:
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
 
-  /// Appends bytes. @throws InputError if they cannot be written (disk full, limit on file size, ...)
+  /// Appends bytes.
+  /// @throws InputError if they cannot be written (disk full, limit on file size, ...)
   void write(std::string_view bytes);
-  /// Flushes, checks, and puts the file in its place. @throws InputError as write
+  /// Flushes, checks, and moves the file to its target.
+  /// @throws InputError as write
   void commit();
 
 private:
@@ -29,11 +33,13 @@ private:
   int descriptor_ = -1;
 };
 
-/// Checks before a long computation that a file could be created at `target`; leaves nothing behind.
-/// @throws InputError if not
+/// Checks, before a long computation, that a file can be created at `target`. Leaves nothing
+/// behind.
+/// @throws InputError if it cannot
 void require_writable(const std::string& target);
 
-/// Whole text of a file. @throws InputError if it cannot be read
+/// Returns the whole text of a file.
+/// @throws InputError if it cannot be read
 std::string read_text(const std::string& path);
 
 } // namespace dss

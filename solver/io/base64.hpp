@@ -1,5 +1,5 @@
 #pragma once
-/// Base64 of a stream of bytes, as VTK's inline binary arrays need it.
+/// Base64 of a stream of bytes, for VTK's inline binary arrays.
 #include "solver/io/atomic_file.hpp"
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace dss {
 
-/// Encodes what it is given into a file; finish() pads.
+/// Encodes bytes into a file. finish() adds the padding.
 class Base64Writer {
 public:
   explicit Base64Writer(AtomicFile& file) : file_(file) {}
@@ -34,7 +34,8 @@ public:
 
 private:
   void emit(int digits) {
-    static constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static constexpr char alphabet[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (int digit = 0; digit < 4; ++digit)
       text_ += digit < digits ? alphabet[(group_ >> (18 - 6 * digit)) & 63u] : '=';
     group_ = 0;

@@ -8,7 +8,9 @@ fs::path installed_prefix() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   const fs::path prefix = folder.parent_path();
-  return folder.filename() == "bin" && fs::is_directory(prefix / "share/dssbench", error) ? prefix : fs::path();
+  return folder.filename() == "bin" && fs::is_directory(prefix / "share/dssbench", error)
+             ? prefix
+             : fs::path();
 }
 
 fs::path program_file(const fs::path& path) {

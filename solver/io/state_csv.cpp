@@ -16,9 +16,11 @@ void write_state_csv(const std::string& path, const Problem& problem, std::span<
     const Vec3 centre = rest_position(problem, row, x);
     const double* fields = &state[element * field_count];
     line.clear();
-    fmt::format_to(std::back_inserter(line), "{},{:.17g},{:.17g},{:.17g}", element, centre[0], centre[1], centre[2]);
+    fmt::format_to(std::back_inserter(line), "{},{:.17g},{:.17g},{:.17g}", element, centre[0],
+                   centre[1], centre[2]);
     for (const int column : columns)
-      fmt::format_to(std::back_inserter(line), ",{:.17g}", column == qs ? 1 + fields[qs] : fields[column]);
+      fmt::format_to(std::back_inserter(line), ",{:.17g}",
+                     column == qs ? 1 + fields[qs] : fields[column]);
     fmt::format_to(std::back_inserter(line), ",{:.17g}\n", stress[element][6]);
     file.write({line.data(), line.size()});
   });

@@ -9,10 +9,12 @@
 
 namespace dss {
 
-/// Writes element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm: rest position of the centre [m], then the
-/// fields of solver/model/fields.hpp (qw = 1 + qs), in global grid order, every number with 17 digits. C locale.
-/// @param state   13 numbers an element  @param stress  one entry an element
-/// @throws InputError if the file cannot be written; an earlier file then stays as it was
+/// Writes the columns element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm: the rest
+/// position of the centre [m], the fields of kernels/fields.hpp (qw = 1 + qs), and the von Mises
+/// stress [Pa]. Rows are in global grid order. Every number has 17 digits, in the C locale.
+/// @param state   13 numbers an element
+/// @param stress  one entry an element
+/// @throws InputError if the file cannot be written; an earlier file then stays unchanged
 void write_state_csv(const std::string& path, const Problem& problem, std::span<const double> state,
                      std::span<const ElementStress> stress);
 

@@ -12,9 +12,15 @@
 namespace dss {
 namespace {
 
-/// VTK_HEXAHEDRON's corners in its order, in half edges.
-constexpr std::array<std::array<int, 3>, 8> corners = {
-    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+/// Corners of VTK_HEXAHEDRON in VTK's order, in half edges.
+constexpr std::array<std::array<int, 3>, 8> corners = {{{-1, -1, -1},
+                                                        {1, -1, -1},
+                                                        {1, 1, -1},
+                                                        {-1, 1, -1},
+                                                        {-1, -1, 1},
+                                                        {1, -1, 1},
+                                                        {1, 1, 1},
+                                                        {-1, 1, 1}}};
 constexpr std::uint8_t vtk_hexahedron = 12;
 
 Vec3 arm(const Problem& problem, const Row& row, const std::array<int, 3>& corner) {
@@ -22,15 +28,17 @@ Vec3 arm(const Problem& problem, const Row& row, const std::array<int, 3>& corne
   return {0.5 * edge[0] * corner[0], 0.5 * edge[1] * corner[1], 0.5 * edge[2] * corner[2]};
 }
 
-/// Displacement of the end of an arm c of a rigid element: u + (A - I) c, with A - I = 2 q0 [r]x + 2 [r]x^2.
+/// Displacement of the end of an arm c of a rigid element: u + (A - I) c, with
+/// A - I = 2 q0 [r]x + 2 [r]x^2.
 Vec3 corner_displacement(const double* fields, const Vec3& c) {
   const double w = 1 + fields[qs], x = fields[qx], y = fields[qy], z = fields[qz];
   const Vec3 t = {y * c[2] - z * c[1], z * c[0] - x * c[2], x * c[1] - y * c[0]};
-  return {fields[ux] + 2 * (w * t[0] + y * t[2] - z * t[1]), fields[uy] + 2 * (w * t[1] + z * t[0] - x * t[2]),
+  return {fields[ux] + 2 * (w * t[0] + y * t[2] - z * t[1]),
+          fields[uy] + 2 * (w * t[1] + z * t[0] - x * t[2]),
           fields[uz] + 2 * (w * t[2] + x * t[1] - y * t[0])};
 }
 
-/// Rotation vector [rad] of the stored quaternion, its angle in [0, pi].
+/// Rotation vector [rad] of the stored quaternion, with an angle in [0, pi].
 Vec3 rotation_vector(const double* fields) {
   const double sign = 1 + fields[qs] < 0 ? -1 : 1;
   const Vec3 r = {sign * fields[qx], sign * fields[qy], sign * fields[qz]};
@@ -39,12 +47,14 @@ Vec3 rotation_vector(const double* fields) {
   return {scale * r[0], scale * r[1], scale * r[2]};
 }
 
-/// One <DataArray>: a 64-bit byte count, then the numbers that `fill` puts.
+/// Writes one <DataArray>: a 64-bit byte count, then the numbers from `fill`.
 template <class T, class Fill>
-void data_array(AtomicFile& file, std::string_view type, std::string_view name, std::size_t components,
-                std::size_t count, std::string_view component_names, Fill&& fill) {
-  file.write(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">", type,
-                         name, components, component_names));
+void data_array(AtomicFile& file, std::string_view type, std::string_view name,
+                std::size_t components, std::size_t count, std::string_view component_names,
+                Fill&& fill) {
+  file.write(fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">", type,
+      name, components, component_names));
   Base64Writer out(file);
   out.put(std::uint64_t(components * count * sizeof(T)));
   fill(out);
@@ -69,7 +79,8 @@ void write_points(AtomicFile& file, const Problem& problem, std::span<const doub
   file.write("</Points>\n<PointData Vectors=\"displacement\">\n");
   data_array<double>(file, "Float64", "displacement", 3, count, "", [&](Base64Writer& out) {
     each_corner([&](std::size_t element, const Vec3&, const Vec3& c) {
-      for (const double value : corner_displacement(&state[element * field_count], c)) out.put(value);
+      for (const double value : corner_displacement(&state[element * field_count], c))
+        out.put(value);
     });
   });
   file.write("</PointData>\n");
@@ -89,7 +100,8 @@ void write_cells(AtomicFile& file, std::size_t count) {
   file.write("</Cells>\n");
 }
 
-void write_cell_data(AtomicFile& file, std::span<const double> state, std::span<const ElementStress> stress) {
+void write_cell_data(AtomicFile& file, std::span<const double> state,
+                     std::span<const ElementStress> stress) {
   const std::size_t count = stress.size();
   const auto vectors = [&](std::string_view name, auto&& vector_of) {
     data_array<double>(file, "Float64", name, 3, count, "", [&](Base64Writer& out) {
@@ -101,13 +113,14 @@ void write_cell_data(AtomicFile& file, std::span<const double> state, std::span<
   vectors("displacement", [](const double* f) { return Vec3{f[ux], f[uy], f[uz]}; });
   vectors("velocity", [](const double* f) { return Vec3{f[vx], f[vy], f[vz]}; });
   vectors("rotation_vector", rotation_vector);
-  data_array<double>(file, "Float64", "stress", 6, count,
-                     " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\" "
-                     "ComponentName4=\"YZ\" ComponentName5=\"XZ\"", // VTK's order of symmetric tensors
-                     [&](Base64Writer& out) {
-                       for (const ElementStress& s : stress)
-                         for (const std::size_t component : {0, 1, 2, 5, 3, 4}) out.put(s[component]);
-                     });
+  data_array<double>(
+      file, "Float64", "stress", 6, count,
+      " ComponentName0=\"XX\" ComponentName1=\"YY\" ComponentName2=\"ZZ\" ComponentName3=\"XY\" "
+      "ComponentName4=\"YZ\" ComponentName5=\"XZ\"", // VTK's order of symmetric tensors
+      [&](Base64Writer& out) {
+        for (const ElementStress& s : stress)
+          for (const std::size_t component : {0, 1, 2, 5, 3, 4}) out.put(s[component]);
+      });
   data_array<double>(file, "Float64", "von_mises", 1, count, "", [&](Base64Writer& out) {
     for (const ElementStress& s : stress) out.put(s[6]);
   });
@@ -120,10 +133,11 @@ void write_vtu(const std::string& path, const Problem& problem, std::span<const 
                std::span<const ElementStress> stress) {
   const std::size_t count = problem.lattice.element_count;
   AtomicFile file(path);
-  file.write(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n");
-  file.write(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", 8 * count, count));
+  file.write("<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+             "header_type=\"UInt64\">\n");
+  file.write(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                         8 * count, count));
   write_points(file, problem, state);
   write_cells(file, count);
   write_cell_data(file, state, stress);
@@ -150,8 +164,8 @@ void write_pvd(const std::string& path, std::span<const Frame> frames) {
   file.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
              "byte_order=\"LittleEndian\">\n<Collection>\n");
   for (const Frame& frame : frames)
-    file.write(
-        fmt::format("<DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", frame.time, escaped(frame.file)));
+    file.write(fmt::format("<DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", frame.time,
+                           escaped(frame.file)));
   file.write("</Collection>\n</VTKFile>\n");
   file.commit();
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// VTK XML output, readable by ParaView: every element is a hexahedron of its own, because elements are rigid and gaps
-/// open between them.
+/// VTK XML output, readable by ParaView. Every element is a hexahedron of its own, because elements
+/// are rigid and gaps open between them.
 #include "solver/io/state_csv.hpp"
 #include "solver/model/problem.hpp"
 
@@ -10,11 +10,13 @@
 
 namespace dss {
 
-/// Writes one state as an unstructured grid (.vtu, inline base64, 64-bit floats). Points are the corners at rest; point
-/// data `displacement` [m] moves them (ParaView: Warp By Vector). Cell data: displacement [m], velocity [m/s],
-/// rotation_vector [rad], stress [Pa] (xx, yy, zz, yz, xz, xy) and von_mises [Pa].
-/// @param state   13 numbers an element  @param stress  one entry an element
-/// @throws InputError if the file cannot be written; an earlier file then stays as it was
+/// Writes one state as an unstructured grid (.vtu, inline base64, 64-bit floats). Points are the
+/// corners at rest; point data `displacement` [m] moves them (ParaView: Warp By Vector). Cell data:
+/// displacement [m], velocity [m/s], rotation_vector [rad], stress [Pa] (VTK's order: xx, yy, zz,
+/// xy, yz, xz) and von_mises [Pa].
+/// @param state   13 numbers an element
+/// @param stress  one entry an element
+/// @throws InputError if the file cannot be written; an earlier file then stays unchanged
 void write_vtu(const std::string& path, const Problem& problem, std::span<const double> state,
                std::span<const ElementStress> stress);
 
@@ -24,7 +26,8 @@ struct Frame {
   double time = 0;
 };
 
-/// Writes the index of a series of .vtu files (.pvd). @throws InputError if it cannot be written
+/// Writes the index of a series of .vtu files (.pvd).
+/// @throws InputError if it cannot be written
 void write_pvd(const std::string& path, std::span<const Frame> frames);
 
 } // namespace dss

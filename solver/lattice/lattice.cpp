@@ -9,7 +9,8 @@ namespace {
 /// @return its number in the lattice, or -1
 int append_row(Lattice& lattice, const VoxelGrid& grid, int body, int y, int z) {
   const auto nx = std::ptrdiff_t(grid.nx);
-  const auto begin = grid.occupied.begin() + (std::ptrdiff_t(z) * grid.ny + y) * nx, end = begin + nx;
+  const auto begin = grid.occupied.begin() + (std::ptrdiff_t(z) * grid.ny + y) * nx,
+             end = begin + nx;
   const auto is_occupied = [](std::uint8_t cell) { return cell != 0; };
   const auto first = std::find_if(begin, end, is_occupied);
   if (first == end) return -1;
@@ -50,7 +51,8 @@ void append_body(Lattice& lattice, const VoxelGrid& grid, int body) {
   }
 }
 
-// Rows that lie side by side count even when no cell of one faces a cell of the other: a loop over rows may read both.
+// Rows side by side count even if no cell of one faces a cell of the other, because a loop over
+// rows may read both.
 int Lattice::row_reach() const {
   int reach = 0;
   for (int r = 0; r < int(rows.size()); ++r)

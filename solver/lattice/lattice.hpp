@@ -1,39 +1,43 @@
 #pragma once
-/// Geometry as rows: every body is a set of cells of a regular grid, kept as rows of fixed (y, z) (DESIGN.md section
-/// 4).
+/// Geometry as rows. Every body is a set of cells of a regular grid, stored as rows of fixed (y, z)
+/// (DESIGN.md section 4).
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace dss {
 
-/// One row of a body: the cells x_begin <= x < x_end at fixed (y, z), some of which may be empty.
+/// One row of a body: the cells x_begin <= x < x_end at fixed (y, z). Cells between the ends may be
+/// holes.
 struct Row {
   int body = 0;
   int y = 0, z = 0;
   int x_begin = 0, x_end = 0;     ///< first present cell, one past the last present cell
   std::size_t first_element = 0;  ///< global number of the first present cell of the row
-  std::size_t first_cell = 0;     ///< place of cell x_begin in Lattice::present
+  std::size_t first_cell = 0;     ///< index of cell x_begin in Lattice::present
   int lower_y = -1, upper_y = -1; ///< row at y - 1, y + 1 of the same body and z, or -1
   int lower_z = -1, upper_z = -1; ///< row at z - 1, z + 1 of the same body and y, or -1
 };
 
-/// All bodies' rows, body by body, in each body by z, then y. Rows without a present cell do not exist.
+/// The rows of all bodies, body by body, in each body by z, then y. Every row has a present cell.
 /// Elements are the present cells, numbered in the order of rows, x fastest.
 struct Lattice {
   std::vector<Row> rows;
-  std::vector<std::uint8_t>
-      present; ///< 1 for each present cell, 0 for each hole between x_begin and x_end, row after row
+  /// 1 for each present cell, 0 for each hole between x_begin and x_end, row after row.
+  std::vector<std::uint8_t> present;
   std::size_t element_count = 0;
 
   bool is_present(const Row& row, int x) const {
-    return x >= row.x_begin && x < row.x_end && present[row.first_cell + std::size_t(x - row.x_begin)] != 0;
+    return x >= row.x_begin && x < row.x_end &&
+           present[row.first_cell + std::size_t(x - row.x_begin)] != 0;
   }
-  /// Largest distance in rows of two linked elements (0 when no links leave a row); the depth of a one-stage halo.
+  /// Largest distance in rows between linked elements; 0 if no link leaves a row. It is the depth
+  /// of the halo of one stage, in rows.
   int row_reach() const;
-  /// Number of face-to-face links inside the bodies (extra links not counted).
+  /// Number of links between faces inside the bodies, without extra links.
   std::size_t link_count() const;
-  /// Calls visit(i, j, axis) for every link between element i and its neighbour j across the +axis face of i.
+  /// Calls visit(i, j, axis) for every link between element i and its neighbour j across the +axis
+  /// face of i.
   template <class Visit>
   void for_each_link(Visit&& visit) const;
   /// Calls visit(element, row, x) for every element in order.
@@ -41,13 +45,13 @@ struct Lattice {
   void for_each_element(Visit&& visit) const;
 };
 
-/// Dense occupancy of one body: nx * ny * nz flags, x fastest, then y, then z.
+/// Occupied cells of one body: nx * ny * nz flags, x fastest, then y, then z.
 struct VoxelGrid {
   int nx = 0, ny = 0, nz = 0;
   std::vector<std::uint8_t> occupied;
 };
 
-/// Appends the body's rows and elements to the lattice; `body` is its number.
+/// Appends the rows and elements of a body to the lattice; `body` is its index.
 void append_body(Lattice& lattice, const VoxelGrid& grid, int body);
 
 template <class Visit>

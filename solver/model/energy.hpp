@@ -7,14 +7,18 @@
 
 namespace dss {
 
-/// Kinetic energy, elastic energy of all links and energy of the stabilizing springs [J]. Loads and the frame's
-/// acceleration have no part in it: they do work. Potentials: solver/reference/link_law.hpp.
-/// @param state     field_count numbers for every element (solver/model/fields.hpp)
-/// @param rotation  of the run: small rotations have an energy of their own, the other ways to describe one share theirs
+/// Kinetic energy, elastic energy of all links and energy of the stabilizing springs [J]. Loads and
+/// the frame's acceleration do work and are not included. The potentials are in
+/// solver/reference/link_law.hpp.
+/// @param state     field_count numbers for every element (kernels/fields.hpp)
+/// @param rotation  description of rotations in the run; small and linearised rotations have an
+///     energy of their own, all others share one
 /// @throws InputError if the state has another size
-double total_energy(const Problem& problem, std::span<const double> state, Rotation rotation = Rotation::quaternion);
+double total_energy(const Problem& problem, std::span<const double> state,
+                    Rotation rotation = Rotation::quaternion);
 
-/// Whether total_energy is constant in time: no link or tie is damped, nothing loads or accelerates the bodies.
+/// True if total_energy is constant in time: no link or tie is damped, and nothing loads or
+/// accelerates the bodies.
 bool conserves_energy(const Problem& problem);
 
 } // namespace dss

@@ -13,13 +13,14 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A unit quaternion (1 + s, v), stored without its 1 (DESIGN.md section 3).
+/// A unit quaternion (1 + s, v), stored without the 1 (DESIGN.md section 3).
 struct Turn {
   double s = 0;
   Vec3 v{};
 };
 
-/// Of a rotation vector [rad]. s = cos(angle / 2) - 1 is formed without the subtraction that would cancel.
+/// From a rotation vector [rad]. s = cos(angle / 2) - 1 is computed as -2 sin^2(angle / 4), which
+/// does not cancel.
 Turn turn_of(const Vec3& rotation) {
   const double angle = std::hypot(rotation[0], rotation[1], rotation[2]);
   if (angle == 0) return {};
@@ -27,12 +28,13 @@ Turn turn_of(const Vec3& rotation) {
   return {-2 * quarter * quarter, {scale * rotation[0], scale * rotation[1], scale * rotation[2]}};
 }
 
-/// First `a`, then `b`.
+/// Rotation `a`, then rotation `b`.
 Turn product(const Turn& b, const Turn& a) {
   const Vec3 across = cross(b.v, a.v);
   Turn both;
   both.s = b.s + a.s + b.s * a.s - (b.v[0] * a.v[0] + b.v[1] * a.v[1] + b.v[2] * a.v[2]);
-  for (std::size_t i = 0; i < 3; ++i) both.v[i] = (1 + b.s) * a.v[i] + (1 + a.s) * b.v[i] + across[i];
+  for (std::size_t i = 0; i < 3; ++i)
+    both.v[i] = (1 + b.s) * a.v[i] + (1 + a.s) * b.v[i] + across[i];
   return both;
 }
 
@@ -46,25 +48,33 @@ Vec3 shift(const Turn& turn, const Vec3& r) {
 
 Vec3 centre_of(const Problem& problem, std::size_t element) {
   const std::vector<Row>& rows = problem.lattice.rows;
-  const auto after = std::upper_bound(rows.begin(), rows.end(), element,
-                                      [](std::size_t e, const Row& row) { return e < row.first_element; });
+  const auto after =
+      std::upper_bound(rows.begin(), rows.end(), element,
+                       [](std::size_t e, const Row& row) { return e < row.first_element; });
   const Row& row = *(after - 1);
   std::size_t e = row.first_element;
-  const std::size_t end = after == rows.end() ? problem.lattice.element_count : after->first_element;
-  if (end - e == std::size_t(row.x_end - row.x_begin)) // no holes
+  const std::size_t end =
+      after == rows.end() ? problem.lattice.element_count : after->first_element;
+  if (end - e == std::size_t(row.x_end - row.x_begin)) // a row without holes
     return rest_position(problem, row, row.x_begin + int(element - e));
   for (int x = row.x_begin; x < row.x_end; ++x)
     if (problem.lattice.is_present(row, x) && e++ == element) return rest_position(problem, row, x);
   return {};
 }
 
-Vec3 vector_at(const double* fields, Field first) { return {fields[first], fields[first + 1], fields[first + 2]}; }
-void place(double* fields, Field first, const Vec3& v) { std::copy(v.begin(), v.end(), fields + first); }
+Vec3 vector_at(const double* fields, Field first) {
+  return {fields[first], fields[first + 1], fields[first + 2]};
+}
+void place(double* fields, Field first, const Vec3& v) {
+  std::copy(v.begin(), v.end(), fields + first);
+}
 
-/// Adds the motion to what earlier motions made of the element.
-void apply(const InitialMotion& motion, const Problem& problem, std::size_t element, double* fields) {
+/// Applies the motion after the earlier motions of the element.
+void apply(const InitialMotion& motion, const Problem& problem, std::size_t element,
+           double* fields) {
   const Turn turn = turn_of(motion.rotation);
-  Vec3 u = sum(vector_at(fields, ux), motion.displacement), v = sum(vector_at(fields, vx), motion.velocity);
+  Vec3 u = sum(vector_at(fields, ux), motion.displacement),
+       v = sum(vector_at(fields, vx), motion.velocity);
   if (motion.is_rigid) {
     const Vec3 rest = centre_of(problem, element);
     u = sum(u, shift(turn, difference(sum(rest, vector_at(fields, ux)), motion.centre)));
@@ -82,7 +92,8 @@ void apply(const InitialMotion& motion, const Problem& problem, std::size_t elem
 
 double shortest_edge(const Problem& problem) {
   double edge = std::numeric_limits<double>::infinity();
-  for (const Body& body : problem.bodies) edge = std::min(edge, *std::ranges::min_element(body.edge));
+  for (const Body& body : problem.bodies)
+    edge = std::min(edge, *std::ranges::min_element(body.edge));
   return edge;
 }
 

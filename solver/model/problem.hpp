@@ -1,8 +1,8 @@
 #pragma once
-/// What is to be computed, with every number resolved: the output of a scene, the input of every variant and of the
-/// oracle. SI units throughout. Nothing here knows how or where it is computed.
+/// A problem: everything to compute, with every number resolved, in SI units. A scene produces it;
+/// every variant and the oracle take it. Nothing here depends on how or where it is computed.
+#include "kernels/fields.hpp"
 #include "solver/lattice/lattice.hpp"
-#include "solver/model/fields.hpp"
 #include "solver/model/signal.hpp"
 
 #include <array>
@@ -17,44 +17,46 @@ namespace dss {
 enum class LinkLaw { paper, material };
 
 /// Constants of a link across the faces normal to one body axis.
-/// Rotational constants are about the body's x, y, z axes: for a link along x, k_rot[0] is the twist, the others bend.
-/// The paper's law is isotropic: k_normal == k_shear > 0, d_normal == d_shear, all k_rot equal, all d_rot equal, and
-/// the same on all axes.
+/// Rotational constants are about the body's x, y, z axes. For a link along x, k_rot[0] is the
+/// twist and the others bend.
+/// The paper's law is isotropic: k_normal == k_shear > 0, d_normal == d_shear, all k_rot equal, all
+/// d_rot equal, and the same on all axes.
 struct AxisConstants {
   double k_normal = 0, k_shear = 0; ///< [N/m]
   double d_normal = 0, d_shear = 0; ///< [N s/m]
   Vec3 k_rot{}, d_rot{};            ///< [N m/rad], [N m s/rad]
 };
 
-/// A body of identical box elements; its elements are those of the lattice rows that carry its number.
+/// A body of identical box elements. Its elements are those of the lattice rows whose `body` is its
+/// index.
 struct Body {
   std::string name;
   LinkLaw law = LinkLaw::paper;
-  Vec3 edge{};                         ///< edge lengths of an element [m]
-  Vec3 origin{};                       ///< rest position of the low corner of cell (0, 0, 0) [m]; for output only
-  double mass = 0;                     ///< of one element [kg]
-  Vec3 inertia{};                      ///< principal moments of one element about its body axes [kg m^2]
+  Vec3 edge{};     ///< edge lengths of an element [m]
+  Vec3 origin{};   ///< rest position of the low corner of cell (0, 0, 0) [m]
+  double mass = 0; ///< of one element [kg]
+  Vec3 inertia{};  ///< principal moments of one element about its body axes [kg m^2]
   std::array<AxisConstants, 3> axis{}; ///< link constants along x, y, z
   bool has_tensor_inertia() const { return inertia[0] != inertia[1] || inertia[1] != inertia[2]; }
 };
 
-/// Clamped degrees of freedom: their accelerations are zero, and so are their initial velocities.
+/// Clamped degrees of freedom. Their accelerations and initial velocities are zero.
 struct Clamp {
   std::size_t element = 0;
   std::uint8_t dofs = 0; ///< bits of Dof
 };
 
-/// A wrench on each of some elements, the same on all, scaled by a signal. Global axes, dead (does not follow
-/// rotation).
+/// The same wrench on each of some elements, scaled by a signal. It is in global axes and does not
+/// follow rotation.
 struct Load {
   std::vector<std::size_t> elements; ///< ascending
   Vec3 force{}, torque{};            ///< on each element [N], [N m], at signal value 1
   Signal signal;
 };
 
-/// A link outside the grid between the upper (+axis) face of element i and the lower (-axis) face of element j,
-/// unstrained at rest wherever the two elements are. Its arms are the half edges of each element's own body. Laws as in
-/// Body.
+/// A link outside the grid, between the upper (+axis) face of element i and the lower (-axis) face
+/// of element j. It is unstrained at rest, wherever the two elements are. Its arms are half edges
+/// of each element's own body. The laws are as in Body.
 struct ExtraLink {
   std::size_t i = 0, j = 0;
   int axis = 0;
@@ -62,38 +64,43 @@ struct ExtraLink {
   AxisConstants constants;
 };
 
-/// Weak springs and dampers that tie every element to the frame: force -k u - d v, moment -k_rot * 2 (qx, qy, qz) -
-/// d_rot w.
+/// Weak springs and dampers that tie every element to the frame: force -k u - d v, moment -k_rot 2
+/// (qx, qy, qz) - d_rot w.
 struct Stabilization {
   double k = 0, d = 0, k_rot = 0, d_rot = 0;
   bool is_present() const { return k != 0 || d != 0 || k_rot != 0 || d_rot != 0; }
 };
 
-/// A rigid or uniform initial motion of a set of elements.
+/// Initial motion of a set of elements, rigid or uniform.
 struct InitialMotion {
   std::vector<std::size_t> elements;
-  Vec3 displacement{}, rotation{};     ///< [m], rotation vector [rad] (each element about its own centre)
+  /// [m]; rotation vector [rad] of each element about its own centre
+  Vec3 displacement{}, rotation{};
   Vec3 velocity{}, angular_velocity{}; ///< [m/s], [rad/s]
-  bool is_rigid = false; ///< true: the set also turns about `centre` as one body (u and v get the rigid field)
-  Vec3 centre{};         ///< [m]
+  /// True: the set also turns about `centre` as one rigid body; u and v get the rigid field.
+  bool is_rigid = false;
+  Vec3 centre{}; ///< [m]
 };
 
-/// Tolerances of a scene for one precision: relative errors, after one right-hand-side evaluation and after the run.
+/// Tolerances of a scene for one precision: relative errors after one evaluation of the right-hand
+/// side, and after the run.
 struct Tolerance {
   double evaluation = 0, run = 0;
 };
 
+/// A problem to compute. Element numbers are those of the lattice.
 struct Problem {
-  std::string name; ///< scene name
+  std::string name; ///< name of the scene
   Lattice lattice;
   std::vector<Body> bodies;
-  std::vector<Clamp> clamps; ///< ascending by element, at most one each
+  std::vector<Clamp> clamps; ///< ascending by element, at most one for each
   std::vector<Load> loads;
   std::vector<ExtraLink> extra_links;
-  bool has_damped_links_elsewhere = false; ///< part of a larger problem: some extra link of the whole is damped
+  /// True in a part of a larger problem if some extra link of the whole problem is damped.
+  bool has_damped_links_elsewhere = false;
   Stabilization stabilization;
-  std::array<Signal, 3>
-      frame_acceleration; ///< uniform acceleration of every element: gravity minus the frame's a(t) [m/s^2]
+  /// Uniform acceleration of every element: gravity minus the frame's a(t) [m/s^2].
+  std::array<Signal, 3> frame_acceleration;
   std::vector<InitialMotion> initial_motions;
   double dt = 0;          ///< default step [s]
   long steps = 0;         ///< default number of steps
@@ -103,19 +110,21 @@ struct Problem {
   std::size_t link_count() const { return lattice.link_count() + extra_links.size(); }
 };
 
-/// Fields of the elements [first, first + count) at t = 0; `fields` has count * field_count entries.
+/// Fields of the elements [first, first + count) at t = 0.
+/// @param fields  output, count * field_count numbers
 void initial_state(const Problem& problem, std::size_t first, std::size_t count, double* fields);
-/// Of all elements.
+/// Fields of all elements at t = 0: element_count * field_count numbers.
 std::vector<double> initial_state(const Problem& problem);
 
-/// Of all bodies [m].
+/// Shortest edge of all bodies [m].
 double shortest_edge(const Problem& problem);
 
 /// Rest position of the centre of cell (x, row.y, row.z) [m].
 Vec3 rest_position(const Problem& problem, const Row& row, int x);
 
-/// Empty if the planar model is exact for the problem (one element thick; clamps, loads, acceleration and initial state
-/// symmetric about the plane z = const), else one line that says what leaves the plane.
+/// Returns an empty text if the planar model is exact for the problem: one element thick, and
+/// clamps, loads, acceleration and initial state symmetric about the plane z = const. Otherwise
+/// returns one line that says what leaves the plane.
 std::string why_not_planar(const Problem& problem);
 
 } // namespace dss

@@ -1,6 +1,6 @@
 #pragma once
 /// How orientations are described and integrated.
-#include "solver/model/model.hpp"
+#include "kernels/model.hpp"
 
 #include <array>
 #include <optional>
@@ -8,26 +8,34 @@
 
 namespace dss {
 
-/// quaternion: unit quaternions, for any rotation; what every variant has. Of the variant `reference` alone:
-/// tait_bryan: the paper's angles X-Y-Z, taken anew relative to the present orientation when the middle angle nears 90 degrees;
-/// tait_bryan_raw: the same angles, never taken anew, to show why they must be;
-/// linearised: small rotation vectors, A - I = [theta]x in the gaps of links and I elsewhere, which makes the equations linear;
-/// small: such vectors, A = I + [theta]x.
+/// quaternion: unit quaternions, for any rotation. Every variant has them. Only the variant
+/// `reference` has the others:
+/// tait_bryan: the paper's angles X-Y-Z. They restart from the present orientation when the middle
+/// angle nears 90 degrees (the paper's "recalculated relative to the previous ones").
+/// tait_bryan_raw: the same angles without restart, to show why the restart is needed.
+/// linearised: small rotation vectors, A - I = [theta]x in the gaps of links and A = I elsewhere,
+/// so the equations are linear.
+/// small: small rotation vectors, A = I + [theta]x everywhere.
 enum class Rotation { quaternion, tait_bryan, tait_bryan_raw, linearised, small };
 
-inline constexpr std::array rotations{Rotation::quaternion, Rotation::tait_bryan, Rotation::tait_bryan_raw,
-                                      Rotation::linearised, Rotation::small};
+inline constexpr std::array rotations{Rotation::quaternion, Rotation::tait_bryan,
+                                      Rotation::tait_bryan_raw, Rotation::linearised,
+                                      Rotation::small};
+/// Name of a rotation, as in --rotation.
 constexpr std::string_view name(Rotation rotation) {
-  constexpr std::array<std::string_view, 5> names{"quaternion", "tait_bryan", "tait_bryan_raw", "linearised", "small"};
+  constexpr std::array<std::string_view, 5> names{"quaternion", "tait_bryan", "tait_bryan_raw",
+                                                  "linearised", "small"};
   return names[std::size_t(rotation)];
 }
+/// The rotation with a given name; nothing if there is none.
 constexpr std::optional<Rotation> find_rotation(std::string_view text) {
   for (const Rotation rotation : rotations)
     if (name(rotation) == text) return rotation;
   return std::nullopt;
 }
 
-/// Of the oracle that has the equations of a model; those of models with fewer degrees of freedom are the same where these suffice.
+/// The description whose oracle has the equations of a model. A model with fewer degrees of freedom
+/// has the same equations where its degrees of freedom suffice.
 constexpr Rotation rotation_of(Model model) {
   if (model == Model::small) return Rotation::small;
   return is_linear(model) ? Rotation::linearised : Rotation::quaternion;

@@ -36,8 +36,8 @@ double Signal::operator()(double t) const {
 bool is_zero_always(const Signal& signal) {
   if (signal.kind == Signal::Kind::constant) return signal.amplitude + signal.offset == 0;
   const bool has_no_values =
-      signal.kind == Signal::Kind::table &&
-      std::all_of(signal.values.begin(), signal.values.end(), [](double value) { return value == 0; });
+      signal.kind == Signal::Kind::table && std::all_of(signal.values.begin(), signal.values.end(),
+                                                        [](double value) { return value == 0; });
   return signal.offset == 0 && (signal.amplitude == 0 || has_no_values);
 }
 

@@ -13,22 +13,23 @@ namespace {
 
 using Spatial = SpatialPhysics<double>;
 
-/// Of the spatial model, or, where rotations are vectors, of the linear one or that of small rotations.
+/// Element of the spatial model, or of the linear or small model if P has rotation vectors.
 template <class P>
 typename P::element element_at(std::span<const double> state, std::size_t e) {
   std::array<double, field_count> f;
   std::copy_n(&state[e * field_count], f.size(), f.begin());
   if constexpr (P::fields != Spatial::fields) to_rotation_vector(f);
-  typename P::element element{{f[ux], f[uy], f[uz]}, {f[vx], f[vy], f[vz]}, {}, {f[wx], f[wy], f[wz]}};
+  typename P::element element{
+      {f[ux], f[uy], f[uz]}, {f[vx], f[vy], f[vz]}, {}, {f[wx], f[wy], f[wz]}};
   if constexpr (P::fields == Spatial::fields) element.q.s = f[qs];
   element.q.x = f[qx], element.q.y = f[qy], element.q.z = f[qz];
   return element;
 }
 
-/// Force of a link on element i [N]. The axis is a constant in each case, as the shared laws want it.
+/// Force of a link on element i [N]. The shared laws want a constant axis, hence the template.
 template <class P, int axis>
-Vec3 link_force(const typename P::element& i, const typename P::element& j, double edge_i, double edge_j, LinkLaw law,
-                const AxisConstants& c) {
+Vec3 link_force(const typename P::element& i, const typename P::element& j, double edge_i,
+                double edge_j, LinkLaw law, const AxisConstants& c) {
   typename P::vec force;
   if (law == LinkLaw::material) {
     typename P::material_law constants{};
@@ -45,14 +46,14 @@ Vec3 link_force(const typename P::element& i, const typename P::element& j, doub
   return {force.x, force.y, force.z};
 }
 template <class P>
-Vec3 link_force(const typename P::element& i, const typename P::element& j, int axis, double edge_i, double edge_j,
-                LinkLaw law, const AxisConstants& c) {
+Vec3 link_force(const typename P::element& i, const typename P::element& j, int axis, double edge_i,
+                double edge_j, LinkLaw law, const AxisConstants& c) {
   if (axis == 0) return link_force<P, 0>(i, j, edge_i, edge_j, law, c);
   if (axis == 1) return link_force<P, 1>(i, j, edge_i, edge_j, law, c);
   return link_force<P, 2>(i, j, edge_i, edge_j, law, c);
 }
 
-/// From the centre to the upper face; of linear equations as at rest.
+/// Arm from the centre to the upper face [m]. In linear equations it is the arm at rest.
 template <class P>
 Spatial::vec arm_of(const typename P::element& e, int axis, double edge) {
   if constexpr (std::is_same_v<typename P::lever, double>) {
@@ -78,19 +79,23 @@ std::vector<ElementStress> stress_by(const Problem& problem, std::span<const dou
   const Lattice& lattice = problem.lattice;
   std::vector<int> body_of(lattice.element_count);
   lattice.for_each_element([&](std::size_t e, const Row& row, int) { body_of[e] = row.body; });
-  const auto body = [&](std::size_t e) -> const Body& { return problem.bodies[std::size_t(body_of[e])]; };
+  const auto body = [&](std::size_t e) -> const Body& {
+    return problem.bodies[std::size_t(body_of[e])];
+  };
   std::vector<std::array<Vec3, 3>> forces(lattice.element_count);
-  const auto add_link = [&](std::size_t i, std::size_t j, int axis, LinkLaw law, const AxisConstants& c) {
+  const auto add_link = [&](std::size_t i, std::size_t j, int axis, LinkLaw law,
+                            const AxisConstants& c) {
     const std::size_t a = std::size_t(axis);
-    const Vec3 force =
-        link_force<P>(element_at<P>(state, i), element_at<P>(state, j), axis, body(i).edge[a], body(j).edge[a], law, c);
+    const Vec3 force = link_force<P>(element_at<P>(state, i), element_at<P>(state, j), axis,
+                                     body(i).edge[a], body(j).edge[a], law, c);
     for (const std::size_t e : {i, j})
       for (std::size_t n = 0; n < 3; ++n) forces[e][a][n] += force[n];
   };
   lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
     add_link(i, j, axis, body(i).law, body(i).axis[std::size_t(axis)]);
   });
-  for (const ExtraLink& link : problem.extra_links) add_link(link.i, link.j, link.axis, link.law, link.constants);
+  for (const ExtraLink& link : problem.extra_links)
+    add_link(link.i, link.j, link.axis, link.law, link.constants);
 
   std::vector<ElementStress> stress(lattice.element_count);
   for (std::size_t e = 0; e < stress.size(); ++e) {
@@ -99,7 +104,8 @@ std::vector<ElementStress> stress_by(const Problem& problem, std::span<const dou
     Spatial::stress_tensor s{};
     for (const int axis : {0, 1, 2}) {
       const Vec3& f = forces[e][std::size_t(axis)];
-      s = Spatial::stress_add(s, arm_of<P>(element, axis, edge[std::size_t(axis)]), {f[0], f[1], f[2]});
+      s = Spatial::stress_add(s, arm_of<P>(element, axis, edge[std::size_t(axis)]),
+                              {f[0], f[1], f[2]});
     }
     stress[e] = stress_of(s, edge[0] * edge[1] * edge[2]);
   }
@@ -108,7 +114,8 @@ std::vector<ElementStress> stress_by(const Problem& problem, std::span<const dou
 
 } // namespace
 
-std::vector<ElementStress> element_stress(const Problem& problem, std::span<const double> state, Rotation equations) {
+std::vector<ElementStress> element_stress(const Problem& problem, std::span<const double> state,
+                                          Rotation equations) {
   if (equations == Rotation::linearised) return stress_by<LinearPhysics<double>>(problem, state);
   if (equations == Rotation::small) return stress_by<SmallPhysics<double>>(problem, state);
   return stress_by<Spatial>(problem, state);

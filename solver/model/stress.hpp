@@ -9,11 +9,15 @@
 
 namespace dss {
 
-/// xx, yy, zz, yz, xz, xy and von Mises [Pa], global axes.
+/// xx, yy, zz, yz, xz, xy and von Mises stress [Pa], in global axes.
 using ElementStress = std::array<double, 7>;
 
-/// Stress of every element from the forces of all its links, damping included, at the given state (13 doubles an
-/// element), by the links of the equations that it comes from: in others its rotations would strain links that are at rest.
-std::vector<ElementStress> element_stress(const Problem& problem, std::span<const double> state, Rotation equations);
+/// Stress of every element from the forces of all its links, damping included.
+/// @param state  13 numbers an element (kernels/fields.hpp)
+/// @param equations  equations that the state comes from; links of other equations would be
+///     strained by its rotations even at rest
+/// @return one ElementStress for each element
+std::vector<ElementStress> element_stress(const Problem& problem, std::span<const double> state,
+                                          Rotation equations);
 
 } // namespace dss

@@ -21,8 +21,10 @@ double least_ratio(const Vector6& damping, const Vector6& stiffness) {
   return least;
 }
 
-/// Both laws are the same to first order: gap = u_j - u_i + c_i x theta_i + c_j x theta_j, turn = theta_j - theta_i.
-LinkMatrices link_matrices(int axis, const AxisConstants& constants, const Vec3& edge_i, const Vec3& edge_j) {
+/// Both laws are the same to first order: gap = u_j - u_i + c_i x theta_i + c_j x theta_j,
+/// turn = theta_j - theta_i.
+LinkMatrices link_matrices(int axis, const AxisConstants& constants, const Vec3& edge_i,
+                           const Vec3& edge_j) {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity(), none = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 6, 12> strain;
   strain << -one, arm_matrix(axis, edge_i), one, arm_matrix(axis, edge_j), none, -one, none, one;
@@ -34,8 +36,8 @@ LinkMatrices link_matrices(int axis, const AxisConstants& constants, const Vec3&
   };
   const Vector6 k = diagonal(constants.k_normal, constants.k_shear, constants.k_rot);
   const Vector6 c = diagonal(constants.d_normal, constants.d_shear, constants.d_rot);
-  return {strain.transpose() * k.asDiagonal() * strain, strain.transpose() * c.asDiagonal() * strain,
-          least_ratio(c, k)};
+  return {strain.transpose() * k.asDiagonal() * strain,
+          strain.transpose() * c.asDiagonal() * strain, least_ratio(c, k)};
 }
 
 } // namespace
@@ -51,12 +53,16 @@ Linearised::Linearised(const Problem& problem)
     for (int axis = 0; axis < 3; ++axis)
       kinds.push_back(link_matrices(axis, b.axis[std::size_t(axis)], b.edge, b.edge));
   }
-  const auto add = [&](std::size_t i, std::size_t j, std::size_t kind) { links.push_back({i, j, kind}); };
-  problem.lattice.for_each_link(
-      [&](std::size_t i, std::size_t j, int axis) { add(i, j, 3 * std::size_t(body[i]) + std::size_t(axis)); });
+  const auto add = [&](std::size_t i, std::size_t j, std::size_t kind) {
+    links.push_back({i, j, kind});
+  };
+  problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
+    add(i, j, 3 * std::size_t(body[i]) + std::size_t(axis));
+  });
   for (const ExtraLink& extra : problem.extra_links) {
     add(extra.i, extra.j, kinds.size());
-    kinds.push_back(link_matrices(extra.axis, extra.constants, problem.bodies[std::size_t(body[extra.i])].edge,
+    kinds.push_back(link_matrices(extra.axis, extra.constants,
+                                  problem.bodies[std::size_t(body[extra.i])].edge,
                                   problem.bodies[std::size_t(body[extra.j])].edge));
   }
   const Stabilization& tie = problem.stabilization;

@@ -1,6 +1,7 @@
 #pragma once
-/// A problem linearised at rest: M x'' + C x' + K x = 0 with six degrees of freedom an element, kept as its links. What
-/// spectrum.hpp and modes.hpp find eigenvalues of. Gyroscopic terms vanish at rest.
+/// A problem linearised at rest: M x'' + C x' + K x = 0 with six degrees of freedom an element,
+/// stored as links. spectrum.hpp and modes.hpp compute its eigenvalues. Gyroscopic terms vanish at
+/// rest.
 #include "solver/model/problem.hpp"
 
 #include <Eigen/Dense>
@@ -15,14 +16,15 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-/// Stiffness [N/m, N, N m] and damping of a link at rest over (u_i, theta_i, u_j, theta_j).
+/// Stiffness [N/m, N, N m] and damping of a link at rest, in the order (u_i, theta_i, u_j,
+/// theta_j).
 struct LinkMatrices {
   Matrix12 k, c;
   double least_damping = 0; ///< largest b [s] for which c - b k has no negative eigenvalue
 };
 
-/// Kinds of links with their matrices, ties to the frame, and every element's inverse inertia with zeros where it is
-/// clamped.
+/// Kinds of links with their matrices, ties to the frame, and the inverse inertia of elements.
+/// free_inverse_inertia has zeros for clamped degrees of freedom.
 struct Linearised {
   struct Link {
     std::size_t i, j, kind;
@@ -32,7 +34,7 @@ struct Linearised {
   std::vector<int> body;                ///< of each element
   std::vector<std::uint8_t> clamped;    ///< bits of Dof of each element
   std::vector<Vector6> inverse_inertia; ///< of each body [1/kg, 1/(kg m^2)]
-  Vector6 tie_stiffness, tie_damping;   ///< of the stabilization, on every element
+  Vector6 tie_stiffness, tie_damping;   ///< of the stabilization, for every element
 
   explicit Linearised(const Problem& problem);
   Vector6 free_inverse_inertia(std::size_t element) const;

@@ -7,10 +7,11 @@
 namespace dss {
 namespace {
 
-// Made on first use: methods() may be asked for before the objects of this file are.
+// Built on first use: methods() may be called before the static objects of this file exist.
 
-/// The times at which stages are evaluated: what their increments of y' = 1 amount to.
-std::vector<double> nodes_of(const std::vector<std::vector<double>>& alpha, const std::vector<double>& beta) {
+/// Times of the stages: the result of the table for y' = 1.
+std::vector<double> nodes_of(const std::vector<std::vector<double>>& alpha,
+                             const std::vector<double>& beta) {
   std::vector<double> node{0};
   for (std::size_t s = 0; s + 1 < beta.size(); ++s) {
     double sum = beta[s];
@@ -20,8 +21,9 @@ std::vector<double> nodes_of(const std::vector<std::vector<double>>& alpha, cons
   return node;
 }
 
-/// Increment form of a Butcher table whose row s gives Y_{s+1} - y = h sum_j rows[s][j] k_j, the last row y_{n+1} - y: k_m is taken
-/// from Y_{m+1}, from the last m on, so rows[s][s] must not be 0.
+/// Increment form of a Butcher table whose row s gives Y_{s+1} - y = h sum_j rows[s][j] k_j; the
+/// last row gives y_{n+1} - y. k_m is taken from Y_{m+1}, starting with the last m, so rows[s][s]
+/// must not be 0.
 void set_butcher(const std::vector<std::vector<double>>& rows, Method& method) {
   for (std::size_t s = 0; s < rows.size(); ++s) {
     std::vector<double> rest = rows[s], alpha(s + 1);
@@ -35,9 +37,10 @@ void set_butcher(const std::vector<std::vector<double>>& rows, Method& method) {
   method.node = nodes_of(method.alpha, method.beta);
 }
 
-/// Classical RK4 without a running sum (DESIGN.md section 3): y1 = y + h/2 k1, y2 = y + h/2 k2, y3 = y + h k3,
-/// y(n+1) = (y1 + 2 y2 + y3 - y)/3 + h/6 k4. Its limits are the roots of |R(z)| = 1, R(z) = 1 + z + z^2/2 + z^3/6 +
-/// z^4/24.
+/// Classical RK4 without a running sum (DESIGN.md section 3):
+///   y1 = y + h/2 k1,  y2 = y + h/2 k2,  y3 = y + h k3
+///   y(n+1) = (y1 + 2 y2 + y3 - y)/3 + h/6 k4
+/// Its limits are the roots of |R(z)| = 1, R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24.
 Method rk4() {
   constexpr double third = 1.0 / 3, sixth = 1.0 / 6;
   return {.name = "rk4",
@@ -67,11 +70,12 @@ Method midpoint() {
           .real_limit = 2,
           .is_symplectic = false,
           .keeps_energy_bounded = false,
-          .note = "two force evaluations a step; an undamped mode grows by (h omega)^4 / 8 a step, whatever the step"};
+          .note = "two force evaluations a step; an undamped mode grows by (h omega)^4 / 8 a step, "
+                  "whatever the step"};
 }
 
-/// Dormand and Prince's method of order 5 (J. Comput. Appl. Math. 6 (1980) 19-26; Hairer, Norsett, Wanner I, table II.5.2), of which
-/// the last row is that of the step.
+/// Method of Dormand and Prince, order 5 (J. Comput. Appl. Math. 6 (1980) 19-26; Hairer, Norsett,
+/// Wanner I, table II.5.2). The last row is the step.
 const std::vector<std::vector<double>>& dopri5_rows() {
   static const std::vector<std::vector<double>> rows = {
       {1. / 5},
@@ -112,11 +116,13 @@ Method symplectic_euler() {
           .real_limit = 2,
           .is_symplectic = true,
           .keeps_energy_bounded = true,
-          .note = "one force evaluation a step, no memory of its own; first order, yet its energy stays bounded"};
+          .note = "one force evaluation a step, no extra memory; first order, but its energy "
+                  "stays bounded"};
 }
 
-/// Its limits are those of the mode that changes sign in every step, x = -1, 1, -1 ..: there v = 2x/h and p = 4x/h / (1 + smoothing) half a step before, and
-/// h^2 a = -4x, so (h omega)^2 + 4 / (1 + smoothing) h rate = 4; no other mode leaves the unit circle earlier.
+/// The mode that changes sign in every step, x = -1, 1, -1, ..., sets the limits. For it v = 2x/h,
+/// and p = 4x/h / (1 + smoothing) half a step before. With h^2 a = -4x that gives
+/// (h omega)^2 + 4 / (1 + smoothing) h rate = 4. No other mode leaves the unit circle earlier.
 Method leapfrog(std::string_view name, double smoothing, std::string_view note) {
   return {.name = name,
           .family = Method::Family::leapfrog,
@@ -134,17 +140,18 @@ Method leapfrog(std::string_view name, double smoothing, std::string_view note) 
 }
 
 Method velocity_verlet() {
-  return leapfrog(
-      "velocity_verlet", 0,
-      "one force evaluation a step; damping and gyroscopic terms see a predicted velocity, which lowers the "
-      "step limit of damped problems");
+  return leapfrog("velocity_verlet", 0,
+                  "one force evaluation a step; damping and gyroscopic terms see a predicted "
+                  "velocity, which lowers the "
+                  "step limit of damped problems");
 }
 
 Method smoothed_verlet() {
-  return leapfrog(
-      "smoothed_verlet", 0.75,
-      "velocity_verlet with a prediction from the mean of past accelerations: a larger step for damped problems, "
-      "velocity-dependent terms off by four times as much; not for fast spins (28 times the growth)");
+  return leapfrog("smoothed_verlet", 0.75,
+                  "velocity_verlet with a prediction from the mean of past accelerations: a larger "
+                  "step for damped problems, "
+                  "but four times the error of velocity-dependent terms; not for fast spins (28 "
+                  "times the growth)");
 }
 
 Method implicit_midpoint() {
@@ -160,18 +167,21 @@ Method implicit_midpoint() {
           .real_limit = infinity,
           .is_symplectic = true,
           .keeps_energy_bounded = true,
-          .note = "solves the equations of each step to rounding by Newton's iteration; any step is stable, but modes "
+          .note = "solves the equations of each step to rounding by Newton's iteration; any step "
+                  "is stable, but modes "
                   "that it does not resolve are slowed down and hardly damped"};
 }
 
 } // namespace
 
-// The seventh stage evaluates f at y_{n+1}; its weights are those of table II.5.2 less those of the method of fourth order there.
+// The seventh stage evaluates f at y_{n+1}. Its weights are those of table II.5.2 minus those of
+// the fourth-order method there.
 const Method& dopri5_adaptive() {
   static const Method adaptive = [] {
     Method method = dopri5();
     std::vector<std::vector<double>> rows = dopri5_rows();
-    rows.push_back({71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40});
+    rows.push_back(
+        {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40});
     method.stages = int(rows.size());
     method.has_error_stage = true;
     method.note = "seven force evaluations a step that is tried";
@@ -182,13 +192,16 @@ const Method& dopri5_adaptive() {
   return adaptive;
 }
 
-// With w0 = 1 + epsilon / s^2, w1 = T_s'(w0) / T_s''(w0), b_j = T_j''(w0) / T_j'(w0)^2, a_j = 1 - b_j T_j(w0):
-//   Y_j = (1 - mu - nu) y + mu Y_{j-1} + nu Y_{j-2} + mu~ h F_{j-1} + gamma~ h F_0, and h F_0 = (Y_1 - y) / mu~_1.
+// T_j are Chebyshev polynomials, w0 = 1 + epsilon / s^2, w1 = T_s'(w0) / T_s''(w0),
+// b_j = T_j''(w0) / T_j'(w0)^2, a_j = 1 - b_j T_j(w0). m and g stand for mu and gamma with a tilde:
+//   Y_j = (1 - mu - nu) y + mu Y_{j-1} + nu Y_{j-2} + m h F_{j-1} + g h F_0
+//   h F_0 = (Y_1 - y) / m_1
 Method rkc2(int stages) {
   constexpr double epsilon = 2.0 / 13;
   const auto s = std::size_t(stages);
   const double w0 = 1 + epsilon / double(s * s);
-  std::vector<double> t{1, w0}, d{0, 1}, dd{0, 0}; // Chebyshev polynomials and their derivatives at w0
+  std::vector<double> t{1, w0}, d{0, 1},
+      dd{0, 0}; // Chebyshev polynomials and their derivatives at w0
   for (std::size_t j = 2; j <= s; ++j) {
     t.push_back(2 * w0 * t[j - 1] - t[j - 2]);
     d.push_back(2 * t[j - 1] + 2 * w0 * d[j - 1] - d[j - 2]);
@@ -196,9 +209,11 @@ Method rkc2(int stages) {
   }
   const double w1 = d[s] / dd[s];
   const auto b = [&](std::size_t j) {
-    return dd[std::max<std::size_t>(j, 2)] / (d[std::max<std::size_t>(j, 2)] * d[std::max<std::size_t>(j, 2)]);
+    return dd[std::max<std::size_t>(j, 2)] /
+           (d[std::max<std::size_t>(j, 2)] * d[std::max<std::size_t>(j, 2)]);
   };
-  // R(-x) = 1 - b_s T_s(w0) + b_s T_s(w0 - w1 x) reaches 1 for even s, and -1 for odd s, where the argument is -at_limit.
+  // R(-x) = 1 - b_s T_s(w0) + b_s T_s(w0 - w1 x) reaches 1 for even s and -1 for odd s, at the
+  // argument -at_limit of T_s.
   const double at_limit = s % 2 == 0 ? w0 : std::cosh(std::acosh(2 / b(s) - t[s]) / double(s));
   Method method{.name = "rkc2",
                 .family = Method::Family::runge_kutta,
@@ -211,11 +226,13 @@ Method rkc2(int stages) {
                 .real_limit = (w0 + at_limit) / w1,
                 .is_symplectic = false,
                 .keeps_energy_bounded = false,
-                .note = "Runge-Kutta-Chebyshev for strong damping: as many force evaluations a step as that needs; its "
+                .note = "Runge-Kutta-Chebyshev for strong damping: as many force evaluations a "
+                        "step as that needs; its "
                         "limit grows with "
                         "their square"};
   for (std::size_t j = 2; j <= s; ++j) {
-    const double mu = 2 * b(j) * w0 / b(j - 1), nu = -b(j) / b(j - 2), mu_tilde = 2 * b(j) * w1 / b(j - 1);
+    const double mu = 2 * b(j) * w0 / b(j - 1), nu = -b(j) / b(j - 2),
+                 mu_tilde = 2 * b(j) * w1 / b(j - 1);
     const double gamma_tilde = -(1 - b(j - 1) * t[j - 1]) * mu_tilde;
     std::vector<double> alpha(j);
     alpha[1] = gamma_tilde / method.beta[0];
@@ -229,8 +246,9 @@ Method rkc2(int stages) {
 }
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all = {
-      rk4(), velocity_verlet(), smoothed_verlet(), midpoint(), symplectic_euler(), dopri5(), rkc2(5)};
+  static const std::vector<Method> all = {rk4(),      velocity_verlet(),  smoothed_verlet(),
+                                          midpoint(), symplectic_euler(), dopri5(),
+                                          rkc2(5)};
   return all;
 }
 

@@ -13,8 +13,9 @@
 
 namespace dss {
 
-/// Degrees of freedom that depend on one another, their inertia scaled to 1: x'' + C x' + K x = 0. Time is in units in
-/// which no number of K or C exceeds 1. Part of Modes::Piece, therefore not local to this file.
+/// Degrees of freedom that depend on one another, with inertia scaled to 1: x'' + C x' + K x = 0.
+/// The unit of time is such that no number of K or C exceeds 1. It is part of Modes::Piece and
+/// therefore not local to this file.
 struct Coupled {
   std::vector<Eigen::Index> dof; ///< 6 element + 0 .. 5
   Eigen::MatrixXd k, c;
@@ -27,13 +28,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-constexpr double negligible = 1e-12; ///< share of a norm that stands for zero
+constexpr double negligible = 1e-12; ///< share of a norm that counts as zero
 
-/// Of all elements; `rate` is one over the unit of time [1/s]. Clamped degrees of freedom have rows and columns of zeros.
+/// Matrices of all elements; `rate` becomes one over the unit of time [1/s]. Clamped degrees of
+/// freedom have rows and columns of zeros.
 Coupled assembled(const Problem& problem, double& rate) {
   const Linearised system(problem);
   const auto size = Index(6 * system.body.size());
-  Coupled all{std::vector<Index>(std::size_t(size)), MatrixXd::Zero(size, size), MatrixXd::Zero(size, size)};
+  Coupled all{std::vector<Index>(std::size_t(size)), MatrixXd::Zero(size, size),
+              MatrixXd::Zero(size, size)};
   VectorXd scale(size);
   for (Index n = 0; n < size; ++n) all.dof[std::size_t(n)] = n;
   for (std::size_t e = 0; e < system.body.size(); ++e) {
@@ -59,18 +62,20 @@ Coupled assembled(const Problem& problem, double& rate) {
   return all;
 }
 
-/// The problem in pieces that do not feel one another: a plate in its plane and out of it, a bar along and across.
-/// What nothing moves is in none.
+/// Splits the problem into independent pieces: a plate in its plane and out of it, a bar along and
+/// across. Degrees of freedom without links or ties are in no piece.
 std::vector<Coupled> decoupled(const Coupled& all) {
   std::vector<Coupled> pieces;
   std::vector<bool> is_taken(all.dof.size());
   for (Index first = 0; first < all.k.rows(); ++first) {
-    if (is_taken[std::size_t(first)] || (all.k(first, first) == 0 && all.c(first, first) == 0)) continue;
+    if (is_taken[std::size_t(first)] || (all.k(first, first) == 0 && all.c(first, first) == 0))
+      continue;
     std::vector<Index> members = {first};
     is_taken[std::size_t(first)] = true;
     for (std::size_t n = 0; n < members.size(); ++n)
       for (Index other = 0; other < all.k.rows(); ++other)
-        if (!is_taken[std::size_t(other)] && (all.k(members[n], other) != 0 || all.c(members[n], other) != 0)) {
+        if (!is_taken[std::size_t(other)] &&
+            (all.k(members[n], other) != 0 || all.c(members[n], other) != 0)) {
           is_taken[std::size_t(other)] = true;
           members.push_back(other);
         }
@@ -96,9 +101,11 @@ bool has_single_modes(const Coupled& piece) {
   return (product - product.transpose()).norm() <= 1e-10 * piece.k.norm() * piece.c.norm();
 }
 
-/// Where stiffness and damping have the same eigenvectors; by falling frequency, without rigid motions.
+/// Modes if stiffness and damping have the same eigenvectors; by falling frequency, without rigid
+/// motions.
 std::vector<Mode> single_modes(const Coupled& piece) {
-  // Eigenvectors of K alone need not be those of C where a frequency is multiple; of a general sum of both they are.
+  // If a frequency is multiple, eigenvectors of K need not be eigenvectors of C. Eigenvectors of a
+  // general sum of both matrices are.
   const double k = piece.k.norm(), c = piece.c.norm();
   const SymmetricEigen both(c > 0 ? MatrixXd(piece.k + 0.618 * k / c * piece.c) : piece.k);
   std::vector<Mode> modes;
@@ -112,11 +119,12 @@ std::vector<Mode> single_modes(const Coupled& piece) {
 ExactLimit limit_of_single_modes(const std::vector<Mode>& modes, const Method& method) {
   ExactLimit limit;
   for (const Mode& mode : modes)
-    if (const double dt = mode_step_limit(method, mode.omega, mode.rate, limit.dt); dt < limit.dt) limit = {dt, mode};
+    if (const double dt = mode_step_limit(method, mode.omega, mode.rate, limit.dt); dt < limit.dt)
+      limit = {dt, mode};
   return limit;
 }
 
-/// Eigenvalues of (omega x, x')' = (omega x', -K/omega (omega x) - C x'), without rigid motions.
+/// Eigenvalues of (omega x, x')' = (omega x', -K/omega (omega x) - C x'), rigid motions included.
 Eigen::VectorXcd roots_of(const Coupled& piece) {
   const Index size = piece.k.rows();
   const double omega = std::sqrt(std::max(piece.k.norm(), 1e-300));
@@ -133,28 +141,33 @@ Eigen::VectorXcd eigenvector(const Coupled& piece, Complex lambda) {
   Eigen::MatrixXcd matrix = piece.k.cast<Complex>() + lambda * piece.c.cast<Complex>();
   matrix.diagonal().array() += lambda * lambda * (1 + 1e-13); // not quite singular
   const Eigen::PartialPivLU<Eigen::MatrixXcd> factors(matrix);
-  Eigen::VectorXcd x = Eigen::VectorXcd::LinSpaced(size, Complex(1, 0), Complex(1, 1)); // no symmetry of its own
+  Eigen::VectorXcd x = Eigen::VectorXcd::LinSpaced(size, Complex(1, 0),
+                                                   Complex(1, 1)); // start vector without symmetry
   for (int n = 0; n < 3; ++n) x = factors.solve(x).normalized();
   return x;
 }
 
-ExactLimit limit_of_roots(const Coupled& piece, const Eigen::VectorXcd& roots, const Method& method) {
+ExactLimit limit_of_roots(const Coupled& piece, const Eigen::VectorXcd& roots,
+                          const Method& method) {
   const double largest = roots.cwiseAbs().maxCoeff();
   double dt = std::numeric_limits<double>::infinity();
   Complex worst = 0;
   for (Complex root : roots) {
-    // Rigid motions have a double root of zero, which comes out as about the root of rounding.
+    // Rigid motions have a double root of zero. It is computed as about the square root of
+    // rounding.
     if (std::abs(root) <= 1e-6 * largest || root.imag() < 0) continue;
     if (std::abs(root.real()) <= negligible * largest) root.real(0); // undamped
     if (const double own = root_step_limit(method, root, dt); own < dt) dt = own, worst = root;
   }
-  return std::isfinite(dt) ? ExactLimit{dt, mode_of(piece, eigenvector(piece, worst))} : ExactLimit{};
+  return std::isfinite(dt) ? ExactLimit{dt, mode_of(piece, eigenvector(piece, worst))}
+                           : ExactLimit{};
 }
 
-/// Leapfrog and symplectic Euler: the h at which the largest eigenvalue of (h/I)^2 K + (h/R) C is 1, by Newton's method
-/// from above; each x says how large a step its own mode bears.
+/// Leapfrog and symplectic Euler: the h at which the largest eigenvalue of (h/I)^2 K + (h/R) C is
+/// 1, by Newton's method from above. Each eigenvector gives the limit of its own mode.
 ExactLimit limit_of_flipping_mode(const Coupled& piece, const Method& method) {
-  const double of_k = 1 / (method.imaginary_limit * method.imaginary_limit), of_c = 1 / method.real_limit;
+  const double of_k = 1 / (method.imaginary_limit * method.imaginary_limit),
+               of_c = 1 / method.real_limit;
   const auto borne = [&](const Mode& mode) {
     const double k = of_k * mode.omega * mode.omega, c = of_c * mode.rate;
     return 2 / (c + std::sqrt(c * c + 4 * k));
@@ -173,12 +186,12 @@ ExactLimit limit_of_flipping_mode(const Coupled& piece, const Method& method) {
 
 } // namespace
 
-/// A piece, and what of it does not depend on the method.
+/// A piece, and its results that do not depend on the method.
 struct Modes::Piece {
   Coupled coupled;
   bool has_single_modes = false; ///< stiffness and damping have the same eigenvectors
-  std::vector<Mode> modes{};     ///< single ones, by falling frequency; made when first asked for
-  Eigen::VectorXcd roots{};      ///< of the first-order form; likewise
+  std::vector<Mode> modes{};     ///< single modes, by falling frequency; computed on first use
+  Eigen::VectorXcd roots{};      ///< of the first-order form; computed on first use
 
   bool is_too_large(bool is_runge_kutta) const {
     const bool is_symmetric = !is_runge_kutta || has_single_modes;
@@ -186,7 +199,8 @@ struct Modes::Piece {
   }
   ExactLimit step_limit(const Method& method) {
     if (method.is_implicit()) return {};
-    if (method.family != Method::Family::runge_kutta) return limit_of_flipping_mode(coupled, method);
+    if (method.family != Method::Family::runge_kutta)
+      return limit_of_flipping_mode(coupled, method);
     if (!has_single_modes) {
       if (roots.size() == 0) roots = roots_of(coupled);
       return limit_of_roots(coupled, roots, method);
@@ -197,7 +211,7 @@ struct Modes::Piece {
 };
 
 Modes::Modes(const Problem& problem) {
-  // Dense matrices of larger problems are not worth their memory, however well they decouple.
+  // Dense matrices of larger problems are not worth their memory, even if they decouple.
   if (6 * problem.lattice.element_count > 2 * most_symmetric_unknowns) {
     pieces_.push_back({{std::vector<Index>(6 * problem.lattice.element_count), {}, {}}});
     return;

@@ -11,7 +11,8 @@ void append_row(const Problem& problem, double t, std::vector<double>& rows) {
 
 } // namespace
 
-std::vector<double> signal_rows(const Problem& problem, const Method& method, double dt, long first_step, long steps) {
+std::vector<double> signal_rows(const Problem& problem, const Method& method, double dt,
+                                long first_step, long steps) {
   std::vector<double> rows;
   rows.reserve((std::size_t(steps) * std::size_t(method.stages) + 1) * signal_count(problem));
   for (long n = 0; n < steps; ++n)
@@ -21,7 +22,8 @@ std::vector<double> signal_rows(const Problem& problem, const Method& method, do
   return rows;
 }
 
-std::vector<double> stage_signals(const Problem& problem, const Method& method, double t, double dt) {
+std::vector<double> stage_signals(const Problem& problem, const Method& method, double t,
+                                  double dt) {
   std::vector<double> rows;
   rows.reserve(std::size_t(method.stages) * signal_count(problem));
   for (const double node : method.node) append_row(problem, t + node * dt, rows);

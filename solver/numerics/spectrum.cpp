@@ -17,17 +17,17 @@ double largest_eigenvalue(const Matrix12& matrix, const Vector12& scale) {
   return SymmetricEigen(scaled).values.maxCoeff();
 }
 
-/// Largest eigenvalue over the links' own pencils, each link with its share of its elements' inertia.
+/// Largest eigenvalue of the pencils of single links, each with a share of its elements' inertia.
 double pencil_bound(const Linearised& system, Matrix12 LinkMatrices::*part) {
-  // Any split of the inertia gives a bound. In proportion to the links' diagonal entries it suits orthotropic links
-  // too.
+  // Every split of the inertia gives a bound. A split in proportion to the diagonal entries suits
+  // orthotropic links too.
   std::vector<Vector6> diagonal(system.body.size(), Vector6::Zero());
   for (const auto& [i, j, kind] : system.links) {
     const Vector12 own = (system.kinds[kind].*part).diagonal();
     diagonal[i] += own.head<6>();
     diagonal[j] += own.tail<6>();
   }
-  // Links alike in constants and in what their elements feel have the same pencil: few differ.
+  // Links with equal constants and equal shares have the same pencil, so few pencils differ.
   std::set<std::array<double, 13>> seen;
   double largest = 0;
   for (const auto& [i, j, kind] : system.links) {
@@ -38,7 +38,7 @@ double pencil_bound(const Linearised& system, Matrix12 LinkMatrices::*part) {
     std::array<double, 13> key;
     key[12] = double(kind);
     for (int dof = 0; dof < 12; ++dof) {
-      // A degree of freedom that the link does not touch needs no inertia of it.
+      // A degree of freedom that the link does not touch gets no share of the inertia.
       scale[dof] = matrix(dof, dof) > 0 ? std::sqrt(scale[dof] / matrix(dof, dof)) : 0;
       key[std::size_t(dof)] = scale[dof];
     }
@@ -50,11 +50,12 @@ double pencil_bound(const Linearised& system, Matrix12 LinkMatrices::*part) {
   return largest;
 }
 
-/// y = M^-1/2 A M^-1/2 x with A the assembled stiffness or damping.
+/// y = M^-1/2 A M^-1/2 x, where A is the assembled stiffness or damping.
 class ScaledMatrix {
 public:
   ScaledMatrix(const Linearised& system, Matrix12 LinkMatrices::*part)
-      : system_(system), part_(part), tie_(part == &LinkMatrices::k ? system.tie_stiffness : system.tie_damping),
+      : system_(system), part_(part),
+        tie_(part == &LinkMatrices::k ? system.tie_stiffness : system.tie_damping),
         scale_(6 * system.body.size()) {
     for (std::size_t e = 0; e < system.body.size(); ++e)
       scale_.segment<6>(Eigen::Index(6 * e)) = system.free_inverse_inertia(e).cwiseSqrt();
@@ -63,7 +64,8 @@ public:
   Eigen::VectorXd operator*(const Eigen::VectorXd& x) const {
     const Eigen::VectorXd moved = scale_.cwiseProduct(x);
     Eigen::VectorXd result(x.size());
-    for (Eigen::Index e = 0; e < x.size(); e += 6) result.segment<6>(e) = tie_.cwiseProduct(moved.segment<6>(e));
+    for (Eigen::Index e = 0; e < x.size(); e += 6)
+      result.segment<6>(e) = tie_.cwiseProduct(moved.segment<6>(e));
     for (const Linearised::Link& link : system_.links) {
       const auto i = Eigen::Index(6 * link.i), j = Eigen::Index(6 * link.j);
       Vector12 local;
@@ -82,8 +84,8 @@ private:
   Eigen::VectorXd scale_;
 };
 
-/// Largest eigenvalue by Lanczos. Without reorthogonalisation: lost orthogonality repeats eigenvalues, it adds none
-/// above the largest.
+/// Largest eigenvalue by the Lanczos process, without reorthogonalisation. Lost orthogonality
+/// repeats eigenvalues but adds none above the largest.
 double lanczos(const ScaledMatrix& matrix, long& products) {
   constexpr int most_products = 300, check_every = 10;
   std::mt19937_64 generator(1);
@@ -107,8 +109,10 @@ double lanczos(const ScaledMatrix& matrix, long& products) {
     if (is_exhausted || n % check_every == 0) {
       const SymmetricEigen ritz(Eigen::Map<Eigen::VectorXd>(diagonal.data(), n),
                                 Eigen::Map<Eigen::VectorXd>(off_diagonal.data(), n - 1));
-      // |A x - theta x| of the Ritz vector x is beta times the last component of the small eigenvector.
-      const double theta = ritz.values[n - 1], residual = beta * std::abs(ritz.vectors(n - 1, n - 1));
+      // The residual |A x - theta x| of the Ritz vector x is beta times the last component of the
+      // small eigenvector.
+      const double theta = ritz.values[n - 1],
+                   residual = beta * std::abs(ritz.vectors(n - 1, n - 1));
       bound = theta + residual;
       if (is_exhausted || residual <= 2e-4 * theta) break;
     }
@@ -119,12 +123,14 @@ double lanczos(const ScaledMatrix& matrix, long& products) {
   return bound;
 }
 
-/// Every spring has a damper of at least this many times its constant beside it [s].
+/// Largest b [s] such that every spring of constant k has a damper of at least b k beside it.
 double least_damping(const Linearised& system) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Linearised::Link& link : system.links) least = std::min(least, system.kinds[link.kind].least_damping);
+  for (const Linearised::Link& link : system.links)
+    least = std::min(least, system.kinds[link.kind].least_damping);
   for (int dof = 0; dof < 6; ++dof)
-    if (system.tie_stiffness[dof] > 0) least = std::min(least, system.tie_damping[dof] / system.tie_stiffness[dof]);
+    if (system.tie_stiffness[dof] > 0)
+      least = std::min(least, system.tie_damping[dof] / system.tie_stiffness[dof]);
   return std::isfinite(least) ? least : 0;
 }
 
@@ -144,7 +150,8 @@ Spectrum spectrum_bound(const Problem& problem) {
 Spectrum krylov_spectrum(const Problem& problem) {
   const Linearised system(problem);
   Spectrum spectrum;
-  spectrum.omega_max = std::sqrt(lanczos(ScaledMatrix(system, &LinkMatrices::k), spectrum.products));
+  spectrum.omega_max =
+      std::sqrt(lanczos(ScaledMatrix(system, &LinkMatrices::k), spectrum.products));
   spectrum.damping = lanczos(ScaledMatrix(system, &LinkMatrices::c), spectrum.products);
   spectrum.least_damping = least_damping(system);
   return spectrum;

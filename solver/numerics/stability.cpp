@@ -12,22 +12,28 @@
 namespace dss {
 namespace {
 
-/// The smallest limit over every mode with omega <= omega_max and least_damping omega^2 <= rate <= damping: no
-/// eigenvalue of the problem, whatever its damping, lies outside the modes of that region (its eigenvector's omega^2 =
-/// x* K x and rate = x* C x are in it). A limit scales as 1 / omega along a ray of constant damping ratio, so the worst
-/// mode lies on the region's outer edges: the curve of least damping, omega = omega_max, or rate = damping.
-/// @param enough  a limit above this [s] may be given as infinite
+/// Smallest limit over every mode with omega <= omega_max and least_damping omega^2 <= rate <=
+/// damping. Every eigenvalue of the problem belongs to a mode of that region: omega^2 = x* K x and
+/// rate = x* C x of its eigenvector are in it. Along a ray of constant damping ratio the limit
+/// falls as 1 / omega. So the worst mode lies on an outer edge of the region: the curve of least
+/// damping, omega = omega_max, or rate = damping.
+/// @param enough  a limit above this [s] may be returned as infinite
 ExactLimit worst_pairing(const Method& method, const Spectrum& spectrum, double enough) {
   constexpr int points = 64;
   ExactLimit worst;
   const auto consider = [&](double omega, double rate) {
-    if (const double dt = mode_step_limit(method, omega, rate, std::min(worst.dt, enough)); dt < worst.dt)
+    if (const double dt = mode_step_limit(method, omega, rate, std::min(worst.dt, enough));
+        dt < worst.dt)
       worst = {dt, {omega, rate}};
   };
-  // The bounds are not of one mode: the least damping of the largest frequency may exceed the largest damping.
+  // The bounds need not belong to one mode: the least damping at the largest frequency may exceed
+  // the largest damping.
   const double omega_max = spectrum.omega_max, most = spectrum.damping;
-  const auto least = [&](double omega) { return std::min(most, spectrum.least_damping * omega * omega); };
-  for (int n = points; n >= 0; --n) { // the fastest and most damped first: what the others bear is soon enough
+  const auto least = [&](double omega) {
+    return std::min(most, spectrum.least_damping * omega * omega);
+  };
+  // The fastest and most damped mode comes first: its limit makes the search for the others short.
+  for (int n = points; n >= 0; --n) {
     const double part = double(n) / points;
     consider(part * omega_max, least(part * omega_max));
     consider(omega_max, least(omega_max) + part * (most - least(omega_max)));
@@ -42,48 +48,53 @@ StabilityLimit limit_within(const Method& method, const Spectrum& spectrum, std:
   return {worst.dt, spectrum.omega_max, spectrum.damping, std::move(how), false, worst.mode};
 }
 
-/// The same, with what a user must know of a limit of 0.
+/// The same limit, with an explanation if it is 0.
 StabilityLimit explained(StabilityLimit limit) {
   if (limit.dt == 0) limit.how += "; undamped modes grow however small the step";
   return limit;
 }
 
-/// @throws InputError
+/// The bound of the problem's spectrum.
+/// @throws InputError if it is not finite
 Spectrum finite_bound(const Problem& problem) {
   const Spectrum bound = spectrum_bound(problem);
   if (!std::isfinite(bound.omega_max + bound.damping))
-    throw InputError(
-        fmt::format("{}: no stability limit can be found: stiffness over mass or inertia is beyond the range "
-                    "of numbers; give constants in SI units",
-                    problem.name));
+    throw InputError(fmt::format(
+        "{}: no stability limit can be found: stiffness over mass or inertia is beyond the range "
+        "of numbers; give constants in SI units",
+        problem.name));
   return bound;
 }
 
 } // namespace
 
-std::vector<StabilityLimit> stable_steps(const Problem& problem, std::span<const Method* const> methods) {
+std::vector<StabilityLimit> stable_steps(const Problem& problem,
+                                         std::span<const Method* const> methods) {
   const Spectrum bound = finite_bound(problem);
   const bool is_large = problem.lattice.element_count > sharp_stability_elements;
   Spectrum found = is_large ? bound : krylov_spectrum(problem);
   found.omega_max = std::min(found.omega_max, bound.omega_max);
   found.damping = std::min(found.damping, bound.damping);
-  const std::string how = is_large ? fmt::format("bound from single links (more than {} elements: no sharp figure)",
-                                                 sharp_stability_elements)
-                                   : fmt::format("Krylov iteration, {} products", found.products);
+  const std::string how =
+      is_large ? fmt::format("bound from single links (more than {} elements: no sharp figure)",
+                             sharp_stability_elements)
+               : fmt::format("Krylov iteration, {} products", found.products);
   Modes modes(problem);
   std::vector<StabilityLimit> limits;
   for (const Method* method : methods)
     if (const auto exact = modes.step_limit(*method))
       limits.push_back(
           explained({exact->dt, found.omega_max, found.damping,
-                     fmt::format("exact: all modes of {} degrees of freedom", exact->unknowns), true, exact->mode}));
+                     fmt::format("exact: all modes of {} degrees of freedom", exact->unknowns),
+                     true, exact->mode}));
     else
       limits.push_back(explained(limit_within(*method, found, how)));
   return limits;
 }
 
 StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp) {
-  if (!sharp) return explained(limit_within(method, finite_bound(problem), "bound from single links"));
+  if (!sharp)
+    return explained(limit_within(method, finite_bound(problem), "bound from single links"));
   const Method* const one = &method;
   return stable_steps(problem, {&one, 1})[0];
 }
@@ -92,7 +103,8 @@ Method fitted(const Problem& problem, const Method& method, double dt) {
   if (method.name != "rkc2") return method;
   constexpr int most_stages = 200, tried = 12;
   const Spectrum bound = finite_bound(problem);
-  if (const Method longest = rkc2(most_stages); longest.real_limit < dt * bound.damping) return longest;
+  if (const Method longest = rkc2(most_stages); longest.real_limit < dt * bound.damping)
+    return longest;
   int least = 2;
   while (least < most_stages && rkc2(least).real_limit < dt * bound.damping) ++least;
   std::vector<Method> candidates;

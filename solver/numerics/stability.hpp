@@ -1,5 +1,6 @@
 #pragma once
-/// Largest stable step of an explicit method on a problem, predicted from the equations of motion linearised at rest.
+/// Largest stable step of an explicit method on a problem, predicted from the equations of motion
+/// linearised at rest.
 #include "solver/model/problem.hpp"
 #include "solver/numerics/method.hpp"
 #include "solver/numerics/modes.hpp"
@@ -13,31 +14,39 @@ namespace dss {
 
 /// Prediction of stable_step.
 struct StabilityLimit {
-  double dt = 0;        ///< largest stable step [s]; infinite where nothing vibrates or is damped, 0 where a mode grows
-                        ///< however small the step
+  /// Largest stable step [s]. Infinite if nothing vibrates or is damped; 0 if a mode grows at every
+  /// step size.
+  double dt = 0;
   double omega_max = 0; ///< largest natural frequency, or an upper bound of it [rad/s]
-  double damping = 0;   ///< largest eigenvalue of the damping against the inertia, or an upper bound of it [1/s]
-  std::string how;      ///< one line: the way it was found and how sharp it is
+  /// Largest eigenvalue of damping against inertia, or an upper bound of it [1/s].
+  double damping = 0;
+  std::string how;       ///< one line: how it was found and how sharp it is
   bool is_exact = false; ///< to rounding, for motion about the state of rest
-  Mode mode;             ///< that sets the limit; where it is not exact, the worst that could be there, of no element
+  /// Mode that sets the limit. If the limit is not exact: the worst mode that could exist, without
+  /// an element.
+  Mode mode;
 };
 
-/// Problems of up to this many elements get a sharp figure when it is asked for.
+/// Problems of at most this many elements get a sharp limit on request.
 constexpr std::size_t sharp_stability_elements = 20'000;
 
-/// Step limit of a method on a problem, linearised at rest, with its clamps, extra links, damping and stabilization.
-/// Without `sharp`: a rigorous lower bound that costs one pass over the links; on the shapes of the tests it is 0.7 to
-/// 1.0 of the sharp figure. With `sharp`: exact for small problems (modes.hpp says which); for larger ones the largest
-/// eigenvalues by a Krylov iteration (power iteration's subspace), to about 1e-4, and the worst pairing of frequency and
-/// damping within them, which no mode may have. Gyroscopic terms and what large rotations change are not in it.
-/// @throws InputError for constants whose ratios leave the range of numbers
+/// Step limit of a method on a problem, linearised at rest, with its clamps, extra links, damping
+/// and stabilization. Gyroscopic terms and effects of large rotations are not included.
+/// Without `sharp`: a rigorous lower bound that costs one pass over the links (README.md compares
+/// it with the sharp limit).
+/// With `sharp`: exact for small problems (modes.hpp says which). For larger ones, the largest
+/// eigenvalues by a Krylov iteration, to about 1e-4, with the worst combination of frequency and
+/// damping within them; such a mode need not exist.
+/// @throws InputError if ratios of constants exceed the range of numbers
 StabilityLimit stable_step(const Problem& problem, const Method& method, bool sharp = false);
 
-/// The sharp figures of several methods; the problem's modes are found once.
-std::vector<StabilityLimit> stable_steps(const Problem& problem, std::span<const Method* const> methods);
+/// Sharp limits of several methods. The problem's modes are computed once.
+std::vector<StabilityLimit> stable_steps(const Problem& problem,
+                                         std::span<const Method* const> methods);
 
-/// The method as it is run with a step dt [s]: rkc2 with the fewest stages that its limit on the problem asks for, every other
-/// method as it is. Where no number of stages up to 200 suffices, that which its damping asks for, at most 200: stable_step then says no.
+/// The method as it is run with a step dt [s]: rkc2 with the fewest stages whose limit on the
+/// problem allows dt, every other method unchanged. If no number of stages up to 200 suffices, the
+/// number that its damping needs, at most 200; stable_step then refuses the step.
 Method fitted(const Problem& problem, const Method& method, double dt);
 
 } // namespace dss

@@ -11,7 +11,8 @@ SymmetricEigen::SymmetricEigen(const Eigen::MatrixXd& matrix) {
   const Solver solved(matrix);
   values = solved.eigenvalues(), vectors = solved.eigenvectors();
 }
-SymmetricEigen::SymmetricEigen(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& off_diagonal) {
+SymmetricEigen::SymmetricEigen(const Eigen::VectorXd& diagonal,
+                               const Eigen::VectorXd& off_diagonal) {
   Solver solved;
   solved.computeFromTridiagonal(diagonal, off_diagonal);
   values = solved.eigenvalues(), vectors = solved.eigenvectors();

@@ -18,16 +18,18 @@ std::vector<std::vector<std::size_t>> neighbourhoods(const Problem& problem) {
   return of;
 }
 
-std::vector<std::vector<std::size_t>> colour_groups(const std::vector<std::vector<std::size_t>>& neighbourhoods) {
+std::vector<std::vector<std::size_t>>
+colour_groups(const std::vector<std::vector<std::size_t>>& neighbourhoods) {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> colour(neighbourhoods.size(), none);
   std::vector<std::vector<std::size_t>> groups;
-  std::vector<std::size_t> taken_by; // of each colour: the last element that must not have it
+  std::vector<std::size_t> taken_by; // for each colour, the last element that must not have it
   for (std::size_t e = 0; e < colour.size(); ++e) {
     for (const std::size_t near : neighbourhoods[e])
       for (const std::size_t other : neighbourhoods[near])
         if (colour[other] != none) taken_by[colour[other]] = e;
-    const auto free = std::ranges::find_if(taken_by, [e](std::size_t element) { return element != e; });
+    const auto free =
+        std::ranges::find_if(taken_by, [e](std::size_t element) { return element != e; });
     colour[e] = std::size_t(free - taken_by.begin());
     if (free == taken_by.end()) {
       taken_by.push_back(none);

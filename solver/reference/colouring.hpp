@@ -1,5 +1,5 @@
 #pragma once
-/// Which elements may be disturbed together when a Jacobian is found by differences.
+/// Elements that may be disturbed together when a Jacobian is computed by differences.
 #include "solver/model/problem.hpp"
 
 #include <cstddef>
@@ -7,12 +7,14 @@
 
 namespace dss::reference {
 
-/// For every element the elements whose motion its acceleration depends on: itself first, then those that links of the
-/// grid and extra links join to it, each once.
+/// For every element the elements that its acceleration depends on: first itself, then those joined
+/// to it by links of the grid and by extra links, each once.
 std::vector<std::vector<std::size_t>> neighbourhoods(const Problem& problem);
 
-/// Elements in groups of which no two members have a neighbour in common (A. R. Curtis, M. J. D. Powell, J. K. Reid, J.
-/// Inst. Maths Applics 13 (1974) 117-119): greedily, in the order of elements.
-std::vector<std::vector<std::size_t>> colour_groups(const std::vector<std::vector<std::size_t>>& neighbourhoods);
+/// Groups of elements. No two members of a group have a neighbour in common, so one evaluation
+/// gives the derivatives by all members. Greedy, in the order of the elements (A. R. Curtis, M. J.
+/// D. Powell, J. K. Reid, J. Inst. Maths Applics 13 (1974) 117-119).
+std::vector<std::vector<std::size_t>>
+colour_groups(const std::vector<std::vector<std::size_t>>& neighbourhoods);
 
 } // namespace dss::reference

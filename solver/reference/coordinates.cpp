@@ -46,7 +46,8 @@ Orientation<T> Coordinates<T>::read(std::size_t e, const Orientation<T>& c) cons
 }
 
 template <class T>
-Orientation<T> Coordinates<T>::read_rate(std::size_t e, const Orientation<T>& c, const Vector<T>& w) const {
+Orientation<T> Coordinates<T>::read_rate(std::size_t e, const Orientation<T>& c,
+                                         const Vector<T>& w) const {
   if (has_vectors()) return rate_along_vector(c.v, w);
   return reference::rate(read(e, c), w);
 }
@@ -73,7 +74,8 @@ Orientation<T> Coordinates<T>::midpoint(const Orientation<T>& c, const Vector<T>
     const Orientation<T> end = cayley_turned<T>(c, h * w);
     return {(c.s + end.s) / T(2), (c.v + end.v) / T(2)};
   }
-  // Each pass gains a factor of about h |w|; to rounding, or as far as it falls.
+  // Each pass multiplies the error by about h |w|. Iterates until the change is at rounding and no
+  // longer falls.
   constexpr int most_passes = 100;
   Vector<T> middle = c.v;
   T last = std::numeric_limits<T>::infinity();
@@ -89,7 +91,8 @@ Orientation<T> Coordinates<T>::midpoint(const Orientation<T>& c, const Vector<T>
 }
 
 template <class T>
-Orientation<T> Coordinates<T>::midpoint_end(const Orientation<T>& c, const Vector<T>& w, T h) const {
+Orientation<T> Coordinates<T>::midpoint_end(const Orientation<T>& c, const Vector<T>& w,
+                                            T h) const {
   if (rotation_ == Rotation::quaternion) return cayley_turned<T>(c, h * w);
   return {T(0), T(2) * midpoint(c, w, h).v - c.v};
 }

@@ -14,7 +14,8 @@ Vector<T> vector_of(const Vec3& v) {
 }
 
 template <class T>
-LinkProperties<T> properties_of(LinkLaw law, int axis, const AxisConstants& c, const Vec3& edge_i, const Vec3& edge_j) {
+LinkProperties<T> properties_of(LinkLaw law, int axis, const AxisConstants& c, const Vec3& edge_i,
+                                const Vec3& edge_j) {
   const auto a = std::size_t(axis);
   LinkProperties<T> link;
   link.law = law;
@@ -45,12 +46,14 @@ Motion<T> motion_of(const T* f) {
 
 template <class T>
 Dynamics<T>::Dynamics(const Problem& problem, Rotation rotation)
-    : coordinates_(rotation, problem.lattice.element_count), elements_(problem.lattice.element_count),
-      loads_(problem.loads), stabilization_(problem.stabilization), motions_(problem.lattice.element_count),
+    : coordinates_(rotation, problem.lattice.element_count),
+      elements_(problem.lattice.element_count), loads_(problem.loads),
+      stabilization_(problem.stabilization), motions_(problem.lattice.element_count),
       wrenches_(problem.lattice.element_count) {
   for (const Body& body : problem.bodies)
     bodies_.push_back({T(body.mass), vector_of<T>(body.inertia), body.has_tensor_inertia()});
-  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) { elements_[e].body = row.body; });
+  problem.lattice.for_each_element(
+      [&](std::size_t e, const Row& row, int) { elements_[e].body = row.body; });
   for (const Clamp& clamp : problem.clamps) elements_[clamp.element].clamped |= clamp.dofs;
   add_links(problem);
 }
@@ -59,7 +62,8 @@ template <class T>
 void Dynamics<T>::add_links(const Problem& problem) {
   for (const Body& body : problem.bodies)
     for (const int axis : {0, 1, 2})
-      properties_.push_back(properties_of<T>(body.law, axis, body.axis[std::size_t(axis)], body.edge, body.edge));
+      properties_.push_back(
+          properties_of<T>(body.law, axis, body.axis[std::size_t(axis)], body.edge, body.edge));
   links_.reserve(problem.link_count());
   problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
     links_.push_back({i, j, std::size_t(3 * elements_[i].body + axis)});
@@ -68,7 +72,8 @@ void Dynamics<T>::add_links(const Problem& problem) {
     const Body& body_i = problem.bodies[std::size_t(elements_[extra.i].body)];
     const Body& body_j = problem.bodies[std::size_t(elements_[extra.j].body)];
     links_.push_back({extra.i, extra.j, properties_.size()});
-    properties_.push_back(properties_of<T>(extra.law, extra.axis, extra.constants, body_i.edge, body_j.edge));
+    properties_.push_back(
+        properties_of<T>(extra.law, extra.axis, extra.constants, body_i.edge, body_j.edge));
   }
 }
 
@@ -88,11 +93,13 @@ Motion<T> Dynamics<T>::placed(std::size_t e, const T* fields) const {
 
 template <class T>
 void Dynamics<T>::place(std::span<const T> state) {
-  for (std::size_t e = 0; e < elements_.size(); ++e) motions_[e] = placed(e, state.data() + e * field_count);
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    motions_[e] = placed(e, state.data() + e * field_count);
 }
 
 template <class T>
-Reaction<T> Dynamics<T>::link_reaction(const Motion<T>& i, const Motion<T>& j, const Link& link) const {
+Reaction<T> Dynamics<T>::link_reaction(const Motion<T>& i, const Motion<T>& j,
+                                       const Link& link) const {
   const LinkProperties<T>& properties = properties_[link.properties];
   if (is_linearised()) return linearised_reaction(i, j, properties);
   return has_vectors() ? small_reaction(i, j, properties) : reaction(i, j, properties);
@@ -134,13 +141,14 @@ void Dynamics<T>::add_stabilization() {
   }
 }
 
-/// Columns: the axes of an element's inertia in the global frame.
+/// The axes of an element's inertia in the global frame, as columns.
 template <class T>
 Matrix<T> Dynamics<T>::body_axes(const Motion<T>& motion) const {
   return has_vectors() ? Matrix<T>::Identity() : motion.rotation();
 }
 
-/// J^-1 (moment - w x J w) with J = A diag(inertia) A^T; a scalar inertia has no gyroscopic term, nor have linear equations.
+/// J^-1 (moment - w x J w) with J = A diag(inertia) A^T. A scalar inertia and the linear equations
+/// have no gyroscopic term.
 template <class T>
 Vector<T> Dynamics<T>::angular_acceleration(const BodyMass& body, const Motion<T>& motion,
                                             const Vector<T>& moment) const {
@@ -162,11 +170,13 @@ void Dynamics<T>::find_wrenches(std::span<const T> state, std::span<const double
 }
 
 template <class T>
-void Dynamics<T>::wrenches(std::span<const T> state, std::span<const double> signals, std::span<T> wrenches) {
+void Dynamics<T>::wrenches(std::span<const T> state, std::span<const double> signals,
+                           std::span<T> wrenches) {
   find_wrenches(state, signals);
   const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Vector<T> force = wrenches_[e].force + bodies_[std::size_t(elements_[e].body)].mass * frame;
+    const Vector<T> force =
+        wrenches_[e].force + bodies_[std::size_t(elements_[e].body)].mass * frame;
     for (const int axis : {0, 1, 2}) {
       wrenches[6 * e + std::size_t(axis)] = force[axis];
       wrenches[6 * e + 3 + std::size_t(axis)] = wrenches_[e].moment[axis];
@@ -175,7 +185,8 @@ void Dynamics<T>::wrenches(std::span<const T> state, std::span<const double> sig
 }
 
 template <class T>
-void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signals, std::span<T> rates) {
+void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signals,
+                        std::span<T> rates) {
   find_wrenches(state, signals);
   const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
   for (std::size_t e = 0; e < elements_.size(); ++e) {
@@ -208,22 +219,24 @@ T Dynamics<T>::energy(std::span<const T> state) {
     const Motion<T>& m = motions_[e];
     const Vector<T> body_spin = body_axes(m).transpose() * m.w;
     energy += body.mass * m.v.squaredNorm() / T(2) + body.inertia.dot(body_spin.cwiseAbs2()) / T(2);
-    // The moment -2 k_rot v of the stabilization derives from -4 k_rot s, because ds/dt = -w.v/2; |q| = 1 turns s into
-    // squares.
+    // The stabilization's moment -2 k_rot v derives from -4 k_rot s, because ds/dt = -w.v/2. With
+    // |q| = 1, s is a sum of squares.
     energy += k * m.u.squaredNorm() / T(2) + T(2) * k_rot * (m.q.s * m.q.s + m.q.v.squaredNorm());
   }
   for (const Link& link : links_) {
     const Motion<T>&i = motions_[link.i], &j = motions_[link.j];
     const LinkProperties<T>& properties = properties_[link.properties];
-    energy += is_linearised() ? linearised_energy(i, j, properties) : elastic_energy(i, j, properties);
+    energy +=
+        is_linearised() ? linearised_energy(i, j, properties) : elastic_energy(i, j, properties);
   }
   return energy;
 }
 
 template <class T>
 std::size_t Dynamics<T>::bytes() const {
-  return elements_.size() * (sizeof(Element) + sizeof(Motion<T>) + sizeof(Wrench)) + links_.size() * sizeof(Link) +
-         properties_.size() * sizeof(LinkProperties<T>) + coordinates_.bytes();
+  return elements_.size() * (sizeof(Element) + sizeof(Motion<T>) + sizeof(Wrench)) +
+         links_.size() * sizeof(Link) + properties_.size() * sizeof(LinkProperties<T>) +
+         coordinates_.bytes();
 }
 
 template class Dynamics<float>;

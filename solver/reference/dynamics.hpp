@@ -1,5 +1,6 @@
 #pragma once
-/// The right-hand side of a problem's equations of motion, term by term, and its energy: the physics of the oracle.
+/// The physics of the oracle: the right-hand side of the equations of motion, term by term, and the
+/// energy.
 #include "solver/model/problem.hpp"
 #include "solver/reference/coordinates.hpp"
 #include "solver/reference/link_law.hpp"
@@ -11,11 +12,11 @@
 
 namespace dss::reference {
 
-/// Element of a state: field_count numbers in the order of solver/model/fields.hpp.
+/// Motion of one element from its field_count numbers, in the order of kernels/fields.hpp.
 template <class T>
 Motion<T> motion_of(const T* fields);
 
-/// The fields qs .. qz of an element, whatever they hold (coordinates.hpp).
+/// The fields qs .. qz of an element (coordinates.hpp explains their content).
 template <class T>
 Orientation<T> orientation_fields(const T* fields) {
   return {fields[qs], {fields[qx], fields[qy], fields[qz]}};
@@ -26,42 +27,44 @@ void set_orientation_fields(T* fields, const Orientation<T>& c) {
   for (int axis = 0; axis < 3; ++axis) fields[qx + axis] = c.v[axis];
 }
 
-/// Every term of a problem but time: links, extra links, loads, frame acceleration, stabilization, inertia, clamps.
+/// All terms of a problem: links, extra links, loads, frame acceleration, stabilization, inertia,
+/// clamps. Time stepping is not part of it.
 template <class T>
 class Dynamics {
 public:
-  /// Copies what it needs; the problem may end before.
+  /// Copies what it needs; `problem` need not outlive it.
   explicit Dynamics(const Problem& problem, Rotation rotation = Rotation::quaternion);
 
   std::size_t element_count() const { return elements_.size(); }
-  /// What the fields qs .. qz of states hold here.
+  /// Coordinates of orientations in the states that this object takes.
   Coordinates<T>& coordinates() { return coordinates_; }
   const Coordinates<T>& coordinates() const { return coordinates_; }
 
   /// Time derivative of every field of every element.
   /// @param state, rates  element_count() * field_count numbers, SI units
-  /// @param signals       one row as in solver/numerics/signal_rows.hpp: frame acceleration x, y, z, then one value a
-  /// load
+  /// @param signals       one row as in solver/numerics/signal_rows.hpp: frame acceleration x, y,
+  ///     z, then one value a load
   void rates(std::span<const T> state, std::span<const double> signals, std::span<T> rates);
 
-  /// Force and moment about its centre on every element, global frame: 6 numbers each [N], [N m]. What holds clamped degrees of freedom is
-  /// not in it, the frame's acceleration is.
+  /// Force and moment about its centre on every element, global frame, 6 numbers each [N], [N m].
+  /// The frame's acceleration is included; reactions of clamps are not.
   void wrenches(std::span<const T> state, std::span<const double> signals, std::span<T> wrenches);
 
   struct Link {
     std::size_t i, j;
-    std::size_t properties; ///< its constants
+    std::size_t properties; ///< index of the constants
   };
-  /// Of the grid, then the extra ones.
+  /// Links of the grid, then the extra links.
   const std::vector<Link>& links() const { return links_; }
-  /// Motion of element e whose fields are these, and what a link does to two elements that move so.
+  /// placed: motion of element e with these fields. link_reaction: what a link does to two elements
+  /// with these motions.
   Motion<T> placed(std::size_t e, const T* fields) const;
   Reaction<T> link_reaction(const Motion<T>& i, const Motion<T>& j, const Link& link) const;
 
-  /// Kinetic energy, plus elastic energy of all links, plus that of the stabilizing springs [J].
+  /// Kinetic energy, elastic energy of all links and energy of the stabilizing springs [J].
   T energy(std::span<const T> state);
 
-  /// Bytes of the tables and scratch space held.
+  /// Memory of tables and scratch space [B].
   std::size_t bytes() const;
 
 private:
@@ -87,7 +90,8 @@ private:
   bool is_linearised() const { return coordinates_.rotation() == Rotation::linearised; }
   bool has_vectors() const { return coordinates_.has_vectors(); }
   Matrix<T> body_axes(const Motion<T>& motion) const;
-  Vector<T> angular_acceleration(const BodyMass& body, const Motion<T>& motion, const Vector<T>& moment) const;
+  Vector<T> angular_acceleration(const BodyMass& body, const Motion<T>& motion,
+                                 const Vector<T>& moment) const;
 
   Coordinates<T> coordinates_;
   std::vector<Element> elements_;
@@ -96,7 +100,7 @@ private:
   std::vector<Link> links_;
   std::vector<Load> loads_;
   Stabilization stabilization_;
-  std::vector<Motion<T>> motions_; ///< of the state being evaluated
+  std::vector<Motion<T>> motions_; ///< of the state under evaluation
   std::vector<Wrench> wrenches_;   ///< on each element
 };
 

@@ -11,9 +11,10 @@ namespace {
 
 constexpr int unknowns = 6; ///< of an element: v, then w
 constexpr int most_iterations = 40;
-constexpr double slow = 0.1; ///< factor of an iteration's correction to the last one's above which new factors pay
+/// New factors pay off if a correction is more than this fraction of the previous one.
+constexpr double slow = 0.1;
 
-/// Field whose change is unknown number d of an element.
+/// Field of the unknown number d of an element.
 std::size_t field_of(int d) { return std::size_t(d < 3 ? vx + d : wx + d - 3); }
 Eigen::Index place_of(std::size_t e, int d) { return Eigen::Index(e) * unknowns + d; }
 
@@ -27,10 +28,12 @@ T length(const T* three) {
 template <class T>
 ImplicitMidpoint<T>::ImplicitMidpoint(const Problem& problem, double dt)
     : dt_(T(dt)), neighbourhoods_(neighbourhoods(problem)), groups_(colour_groups(neighbourhoods_)),
-      mid_(problem.lattice.element_count * field_count), rates_(mid_.size()), disturbed_rates_(mid_.size()) {
+      mid_(problem.lattice.element_count * field_count), rates_(mid_.size()),
+      disturbed_rates_(mid_.size()) {
   problem.lattice.for_each_element([&](std::size_t, const Row& row, int) {
     const Body& body = problem.bodies[std::size_t(row.body)];
-    gyration_.push_back(T(std::sqrt((body.inertia[0] + body.inertia[1] + body.inertia[2]) / (3 * body.mass))));
+    gyration_.push_back(
+        T(std::sqrt((body.inertia[0] + body.inertia[1] + body.inertia[2]) / (3 * body.mass))));
     edge_.push_back(T(std::max({body.edge[0], body.edge[1], body.edge[2]})));
   });
   restart();
@@ -47,7 +50,8 @@ template <class T>
 std::optional<std::size_t> ImplicitMidpoint<T>::step(Dynamics<T>& dynamics, std::span<T> state,
                                                      std::span<const double> signals) {
   if (!solve(dynamics, state, signals)) {
-    // What served the step before may be too far off; nothing is known that would be nearer than no change at all.
+    // The change of the last step may be too far off as a first guess. No better guess is known
+    // than zero.
     restart();
     if (!solve(dynamics, state, signals)) return worst_element();
   }
@@ -55,10 +59,11 @@ std::optional<std::size_t> ImplicitMidpoint<T>::step(Dynamics<T>& dynamics, std:
   return std::nullopt;
 }
 
-/// Newton's iteration from change_, until corrections are below rounding, or at the rounding of the forces and no longer
-/// falling.
+/// Newton's iteration from change_. Stops when corrections are below rounding, or when they no
+/// longer fall and are at the rounding of the forces.
 template <class T>
-bool ImplicitMidpoint<T>::solve(Dynamics<T>& dynamics, std::span<const T> state, std::span<const double> signals) {
+bool ImplicitMidpoint<T>::solve(Dynamics<T>& dynamics, std::span<const T> state,
+                                std::span<const double> signals) {
   constexpr T epsilon = std::numeric_limits<T>::epsilon();
   const T noise = T(100) * epsilon * speed_from_rounding(state);
   T last = std::numeric_limits<T>::infinity();
@@ -76,7 +81,7 @@ bool ImplicitMidpoint<T>::solve(Dynamics<T>& dynamics, std::span<const T> state,
     const T ratio = size / last, scale = speed(change_);
     if (size <= epsilon * scale) return true;
     if (iteration > 0) {
-      // After a correction, the error left is about ratio / (1 - ratio) of it.
+      // The error after a correction is about ratio / (1 - ratio) times the correction.
       if (ratio < T(0.5) && ratio / (T(1) - ratio) * size <= epsilon / T(4) * scale) return true;
       if (ratio > T(0.5) && size <= std::max(noise, T(10) * epsilon * scale)) return true;
       if (ratio > T(slow) && !are_factors_new) has_factors_ = false;
@@ -87,12 +92,14 @@ bool ImplicitMidpoint<T>::solve(Dynamics<T>& dynamics, std::span<const T> state,
   return false;
 }
 
-/// Fields of an element half-way, from change_.
+/// Fields of an element in the middle of the step, from change_.
 template <class T>
-void ImplicitMidpoint<T>::place_middle(const Dynamics<T>& dynamics, std::span<const T> state, std::size_t e) {
+void ImplicitMidpoint<T>::place_middle(const Dynamics<T>& dynamics, std::span<const T> state,
+                                       std::size_t e) {
   const T* y = state.data() + e * field_count;
   T* mid = mid_.data() + e * field_count;
-  for (int d = 0; d < unknowns; ++d) mid[field_of(d)] = y[field_of(d)] + change_[place_of(e, d)] / T(2);
+  for (int d = 0; d < unknowns; ++d)
+    mid[field_of(d)] = y[field_of(d)] + change_[place_of(e, d)] / T(2);
   for (int axis = 0; axis < 3; ++axis) mid[ux + axis] = y[ux + axis] + dt_ / T(2) * mid[vx + axis];
   const Vector<T> w = {mid[wx], mid[wy], mid[wz]};
   set_orientation_fields(mid, dynamics.coordinates().midpoint(orientation_fields(y), w, dt_));
@@ -106,11 +113,13 @@ void ImplicitMidpoint<T>::find_residual(Dynamics<T>& dynamics, std::span<const T
   residual_.resize(change_.size());
   for (std::size_t e = 0; e < gyration_.size(); ++e)
     for (int d = 0; d < unknowns; ++d)
-      residual_[place_of(e, d)] = change_[place_of(e, d)] - dt_ * rates_[e * field_count + field_of(d)];
+      residual_[place_of(e, d)] =
+          change_[place_of(e, d)] - dt_ * rates_[e * field_count + field_of(d)];
 }
 
-/// Factors of the residual's derivative by change_, where rates_ belong to it. Half-way, disturbances move and turn
-/// elements by the square root of rounding of an edge and of a radian.
+/// Factors of the derivative of the residual by change_, at the state of rates_. The disturbances
+/// move and turn elements, in the middle of the step, by the square root of rounding of an edge and
+/// of a radian.
 template <class T>
 bool ImplicitMidpoint<T>::find_jacobian(Dynamics<T>& dynamics, std::span<const T> state,
                                         std::span<const double> signals) {
@@ -133,13 +142,15 @@ bool ImplicitMidpoint<T>::find_jacobian(Dynamics<T>& dynamics, std::span<const T
           for (int r = 0; r < unknowns; ++r) {
             const std::size_t at = felt * field_count + field_of(r);
             const T slope = T(felt == e && r == d) - dt_ * (disturbed_rates_[at] - rates_[at]) / by;
-            if (slope != T(0)) entries.emplace_back(int(place_of(felt, r)), int(place_of(e, d)), double(slope));
+            if (slope != T(0))
+              entries.emplace_back(int(place_of(felt, r)), int(place_of(e, d)), double(slope));
           }
         change_[place_of(e, d)] = undisturbed[place_of(e, d)];
         place_middle(dynamics, state, e);
       }
     }
-  if (std::ranges::any_of(entries, [](const auto& entry) { return !std::isfinite(entry.value()); })) return false;
+  if (std::ranges::any_of(entries, [](const auto& entry) { return !std::isfinite(entry.value()); }))
+    return false;
   Eigen::SparseMatrix<double> jacobian(change_.size(), change_.size());
   jacobian.setFromTriplets(entries.begin(), entries.end());
   factors_.compute(jacobian);
@@ -153,20 +164,20 @@ auto ImplicitMidpoint<T>::correction() const -> Unknowns {
   return factors_.solve(residual).template cast<T>();
 }
 
-/// Largest velocity among changes, with angular velocities as velocities at the radius of gyration [m/s].
+/// Largest velocity among changes [m/s]. Angular velocities count at the radius of gyration.
 template <class T>
 T ImplicitMidpoint<T>::speed(const Unknowns& changes) const {
   T largest = 0;
   for (std::size_t e = 0; e < gyration_.size(); ++e) {
     const T* own = changes.data() + place_of(e, 0);
     const T of_element = std::max(length(own), gyration_[e] * length(own + 3));
-    if (!(of_element <= largest)) largest = of_element; // NaN too
+    if (!(of_element <= largest)) largest = of_element; // also if of_element is NaN
   }
   return largest;
 }
 
-/// Velocity to which rounding of displacements and turns by a whole unit amounts, and that of the velocities themselves
-/// [m/s]: forces come from differences of such numbers.
+/// Velocity [m/s] that corresponds to rounding of displacements, turns and velocities by one whole
+/// unit. Forces are differences of such numbers.
 template <class T>
 T ImplicitMidpoint<T>::speed_from_rounding(std::span<const T> state) const {
   T largest = 0;
@@ -191,7 +202,7 @@ std::size_t ImplicitMidpoint<T>::worst_element() const {
   return worst;
 }
 
-/// y_{n+1} from the solution: change_, and mid_ made anew from it.
+/// y_{n+1} from the solution, change_.
 template <class T>
 void ImplicitMidpoint<T>::finish(const Dynamics<T>& dynamics, std::span<T> state) const {
   for (std::size_t e = 0; e < gyration_.size(); ++e) {
@@ -214,7 +225,8 @@ std::size_t ImplicitMidpoint<T>::bytes() const {
   for (const auto& near : neighbourhoods_) links += near.size();
   const auto numbers = std::size_t(2 * change_.size()) + 3 * mid_.size() + 2 * gyration_.size();
   const auto of_factors = has_factors_ ? std::size_t(factors_.nnzL() + factors_.nnzU()) : 0;
-  return numbers * sizeof(T) + links * sizeof(std::size_t) + of_factors * (sizeof(double) + sizeof(int));
+  return numbers * sizeof(T) + links * sizeof(std::size_t) +
+         of_factors * (sizeof(double) + sizeof(int));
 }
 
 template class ImplicitMidpoint<float>;

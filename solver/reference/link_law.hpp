@@ -1,12 +1,12 @@
 #pragma once
-/// The two link laws of DESIGN.md section 2 as the oracle computes them, each with the potential energy of its elastic
-/// part.
+/// The two link laws of DESIGN.md section 2 as the oracle computes them, and the potential energy
+/// of their elastic parts.
 #include "solver/model/problem.hpp"
 #include "solver/reference/orientation.hpp"
 
 namespace dss::reference {
 
-/// Motion of one element, global frame.
+/// Motion of one element in the global frame.
 template <class T>
 struct Motion {
   Vector<T> u, v, w; ///< displacement [m], velocity [m/s], angular velocity [rad/s]
@@ -15,8 +15,8 @@ struct Motion {
   Matrix<T> rotation() const { return Matrix<T>::Identity() + turned; }
 };
 
-/// A link with every number in T. The arms point from i's centre to its face and from j's face to its centre, in body
-/// axes.
+/// Constants of a link in T. The arms are in body axes: arm_i points from the centre of i to its
+/// face, arm_j from the face of j to its centre.
 template <class T>
 struct LinkProperties {
   LinkLaw law = LinkLaw::paper;
@@ -26,31 +26,33 @@ struct LinkProperties {
   Vector<T> k_rot, d_rot;                 ///< [N m/rad], [N m s/rad]
 };
 
-/// What a link does to its two elements.
+/// Forces and moments of a link on its two elements.
 template <class T>
 struct Reaction {
-  Vector<T> force;              ///< on i; on j its negative [N]
-  Vector<T> moment_i, moment_j; ///< about the elements' centres [N m]
+  Vector<T> force;              ///< on i; on j the negative force [N]
+  Vector<T> moment_i, moment_j; ///< about the centres of the elements [N m]
 };
 
-/// Opening of the link between the two face points, global frame [m]; zero at rest.
+/// Gap D of the link between its two face points, global frame [m]; zero at rest.
 template <class T>
 Vector<T> gap(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link) {
   return (j.u - i.u) - i.turned * link.arm_i - j.turned * link.arm_j;
 }
 
-/// The paper's law, computed as the paper does: gap and rate are taken into the frame of element i, the force is found
-/// there, each moment in its own element's frame, and all are rotated back. Isotropic: it uses k_normal, d_normal,
-/// k_rot[0] and d_rot[0].
+/// The paper's law, computed as in the paper. Gap and rate are rotated into the frame of element i;
+/// the force is found there, each moment in its own element's frame, and all are rotated back. The
+/// law is isotropic: it uses k_normal, d_normal, k_rot[0] and d_rot[0].
 template <class T>
 Reaction<T> paper_reaction(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link) {
   const Matrix<T> a_i = i.rotation(), a_j = j.rotation();
   const Vector<T> local_gap = a_i.transpose() * gap(i, j, link);
   const Vector<T> point_velocity_i = Vector<T>(a_i.transpose() * i.w).cross(link.arm_i);
   const Vector<T> point_velocity_j = Vector<T>(a_j.transpose() * j.w).cross(link.arm_j);
-  const Vector<T> local_rate = a_i.transpose() * Vector<T>(j.v - i.v - a_j * point_velocity_j) - point_velocity_i;
+  const Vector<T> local_rate =
+      a_i.transpose() * Vector<T>(j.v - i.v - a_j * point_velocity_j) - point_velocity_i;
   const Vector<T> local_force = link.k_normal * local_gap + link.d_normal * local_rate;
-  const Vector<T> torque = T(2) * link.k_rot[0] * relative_vector(i.q, j.q) + link.d_rot[0] * (j.w - i.w);
+  const Vector<T> torque =
+      T(2) * link.k_rot[0] * relative_vector(i.q, j.q) + link.d_rot[0] * (j.w - i.w);
 
   Reaction<T> reaction;
   reaction.force = a_i * local_force;
@@ -59,7 +61,7 @@ Reaction<T> paper_reaction(const Motion<T>& i, const Motion<T>& j, const LinkPro
   return reaction;
 }
 
-/// The rotation from i to j: (p0, r) = q_j conj(q_i).
+/// Rotation from i to j: (p0, r) = q_j conj(q_i).
 template <class T>
 struct RelativeRotation {
   Vector<T> r;
@@ -70,24 +72,26 @@ RelativeRotation<T> relative_rotation(const Motion<T>& i, const Motion<T>& j) {
   return {relative_vector(i.q, j.q), relative_scalar(i.q, j.q)};
 }
 
-/// Moment on i of the rotational springs of the material law; minus the derivative of their energy (see elastic_energy)
-/// by a turn of i.
+/// Moment on i of the rotational springs of the material law [N m]. It is minus the derivative of
+/// their energy (elastic_energy) by a turn of i.
 template <class T>
 Vector<T> material_spring_torque(const Motion<T>& i, const Motion<T>& j, const Matrix<T>& mean,
-                                 const LinkProperties<T>& link, const RelativeRotation<T>& relative) {
+                                 const LinkProperties<T>& link,
+                                 const RelativeRotation<T>& relative) {
   const Vector<T>& r = relative.r;
   const T p0 = relative.p0;
   Vector<T> torque = T(2) * link.k_rot.z() * r;
   for (const int m : {0, 1}) {
     const Vector<T> n = mean.col(m);
     const Vector<T> spread = i.turned.col(m) - j.turned.col(m); // n_mi - n_mj
-    torque += T(2) * (link.k_rot[m] - link.k_rot.z()) * n.dot(r) * (p0 * n + r.cross(spread) / T(2));
+    torque +=
+        T(2) * (link.k_rot[m] - link.k_rot.z()) * n.dot(r) * (p0 * n + r.cross(spread) / T(2));
   }
   return torque;
 }
 
-/// The material law: orthotropic about the columns of the mean rotation, acting at the common point half-way across the
-/// gap.
+/// The material law: orthotropic about the columns of the mean rotation. It acts at the common
+/// point, half-way across the gap.
 template <class T>
 Reaction<T> material_reaction(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link,
                               const RelativeRotation<T>& relative) {
@@ -100,9 +104,10 @@ Reaction<T> material_reaction(const Motion<T>& i, const Motion<T>& j, const Link
   const Vector<T> n = mean.col(link.axis);
 
   const T stretch = (link.k_normal - link.k_shear) * n.dot(d);
-  const Vector<T> force =
-      link.k_shear * d + stretch * n + link.d_shear * rate + (link.d_normal - link.d_shear) * n.dot(rate) * n;
-  // The normal turns with both elements, so a gap across it makes a couple beside that of the force.
+  const Vector<T> force = link.k_shear * d + stretch * n + link.d_shear * rate +
+                          (link.d_normal - link.d_shear) * n.dot(rate) * n;
+  // The normal turns with both elements, so a gap across it causes a couple besides that of the
+  // force.
   const Vector<T> spread = i.turned.col(link.axis) - j.turned.col(link.axis);
   const Vector<T> normal_couple = stretch / T(4) * d.cross(spread);
 
@@ -111,9 +116,11 @@ Reaction<T> material_reaction(const Motion<T>& i, const Motion<T>& j, const Link
     const Vector<T> n_m = mean.col(m);
     torque += (link.d_rot[m] - link.d_rot.z()) * n_m.dot(spin) * n_m;
   }
-  return {force, b_i.cross(force) + normal_couple + torque, b_j.cross(force) - normal_couple - torque};
+  return {force, b_i.cross(force) + normal_couple + torque,
+          b_j.cross(force) - normal_couple - torque};
 }
 
+/// Reaction of a link by its own law.
 template <class T>
 Reaction<T> reaction(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link) {
   return link.law == LinkLaw::paper ? paper_reaction(i, j, link)
@@ -122,20 +129,23 @@ Reaction<T> reaction(const Motion<T>& i, const Motion<T>& j, const LinkPropertie
 
 /// Potential energy of a link's elastic part [J]:
 ///     paper     1/2 k D.D + 4 kt (1 - p0)
-///     material  1/2 k_s D.D + 1/2 (k_n - k_s)(n_a.D)^2 + 4 k_z (1 - p0) + 2 (k_x - k_z)(n_x.r)^2 + 2 (k_y -
-///     k_z)(n_y.r)^2
-/// with (p0, r) = q_j conj(q_i) and n the columns of the mean rotation matrix.
+///     material  1/2 k_s D.D + 1/2 (k_n - k_s)(n_a.D)^2
+///               + 4 k_z (1 - p0) + 2 (k_x - k_z)(n_x.r)^2 + 2 (k_y - k_z)(n_y.r)^2
+/// with (p0, r) = q_j conj(q_i); n_m are the columns of the mean rotation matrix, n_a that of the
+/// link's axis.
 template <class T>
 T elastic_energy(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link) {
   const Vector<T> d = gap(i, j, link);
   const T versine = relative_versine(i.q, j.q);
-  if (link.law == LinkLaw::paper) return link.k_normal * d.squaredNorm() / T(2) + T(4) * link.k_rot[0] * versine;
+  if (link.law == LinkLaw::paper)
+    return link.k_normal * d.squaredNorm() / T(2) + T(4) * link.k_rot[0] * versine;
 
   const Matrix<T> mean = Matrix<T>::Identity() + (i.turned + j.turned) / T(2);
   const Vector<T> r = relative_vector(i.q, j.q);
   const T stretch = mean.col(link.axis).dot(d);
-  T energy = (link.k_shear * d.squaredNorm() + (link.k_normal - link.k_shear) * stretch * stretch) / T(2) +
-             T(4) * link.k_rot.z() * versine;
+  T energy =
+      (link.k_shear * d.squaredNorm() + (link.k_normal - link.k_shear) * stretch * stretch) / T(2) +
+      T(4) * link.k_rot.z() * versine;
   for (const int m : {0, 1}) {
     const T bend = mean.col(m).dot(r);
     energy += T(2) * (link.k_rot[m] - link.k_rot.z()) * bend * bend;

@@ -9,8 +9,8 @@
 namespace dss {
 namespace {
 
-/// The classical (Butcher) table of a Runge-Kutta method in increment form: substituting Y_m - y = h sum_j w[m][j] k_j
-/// into Y_{s+1} - y = sum_m alpha[s][m] (Y_m - y) + h beta[s] k_s.
+/// Classical (Butcher) table of a Runge-Kutta method in increment form. It substitutes
+/// Y_m - y = h sum_j w[m][j] k_j into Y_{s+1} - y = sum_m alpha[s][m] (Y_m - y) + h beta[s] k_s.
 template <class T>
 std::vector<std::vector<T>> butcher_rows(const Method& method) {
   const auto stages = std::size_t(method.stages);
@@ -50,7 +50,8 @@ void Oracle<T>::write(std::span<const double> fields, std::size_t first) {
                  [](double value) { return T(value); });
   for (std::size_t e = first; e < first + fields.size() / field_count; ++e) {
     T* f = &state_[e * field_count];
-    reference::set_orientation_fields(f, dynamics_.coordinates().write(e, reference::orientation_fields(f)));
+    reference::set_orientation_fields(
+        f, dynamics_.coordinates().write(e, reference::orientation_fields(f)));
   }
   step_count_ = 0;
   is_leapfrog_started_ = false;
@@ -60,19 +61,22 @@ void Oracle<T>::write(std::span<const double> fields, std::size_t first) {
 template <class T>
 void Oracle<T>::read(std::span<double> fields, std::size_t first) const {
   std::transform(state_.begin() + std::ptrdiff_t(first * field_count),
-                 state_.begin() + std::ptrdiff_t(first * field_count + fields.size()), fields.begin(),
-                 [](T value) { return double(value); });
+                 state_.begin() + std::ptrdiff_t(first * field_count + fields.size()),
+                 fields.begin(), [](T value) { return double(value); });
   for (std::size_t n = 0; n < fields.size(); n += field_count) {
     const std::size_t e = first + n / field_count;
-    const auto q = dynamics_.coordinates().read(e, reference::orientation_fields(&state_[e * field_count]));
+    const auto q =
+        dynamics_.coordinates().read(e, reference::orientation_fields(&state_[e * field_count]));
     reference::set_orientation_fields(&fields[n], rounded(q));
   }
 }
 
 template <class T>
 std::span<const double> Oracle<T>::signals_at(double t) {
-  for (std::size_t axis = 0; axis < 3; ++axis) signal_row_[axis] = problem_.frame_acceleration[axis](t);
-  for (std::size_t l = 0; l < problem_.loads.size(); ++l) signal_row_[3 + l] = problem_.loads[l].signal(t);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    signal_row_[axis] = problem_.frame_acceleration[axis](t);
+  for (std::size_t l = 0; l < problem_.loads.size(); ++l)
+    signal_row_[3 + l] = problem_.loads[l].signal(t);
   return signal_row_;
 }
 
@@ -84,10 +88,12 @@ void Oracle<T>::derivative(double t, std::span<double> rates) {
 template <class T>
 void Oracle<T>::derivative(std::span<const double> signals, std::span<double> rates) {
   dynamics_.rates(state_, signals, slopes_[0]);
-  std::transform(slopes_[0].begin(), slopes_[0].end(), rates.begin(), [](T value) { return double(value); });
+  std::transform(slopes_[0].begin(), slopes_[0].end(), rates.begin(),
+                 [](T value) { return double(value); });
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
     const T* y = &state_[e * field_count];
-    const auto dq = dynamics_.coordinates().read_rate(e, reference::orientation_fields(y), {y[wx], y[wy], y[wz]});
+    const auto dq = dynamics_.coordinates().read_rate(e, reference::orientation_fields(y),
+                                                      {y[wx], y[wy], y[wz]});
     reference::set_orientation_fields(&rates[e * field_count], rounded(dq));
   }
 }
@@ -175,7 +181,7 @@ void Oracle<T>::accept_step() {
   reframe(state_);
 }
 
-/// v_{-1/2} = v_0 - (h/2) a_0 and p_0 = v_0; symplectic Euler keeps v_0 itself. Leaves a_0 in the slopes.
+/// v_{-1/2} = v_0 - (h/2) a_0 and p_0 = v_0; symplectic Euler keeps v_0. Stores a_0 in slopes_[0].
 template <class T>
 void Oracle<T>::start_leapfrog(std::span<const double> signals) {
   trial_ = state_;
@@ -197,12 +203,14 @@ void Oracle<T>::leapfrog_step(long step, const SignalSource& signals) {
     dynamics_.rates(trial_, signals(step, 0), slopes_[0]);
   else
     start_leapfrog(signals(step, 0));
-  const T h = T(dt_), smoothing = T(method_.smoothing), ahead = method_.is_staggered() ? (1 - smoothing) / 2 * h : T(0);
+  const T h = T(dt_), smoothing = T(method_.smoothing),
+          ahead = method_.is_staggered() ? (1 - smoothing) / 2 * h : T(0);
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
     T *y = &trial_[e * field_count], *half = &half_step_[6 * e];
     const T* a = &slopes_[0][e * field_count];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const T correction = y[vx + axis] - half[axis], turn_correction = y[wx + axis] - half[3 + axis];
+      const T correction = y[vx + axis] - half[axis],
+              turn_correction = y[wx + axis] - half[3 + axis];
       half[axis] += h * a[vx + axis];
       half[3 + axis] += h * a[wx + axis];
       y[ux + axis] += h * half[axis];
@@ -215,8 +223,8 @@ void Oracle<T>::leapfrog_step(long step, const SignalSource& signals) {
   }
 }
 
-/// The readable state: positions as they are, velocities v_n = v_{n-1/2} + (h/2) a(x_n, p_n). The run itself goes on
-/// from p_n.
+/// The state that callers read: positions as they are, velocities v_n = v_{n-1/2} + (h/2) a(x_n,
+/// p_n). The run itself continues from p_n.
 template <class T>
 void Oracle<T>::finish_leapfrog(std::span<const double> signals) {
   dynamics_.rates(trial_, signals, slopes_[0]);
@@ -232,7 +240,8 @@ void Oracle<T>::finish_leapfrog(std::span<const double> signals) {
   }
 }
 
-/// Coordinates of orientations taken anew where they near their singularity; between steps, since stages share bases.
+/// Restarts coordinates that are near their singularity. Only between steps, because the stages of
+/// a step share the bases.
 template <class T>
 void Oracle<T>::reframe(std::vector<T>& state) {
   if (dynamics_.coordinates().rotation() != Rotation::tait_bryan) return;
@@ -245,14 +254,16 @@ void Oracle<T>::reframe(std::vector<T>& state) {
 
 template <class T>
 std::optional<std::size_t> Oracle<T>::first_non_finite(const std::vector<T>& state) const {
-  const auto bad = std::find_if(state.begin(), state.end(), [](T value) { return !std::isfinite(value); });
+  const auto bad =
+      std::find_if(state.begin(), state.end(), [](T value) { return !std::isfinite(value); });
   if (bad == state.end()) return std::nullopt;
   return std::size_t(bad - state.begin()) / field_count;
 }
 
 template <class T>
 std::size_t Oracle<T>::bytes() const {
-  return dynamics_.bytes() + (state_.size() * (2 + slopes_.size()) + half_step_.size()) * sizeof(T) +
+  return dynamics_.bytes() +
+         (state_.size() * (2 + slopes_.size()) + half_step_.size()) * sizeof(T) +
          (implicit_ ? implicit_->bytes() : 0);
 }
 

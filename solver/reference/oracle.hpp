@@ -1,6 +1,7 @@
 #pragma once
-/// The oracle: a plain solver of any problem by any method, against which every variant is checked (DESIGN.md sections
-/// 5 and 6). It shares no arithmetic with kernels/; its precision is that of T in every operation.
+/// The oracle: a plain solver of any problem by any method. Every variant is checked against it
+/// (DESIGN.md sections 5 and 6). It shares no arithmetic with kernels/. Every operation has the
+/// precision of T.
 #include "solver/numerics/method.hpp"
 #include "solver/numerics/step_control.hpp"
 #include "solver/reference/dynamics.hpp"
@@ -17,52 +18,55 @@ template <class T>
 class ImplicitMidpoint;
 }
 
-/// Where a run first left a state that is not finite, or met equations of a step that it could not solve; the state is
-/// then that before the step.
+/// Why and where a run stopped: the first state that is not finite, or a step whose equations had
+/// no solution. In the second case the state is the one before the step.
 struct Breakdown {
   long step = 0;           ///< counted from 0 at the call of advance
-  std::size_t element = 0; ///< the first such element, or that furthest from a solution
+  std::size_t element = 0; ///< first such element, or the one with the largest residual
   std::string_view what = "the state is not finite";
 };
 
-/// Runs a problem in T (float, double or long double). It starts at rest at t = 0, every field zero.
+/// Runs a problem in T (float, double or long double), from rest at t = 0 with all fields zero.
 template <class T>
 class Oracle {
 public:
-  /// Signal values (one row of solver/numerics/signal_rows.hpp) at a stage of a step; steps count from 0 at the call of
-  /// advance. A leapfrog asks once more, for stage 0 of the step after the last, to bring the velocities to the end of
-  /// the run.
+  /// Returns the signal values (one row of solver/numerics/signal_rows.hpp) at a stage of a step.
+  /// Steps count from 0 at the call of advance. A leapfrog method also asks for stage 0 of the step
+  /// after the last, to bring the velocities to the end of the run.
   using SignalSource = std::function<std::span<const double>(long step, int stage)>;
 
   /// `problem` must outlive the oracle; `dt` is the step [s].
-  Oracle(const Problem& problem, const Method& method, double dt, Rotation rotation = Rotation::quaternion);
+  Oracle(const Problem& problem, const Method& method, double dt,
+         Rotation rotation = Rotation::quaternion);
   ~Oracle();
 
-  /// Sets the fields of elements from `first` on, 13 numbers each, quaternions whatever the rotation inside. Restarts
-  /// the method at t = 0.
+  /// Sets the fields of elements from `first` on, 13 numbers each. Orientations are quaternions for
+  /// every rotation. Restarts the method at t = 0.
   void write(std::span<const double> fields, std::size_t first = 0);
-  /// Gets them, rounded to double.
+  /// Reads the fields of elements from `first` on, rounded to double.
   void read(std::span<double> fields, std::size_t first = 0) const;
-  /// All fields of all elements in full precision; qs .. qz as solver/reference/coordinates.hpp says.
+  /// All fields of all elements in full precision. coordinates.hpp explains qs .. qz.
   const std::vector<T>& state() const { return state_; }
 
-  /// Time derivative of every field at the present state, with the problem's signals at time t [s] or with given values
-  /// of them.
+  /// Time derivative of every field at the present state. Uses the problem's signals at time t [s],
+  /// or the given values.
   void derivative(double t, std::span<double> rates);
   void derivative(std::span<const double> signals, std::span<double> rates);
 
-  /// Advances by `steps` steps of the method with the problem's own signals, or with those of `signals`.
-  /// Stops at the first step that leaves a non-finite state and says where that was.
+  /// Advances by `steps` steps, with the problem's own signals or with those of `signals`. Stops at
+  /// the first step that leaves a non-finite state and returns where.
   std::optional<Breakdown> advance(long steps);
   std::optional<Breakdown> advance(long steps, const SignalSource& signals);
 
-  /// Of a method with an error stage: tries a step of dt [s], with one row of signals for each stage. @return as Executor::try_step
+  /// Methods with an error stage: tries a step of dt [s], with one row of signals for each stage;
+  /// accept_step keeps it.
+  /// @return as Executor::try_step
   StepMaxima try_step(double dt, std::span<const double> signals);
   void accept_step();
 
   /// Kinetic, elastic and stabilization energy of the present state [J].
   T energy() { return dynamics_.energy(state_); }
-  /// Steps since the start or the last write.
+  /// Number of steps since the start or the last write.
   long step_count() const { return step_count_; }
   double time() const { return double(step_count_) * dt_; }
   std::size_t bytes() const;
@@ -72,7 +76,7 @@ private:
   std::optional<Breakdown> step_once(long step, const SignalSource& signals);
   /// y + h sum_j weights[row][j] k_j of field n.
   T moved(std::size_t row, std::size_t n, T h) const;
-  /// Slopes of all stages of a step of h; of stage s with the signals `signals_of(s)`.
+  /// Slopes of all stages of a step h [s]. signals_of(s) returns the signals of stage s.
   template <class Signals>
   void find_slopes(T h, const Signals& signals_of);
   void runge_kutta_step(long step, const SignalSource& signals);
@@ -89,13 +93,14 @@ private:
   long step_count_ = 0;
   std::vector<T> state_; ///< y_n
   std::vector<double> signal_row_;
-  std::vector<std::vector<T>> slopes_; ///< k_1 .. of a Runge-Kutta method; the leapfrog's derivative
-  std::vector<T> trial_;               ///< state of a stage; the leapfrog's (x_n, p_n)
-  std::vector<T> half_step_;           ///< leapfrog: velocities at n - 1/2, six an element
+  /// Runge-Kutta: k_1, k_2, ...; leapfrog: the derivative.
+  std::vector<std::vector<T>> slopes_;
+  std::vector<T> trial_;     ///< state of a stage; leapfrog: (x_n, p_n)
+  std::vector<T> half_step_; ///< leapfrog: velocities at n - 1/2, six an element
   bool is_leapfrog_started_ = false;
-  std::unique_ptr<reference::ImplicitMidpoint<T>> implicit_; ///< of that method
-  std::vector<std::vector<T>>
-      weights_; ///< Butcher table: row s gives Y_s = y + h sum_j weights[s][j] k_j; the last row the step
+  std::unique_ptr<reference::ImplicitMidpoint<T>> implicit_; ///< only for that method
+  /// Butcher table: row s gives Y_s = y + h sum_j weights[s][j] k_j; the last row gives the step.
+  std::vector<std::vector<T>> weights_;
 };
 
 } // namespace dss

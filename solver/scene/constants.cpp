@@ -11,7 +11,7 @@ namespace {
 
 const std::vector<std::string> law_names = {"paper", "material"};
 
-/// A number for all axes, or [x, y, z].
+/// Reads a number for all axes, or [x, y, z].
 Vec3 read_per_axis(const Node& node) {
   if (node.is_array()) return node.positive_vector();
   const double value = node.positive();
@@ -20,11 +20,12 @@ Vec3 read_per_axis(const Node& node) {
 
 Vec3 read_non_negative_vector(const Node& node) {
   const Vec3 v = node.vector();
-  if (std::min({v[0], v[1], v[2]}) < 0) node.fail(fmt::format("[{}, {}, {}] has a negative part", v[0], v[1], v[2]));
+  if (std::min({v[0], v[1], v[2]}) < 0)
+    node.fail(fmt::format("[{}, {}, {}] has a negative part", v[0], v[1], v[2]));
   return v;
 }
 
-/// The published constants are the defaults.
+/// The defaults are the published constants.
 AxisConstants read_paper_link(ObjectNode& constants) {
   AxisConstants link;
   link.k_normal = link.k_shear = constants.positive_or("k", 1e11);
@@ -87,13 +88,16 @@ void read_material_body(ObjectNode& constants, Body& body) {
   links.finish();
 }
 
-/// Across the joint of two bodies the distance is that of their half edges, the face that of the first.
-AxisConstants read_material_joint(ObjectNode& constants, const Body& from, const Body& to, int axis) {
+/// Joint of two bodies: the distance of the centres is the sum of two half edges; the face is that
+/// of the first body.
+AxisConstants read_material_joint(ObjectNode& constants, const Body& from, const Body& to,
+                                  int axis) {
   const Material material = read_material(constants);
   const auto a = std::size_t(axis);
   Vec3 edge = from.edge, inertia;
   edge[a] = (from.edge[a] + to.edge[a]) / 2;
-  for (std::size_t b = 0; b < 3; ++b) inertia[b] = from.inertia[b] * to.inertia[b] / (from.inertia[b] + to.inertia[b]);
+  for (std::size_t b = 0; b < 3; ++b)
+    inertia[b] = from.inertia[b] * to.inertia[b] / (from.inertia[b] + to.inertia[b]);
   return material_link(material, axis, edge, from.mass * to.mass / (from.mass + to.mass), inertia);
 }
 
@@ -101,10 +105,12 @@ AxisConstants read_material_joint(ObjectNode& constants, const Body& from, const
 
 double torsion_constant(double b, double c) {
   if (b < c) std::swap(b, c);
-  // The series sum tanh(n pi b / 2c) / n^5 over odd n, as its limit for tanh = 1 less terms that vanish exponentially.
+  // The series sum tanh(n pi b / 2c) / n^5 over odd n. It is computed as its limit for tanh = 1
+  // minus terms that fall exponentially.
   constexpr double sum_of_odd_fifth_powers = 1.0045237627951382; // 31/32 zeta(5)
   double sum = sum_of_odd_fifth_powers;
-  for (int n = 1; n < 25; n += 2) sum -= 2 / (std::pow(n, 5) * (std::exp(n * std::numbers::pi * b / c) + 1));
+  for (int n = 1; n < 25; n += 2)
+    sum -= 2 / (std::pow(n, 5) * (std::exp(n * std::numbers::pi * b / c) + 1));
   return b * c * c * c * (1.0 / 3 - 64 / std::pow(std::numbers::pi, 5) * (c / b) * sum);
 }
 
@@ -114,7 +120,8 @@ Vec3 box_inertia(double mass, const Vec3& edge) {
           mass / 12 * (square[0] + square[1])};
 }
 
-AxisConstants material_link(const Material& material, int axis, const Vec3& edge, double mass, const Vec3& inertia) {
+AxisConstants material_link(const Material& material, int axis, const Vec3& edge, double mass,
+                            const Vec3& inertia) {
   const auto a = std::size_t(axis);
   const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
   const double length = edge[a], area = edge[b] * edge[c], E = material.E[a], G = material.G[a];
@@ -124,7 +131,9 @@ AxisConstants material_link(const Material& material, int axis, const Vec3& edge
   link.k_rot[a] = G * torsion_constant(edge[b], edge[c]) / length;
   link.k_rot[b] = E * edge[b] * std::pow(edge[c], 3) / 12 / length;
   link.k_rot[c] = E * edge[c] * std::pow(edge[b], 3) / 12 / length;
-  const auto damping = [&](double k, double m) { return 2 * material.damping_ratio * std::sqrt(k * m); };
+  const auto damping = [&](double k, double m) {
+    return 2 * material.damping_ratio * std::sqrt(k * m);
+  };
   link.d_normal = damping(link.k_normal, mass);
   link.d_shear = damping(link.k_shear, mass);
   for (std::size_t i = 0; i < 3; ++i) link.d_rot[i] = damping(link.k_rot[i], inertia[i]);
@@ -133,7 +142,8 @@ AxisConstants material_link(const Material& material, int axis, const Vec3& edge
 
 void read_body_constants(const Node& node, Body& body) {
   ObjectNode constants(node);
-  body.law = constants.require("law").choice("law", law_names) == 0 ? LinkLaw::paper : LinkLaw::material;
+  body.law =
+      constants.require("law").choice("law", law_names) == 0 ? LinkLaw::paper : LinkLaw::material;
   if (body.law == LinkLaw::paper)
     read_paper_body(constants, body);
   else
@@ -143,7 +153,8 @@ void read_body_constants(const Node& node, Body& body) {
 
 void read_link_constants(const Node& node, const Body& from, const Body& to, ExtraLink& link) {
   ObjectNode constants(node);
-  link.law = constants.require("law").choice("law", law_names) == 0 ? LinkLaw::paper : LinkLaw::material;
+  link.law =
+      constants.require("law").choice("law", law_names) == 0 ? LinkLaw::paper : LinkLaw::material;
   if (link.law == LinkLaw::paper)
     link.constants = read_paper_link(constants);
   else if (constants.require_one({"E", "k_normal"}) == "E")

@@ -16,17 +16,17 @@ using GridPoint = std::array<long, 3>;
 using Layers = std::vector<std::vector<std::string>>; ///< layers by z, lines by y, characters by x
 
 GridPoint read_point(const Node& node, long least) {
-  node.vector(); // for its errors about the shape
+  node.vector(); // checks the shape of the array
   const std::vector<Node> parts = node.items();
   return {parts[0].whole(least, max_elements), parts[1].whole(least, max_elements),
           parts[2].whole(least, max_elements)};
 }
 
 VoxelGrid empty_grid(const Node& node, const GridPoint& size) {
-  // In double: the product of three such sizes overflows 64 bits.
+  // In double, because the product of three such sizes overflows 64 bits.
   if (double(size[0]) * double(size[1]) * double(size[2]) > double(max_elements))
-    node.fail(fmt::format("{} x {} x {} cells are too many; at most {} are allowed", size[0], size[1], size[2],
-                          max_elements));
+    node.fail(fmt::format("{} x {} x {} cells are too many; at most {} are allowed", size[0],
+                          size[1], size[2], max_elements));
   VoxelGrid grid{int(size[0]), int(size[1]), int(size[2]), {}};
   grid.occupied.assign(std::size_t(size[0] * size[1] * size[2]), 0);
   return grid;
@@ -45,7 +45,8 @@ VoxelGrid read_boxes(const Node& node) {
   GridPoint extent{};
   for (const Node& item : node.items()) {
     ObjectNode box(item);
-    const GridPoint from = read_point(box.require("from"), 0), size = read_point(box.require("size"), 1);
+    const GridPoint from = read_point(box.require("from"), 0),
+                    size = read_point(box.require("size"), 1);
     box.finish();
     for (std::size_t a = 0; a < 3; ++a) extent[a] = std::max(extent[a], from[a] + size[a]);
     boxes.emplace_back(from, size);
@@ -65,13 +66,15 @@ Layers read_layers(const Node& node) {
   return layers;
 }
 
-/// Layers of a text file, each ended by a blank line or the end; beside the scene's file unless the path is absolute.
+/// Layers of a text file. A blank line or the end of the file ends a layer. The path is relative to
+/// the scene's file unless it is absolute.
 Layers read_layer_file(const Node& node) {
   const auto path = std::filesystem::path(node.file()).parent_path() / node.string();
   std::error_code error;
   std::ifstream file(path);
   if (!file || std::filesystem::is_directory(path, error))
-    node.fail(fmt::format("voxel file {} cannot be read; its path is relative to the scene's file", path.string()));
+    node.fail(fmt::format("voxel file {} cannot be read; its path is relative to the scene's file",
+                          path.string()));
   Layers layers(1);
   for (std::string line; std::getline(file, line);) {
     if (line.ends_with('\r')) line.pop_back();
@@ -96,10 +99,12 @@ VoxelGrid grid_of(const Node& node, const Layers& layers) {
     for (std::size_t y = 0; y < ny; ++y) {
       const std::string& line = layers[z][y];
       if (line.size() != nx)
-        node.fail(fmt::format("layer {}, line {} has {} characters; the first line has {}", z, y, line.size(), nx));
+        node.fail(fmt::format("layer {}, line {} has {} characters; the first line has {}", z, y,
+                              line.size(), nx));
       for (const char mark : line) {
         if (mark != '#' && mark != '.')
-          node.fail(fmt::format("layer {}, line {} has '{}'; write # for an element and . for a hole", z, y, mark));
+          node.fail(fmt::format(
+              "layer {}, line {} has '{}'; write # for an element and . for a hole", z, y, mark));
         grid.occupied[cell++] = mark == '#';
       }
     }

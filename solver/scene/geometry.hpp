@@ -1,15 +1,16 @@
 #pragma once
-/// The shapes of a scene's bodies.
+/// The shapes of the bodies of a scene.
 #include "solver/lattice/lattice.hpp"
 #include "solver/scene/json/node.hpp"
 
 namespace dss {
 
-/// A scene may have this many elements, over all bodies.
+/// Most elements of a scene, over all bodies.
 constexpr long max_elements = (1L << 31) - 1;
 
-/// Reads {"box": [nx, ny, nz]}, {"boxes": [{"from", "size"}, ...]} (their union) or {"voxels": {"layers" | "file"}}.
-/// @throws InputError for an empty shape, or one in a grid of more than max_elements cells
+/// Reads {"box": [nx, ny, nz]}, {"boxes": [{"from", "size"}, ...]} (their union) or {"voxels":
+/// {"layers" | "file"}}.
+/// @throws InputError for an empty shape, or for a grid of more than max_elements cells
 VoxelGrid read_geometry(const Node& node);
 
 } // namespace dss

@@ -1,7 +1,7 @@
 #include "solver/scene/scene.hpp"
 
+#include "kernels/model.hpp"
 #include "solver/error.hpp"
-#include "solver/model/model.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
 #include "solver/scene/constants.hpp"
@@ -18,7 +18,7 @@
 namespace dss {
 namespace {
 
-constexpr long max_steps = 1L << 53; // the largest counts that doubles hold exactly
+constexpr long max_steps = 1L << 53; // doubles hold all integers up to this one exactly
 const std::vector<std::string> analyses = {"dynamic", "static", "modal"};
 
 Body read_body_properties(ObjectNode& object) {
@@ -56,9 +56,11 @@ void read_terms(ObjectNode& root, Problem& problem) {
   if (const auto links = root.find("extra_links")) read_extra_links(*links, problem);
   if (const auto clamps = root.find("clamps")) read_clamps(*clamps, problem);
   if (const auto loads = root.find("loads")) read_loads(*loads, problem);
-  if (const auto ties = root.find("stabilization")) problem.stabilization = read_stabilization(*ties);
+  if (const auto ties = root.find("stabilization"))
+    problem.stabilization = read_stabilization(*ties);
   if (const auto initial = root.find("initial")) read_initial_motions(*initial, problem);
-  problem.frame_acceleration = read_frame_acceleration(root.find("gravity"), root.find("base_acceleration"));
+  problem.frame_acceleration =
+      read_frame_acceleration(root.find("gravity"), root.find("base_acceleration"));
 }
 
 void read_run(const Node& node, Scene& scene) {
@@ -67,13 +69,15 @@ void read_run(const Node& node, Scene& scene) {
   scene.problem.steps = run.require("steps").whole(1, max_steps);
   const std::vector<std::string> known_methods = method_names();
   const auto integrator = run.find("integrator"), model = run.find("model");
-  scene.integrator = integrator ? known_methods[integrator->choice("integrator", known_methods)] : "rk4";
+  scene.integrator =
+      integrator ? known_methods[integrator->choice("integrator", known_methods)] : "rk4";
   scene.problem.integrator = scene.integrator;
   const std::vector<std::string> model_names = model_names_and_auto();
   scene.asked_model = model ? model_names[model->choice("model", model_names)] : "auto";
   scene.model = scene.asked_model == "auto" ? name(Model::spatial) : scene.asked_model;
   if (const std::string reason = why_not(*find_model(scene.model), scene.problem); !reason.empty())
-    model->fail(fmt::format("\"{}\" does not hold: {}; use \"spatial\", or \"auto\"", scene.model, reason));
+    model->fail(
+        fmt::format("\"{}\" does not hold: {}; use \"spatial\", or \"auto\"", scene.model, reason));
   const auto analysis = run.find("analysis");
   scene.analysis = analysis ? analyses[analysis->choice("analysis", analyses)] : analyses[0];
   run.finish();
@@ -88,7 +92,8 @@ VerifyCase read_verify_case(const Node& node) {
     ObjectNode changes(*set);
     for (const auto& item : set->json().items())
       if (!item.value().is_number() && !item.value().is_string() && !item.value().is_boolean())
-        changes.require(item.key()).fail("not a scalar; an override is a number, a text or true or false");
+        changes.require(item.key())
+            .fail("not a scalar; an override is a number, a text or true or false");
     verify.set = set->json();
   }
   object.finish();
@@ -107,7 +112,8 @@ std::vector<VerifyCase> read_verify(const std::optional<Node>& node, const Probl
 void read_tolerance(const std::optional<Node>& node, Tolerance& tolerance) {
   if (!node) return;
   ObjectNode object(*node);
-  if (const auto evaluation = object.find("evaluation")) tolerance.evaluation = evaluation->positive();
+  if (const auto evaluation = object.find("evaluation"))
+    tolerance.evaluation = evaluation->positive();
   if (const auto run = object.find("run")) tolerance.run = run->positive();
   object.finish();
 }
@@ -123,7 +129,7 @@ void read_tolerances(ObjectNode& root, Problem& problem) {
   object.finish();
 }
 
-/// What `list` shows of a scene, and the keys that say nothing about the problem.
+/// Head of a scene, as `list` shows it, and the keys that do not describe the problem.
 SceneListing read_head(ObjectNode& root, const SceneText& text) {
   root.find("$schema");
   root.find("parameters"); // already resolved
@@ -160,17 +166,19 @@ Scene load_scene(const std::string& name_or_path, const std::vector<Override>& o
   try {
     return read_scene(read_scene_text(path, overrides));
   } catch (const std::bad_alloc&) {
-    throw InputError(
-        fmt::format("{}: the scene does not fit into this machine's memory; give it fewer elements", path));
+    throw InputError(fmt::format(
+        "{}: the scene does not fit into this machine's memory; give it fewer elements", path));
   } catch (const std::length_error&) {
-    throw InputError(
-        fmt::format("{}: the scene does not fit into this machine's memory; give it fewer elements", path));
+    throw InputError(fmt::format(
+        "{}: the scene does not fit into this machine's memory; give it fewer elements", path));
   }
 }
 
-std::string scene_analysis(const std::string& name_or_path, const std::vector<Override>& overrides) {
+std::string scene_analysis(const std::string& name_or_path,
+                           const std::vector<Override>& overrides) {
   const SceneText text = read_scene_text(scene_path(name_or_path), overrides);
-  const nlohmann::json run = text.root.is_object() ? text.root.value("run", nlohmann::json()) : nlohmann::json();
+  const nlohmann::json run =
+      text.root.is_object() ? text.root.value("run", nlohmann::json()) : nlohmann::json();
   const bool is_given = run.is_object() && run.contains("analysis") && run["analysis"].is_string();
   return is_given ? run["analysis"].get<std::string>() : analyses[0];
 }
@@ -182,7 +190,8 @@ std::vector<SceneListing> list_scenes() {
   for (const auto& entry : std::filesystem::directory_iterator(directory, error))
     if (entry.path().extension() == ".json") paths.push_back(entry.path().string());
   if (error)
-    throw InputError(fmt::format("scene directory {}: {}; set DSSBENCH_SCENES to one", directory, error.message()));
+    throw InputError(fmt::format("scene directory {}: {}; set DSSBENCH_SCENES to one", directory,
+                                 error.message()));
   std::sort(paths.begin(), paths.end());
   std::vector<SceneListing> scenes;
   for (const std::string& path : paths) {
@@ -196,7 +205,8 @@ std::vector<SceneListing> list_scenes() {
 std::vector<Override> verify_overrides(const VerifyCase& verify) {
   std::vector<Override> overrides;
   for (const auto& item : verify.set.items())
-    overrides.push_back({item.key(), item.value().is_string() ? item.value().get<std::string>() : item.value().dump()});
+    overrides.push_back({item.key(), item.value().is_string() ? item.value().get<std::string>()
+                                                              : item.value().dump()});
   overrides.push_back({"run.steps", std::to_string(verify.steps)});
   return overrides;
 }

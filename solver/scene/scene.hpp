@@ -1,5 +1,6 @@
 #pragma once
-/// Scenes: JSON files that say what to compute. The format is in README.md and scene.schema.json beside this file.
+/// Scenes: JSON files that say what to compute. README.md and scene.schema.json beside this file
+/// describe the format.
 #include "solver/model/problem.hpp"
 #include "solver/scene/json/document.hpp"
 
@@ -11,39 +12,44 @@
 
 namespace dss {
 
-/// A small version of a scene, on which `verify` compares every variant with the oracle.
+/// A small version of a scene. `verify` compares every variant with the oracle on it.
 struct VerifyCase {
   nlohmann::json set; ///< overrides by key
   long steps = 0;
 };
 
+/// A scene: its problem, its parameters and its defaults for a run.
 struct Scene {
   std::string name, title, path;
   Problem problem;
   std::map<std::string, double> parameters;
   std::vector<VerifyCase> verify; ///< at least one
-  std::string asked_model;        ///< as the scene says, or "auto"
-  std::string model;              ///< of studies: the same, but spatial where it is auto
-  std::string integrator;         ///< default: a name of find_method
-  std::string analysis;           ///< default: "dynamic", "static" or "modal"
+  std::string asked_model;        ///< as in the scene, or "auto"
+  std::string model;              ///< for studies: asked_model, but `spatial` instead of `auto`
+  std::string integrator;         ///< default method: a name of find_method
+  std::string analysis;           ///< default analysis: "dynamic", "static" or "modal"
 };
 
+/// A scene as `dssbench list scenes` shows it.
 struct SceneListing {
   std::string name, title, path;
-  std::map<std::string, double> parameters; ///< defaults
+  std::map<std::string, double> parameters; ///< default values
 };
 
-/// Reads a scene by name (see scene_directory) or path, with overrides applied in order.
-/// @throws InputError, one line "file: /json/pointer: what is wrong and what would be right", for any fault
+/// Reads a scene by name (see scene_directory) or path. Applies the overrides in order.
+/// @throws InputError for any fault, one line "file: /json/pointer: what is wrong and what would be
+///     right"
 Scene load_scene(const std::string& name_or_path, const std::vector<Override>& overrides = {});
 
-/// The analysis that a scene asks for, before anything else of it is read. @throws InputError for a file that cannot be read
-std::string scene_analysis(const std::string& name_or_path, const std::vector<Override>& overrides = {});
+/// Reads only the analysis of a scene.
+/// @throws InputError for a file that cannot be read
+std::string scene_analysis(const std::string& name_or_path,
+                           const std::vector<Override>& overrides = {});
 
-/// Every shipped scene, by name.
+/// All shipped scenes, sorted by name.
 std::vector<SceneListing> list_scenes();
 
-/// Overrides that turn a scene into its small version, for load_scene.
+/// Overrides for load_scene that turn a scene into its small version.
 std::vector<Override> verify_overrides(const VerifyCase& verify);
 
 } // namespace dss

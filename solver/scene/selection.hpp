@@ -1,5 +1,5 @@
 #pragma once
-/// Elements of a body picked by face, coordinate box or list.
+/// Selection of elements of a body by face, box of indices or list.
 #include "solver/model/problem.hpp"
 #include "solver/scene/json/node.hpp"
 
@@ -8,18 +8,21 @@
 
 namespace dss {
 
-/// Names of the faces: "-x", "+x", "-y", "+y", "-z", "+z"; the axis is index / 2, the upper ones are odd.
+/// Names of the faces: "-x", "+x", "-y", "+y", "-z", "+z". The axis is index / 2; upper faces have
+/// odd indices.
 extern const std::vector<std::string> face_names;
 
-/// The body that "body" names; it may be absent where the scene has a single one.
+/// Index of the body named by "body". "body" may be absent if the scene has a single body.
 int read_body(ObjectNode& object, const Problem& problem);
 
-/// Reads one of "face", "box", "elements" or "all" of an object; does not finish it.
-/// @return numbers of the elements, ascending and each once, but in the order listed for "elements"
-/// @throws InputError if it selects nothing
+/// Reads one of "face", "box", "elements" or "all" of an object. Does not call finish() on it.
+/// @return numbers of the elements, each once; ascending, but for "elements" in the given order
+/// @throws InputError if nothing is selected
 std::vector<std::size_t> read_selection(ObjectNode& select, const Problem& problem, int body);
 
-/// Reads "body" and "select" of an object; "select" may be absent for the whole body where `is_all_by_default`.
-std::vector<std::size_t> read_selected(ObjectNode& object, const Problem& problem, bool is_all_by_default);
+/// Reads "body" and "select" of an object. If `is_all_by_default`, "select" may be absent and means
+/// the whole body.
+std::vector<std::size_t> read_selected(ObjectNode& object, const Problem& problem,
+                                       bool is_all_by_default);
 
 } // namespace dss

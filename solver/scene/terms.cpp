@@ -43,7 +43,7 @@ void read_table(const Node& node, Signal& signal) {
   if (signal.times.empty()) node.fail("the table is empty; give at least one [time, value]");
 }
 
-/// One side of a joint: elements of a body, on one of its faces or listed.
+/// One side of a joint: elements of a body, by face or listed.
 struct JointSide {
   int body = 0;
   std::vector<std::size_t> elements;
@@ -60,17 +60,18 @@ JointSide read_joint_side(const Node& node, const Problem& problem) {
   return side;
 }
 
-/// The axis of a joint from the upper (+) faces of one side to the lower (-) faces of the other.
+/// Axis of a joint from upper (+) faces of one side to lower (-) faces of the other.
 int joint_axis(ObjectNode& joint, const JointSide& from, const JointSide& to) {
   const auto axis_node = joint.find("axis");
   if (!axis_node && !from.face && !to.face) joint.fail("\"axis\" is missing; it is x, y or z");
-  const std::size_t axis = axis_node ? axis_node->choice("axis", axis_names) : (from.face ? *from.face : *to.face) / 2;
+  const std::size_t axis =
+      axis_node ? axis_node->choice("axis", axis_names) : (from.face ? *from.face : *to.face) / 2;
   if (from.face && *from.face != 2 * axis + 1)
-    joint.fail(fmt::format("a link along {} starts from face {} of \"from\", not {}", axis_names[axis],
-                           face_names[2 * axis + 1], face_names[*from.face]));
+    joint.fail(fmt::format("a link along {} starts from face {} of \"from\", not {}",
+                           axis_names[axis], face_names[2 * axis + 1], face_names[*from.face]));
   if (to.face && *to.face != 2 * axis)
-    joint.fail(fmt::format("a link along {} ends at face {} of \"to\", not {}", axis_names[axis], face_names[2 * axis],
-                           face_names[*to.face]));
+    joint.fail(fmt::format("a link along {} ends at face {} of \"to\", not {}", axis_names[axis],
+                           face_names[2 * axis], face_names[*to.face]));
   return int(axis);
 }
 
@@ -90,7 +91,8 @@ Load read_load(const Node& node, const Problem& problem) {
   ObjectNode object(node);
   Load load;
   load.elements = read_selected(object, problem, false);
-  const auto force = object.find("force"), torque = object.find("torque"), signal = object.find("signal");
+  const auto force = object.find("force"), torque = object.find("torque"),
+             signal = object.find("signal");
   if (!force && !torque) object.fail("a load needs \"force\" or \"torque\"");
   if (force) load.force = force->vector();
   if (torque) load.torque = torque->vector();
@@ -125,31 +127,37 @@ InitialMotion read_initial_motion(const Node& node, const Problem& problem) {
   motion.angular_velocity = object.vector_or("angular_velocity", {});
   const auto rigid = object.find("rigid"), centre = object.find("centre");
   motion.is_rigid = rigid && rigid->boolean();
-  if (centre && !motion.is_rigid) centre->fail("only a rigid motion has a centre; add \"rigid\": true");
-  if (motion.is_rigid) motion.centre = centre ? centre->vector() : mean_position(problem, motion.elements);
+  if (centre && !motion.is_rigid)
+    centre->fail("only a rigid motion has a centre; add \"rigid\": true");
+  if (motion.is_rigid)
+    motion.centre = centre ? centre->vector() : mean_position(problem, motion.elements);
   object.finish();
   return motion;
 }
 
-/// Why a clamp cannot hold exactly what it is to hold, or an empty text. `fields`: of its element at t = 0.
+/// Returns why a clamp cannot hold its degrees of freedom exactly, or an empty text.
+/// @param fields  fields of the element at t = 0
 std::string clamp_conflict(const Clamp& clamp, const Body& body, const double* fields) {
   constexpr const char* names = "xyz";
-  const int held = ((clamp.dofs & dof_rx) != 0) + ((clamp.dofs & dof_ry) != 0) + ((clamp.dofs & dof_rz) != 0);
+  const int held =
+      ((clamp.dofs & dof_rx) != 0) + ((clamp.dofs & dof_ry) != 0) + ((clamp.dofs & dof_rz) != 0);
   if (body.has_tensor_inertia() && held == 1)
-    return "has one of its rotations clamped; as its inertia is a tensor, which couples them, clamp two, three or none";
+    return "has one of its rotations clamped; as its inertia is a tensor, which couples them, "
+           "clamp two, three or none";
   for (int a = 0; a < 3; ++a) {
     if ((clamp.dofs & (dof_ux << a)) != 0 && fields[vx + a] != 0)
-      return fmt::format("is clamped in u{} but starts with a velocity of {} m/s; it must be 0", names[a],
-                         fields[vx + a]);
+      return fmt::format("is clamped in u{} but starts with a velocity of {} m/s; it must be 0",
+                         names[a], fields[vx + a]);
     if ((clamp.dofs & (dof_rx << a)) == 0) continue;
     if (fields[wx + a] != 0)
-      return fmt::format("is clamped in r{} but starts with an angular velocity of {} rad/s; it must be 0", names[a],
-                         fields[wx + a]);
-    if (body.has_tensor_inertia() && held == 2 && fields[qx + a] != 0)
       return fmt::format(
-          "has two of its rotations clamped and starts turned about {}; as its inertia is a tensor, turn "
-          "it about its free axis only, or clamp all",
-          names[a]);
+          "is clamped in r{} but starts with an angular velocity of {} rad/s; it must be 0",
+          names[a], fields[wx + a]);
+    if (body.has_tensor_inertia() && held == 2 && fields[qx + a] != 0)
+      return fmt::format("has two of its rotations clamped and starts turned about {}; as its "
+                         "inertia is a tensor, turn "
+                         "it about its free axis only, or clamp all",
+                         names[a]);
   }
   return {};
 }
@@ -180,11 +188,13 @@ void read_extra_links(const Node& node, Problem& problem) {
     const JointSide from = read_joint_side(joint.require("from"), problem);
     const JointSide to = read_joint_side(joint.require("to"), problem);
     if (from.elements.size() != to.elements.size())
-      joint.fail(fmt::format("joins {} elements to {}; the two sides are paired in order and must be as many",
-                             from.elements.size(), to.elements.size()));
+      joint.fail(fmt::format(
+          "joins {} elements to {}; the two sides are paired in order and need equal numbers",
+          from.elements.size(), to.elements.size()));
     ExtraLink link;
     link.axis = joint_axis(joint, from, to);
-    const Body &body_from = problem.bodies[std::size_t(from.body)], &body_to = problem.bodies[std::size_t(to.body)];
+    const Body &body_from = problem.bodies[std::size_t(from.body)],
+               &body_to = problem.bodies[std::size_t(to.body)];
     if (const auto constants = joint.find("constants")) {
       read_link_constants(*constants, body_from, body_to, link);
     } else {
@@ -220,18 +230,21 @@ void read_loads(const Node& node, Problem& problem) {
 }
 
 void read_initial_motions(const Node& node, Problem& problem) {
-  for (const Node& item : node.items()) problem.initial_motions.push_back(read_initial_motion(item, problem));
+  for (const Node& item : node.items())
+    problem.initial_motions.push_back(read_initial_motion(item, problem));
 }
 
 Stabilization read_stabilization(const Node& node) {
   ObjectNode object(node);
-  const Stabilization stabilization = {object.non_negative_or("k", 0), object.non_negative_or("d", 0),
-                                       object.non_negative_or("k_rot", 0), object.non_negative_or("d_rot", 0)};
+  const Stabilization stabilization = {
+      object.non_negative_or("k", 0), object.non_negative_or("d", 0),
+      object.non_negative_or("k_rot", 0), object.non_negative_or("d_rot", 0)};
   object.finish();
   return stabilization;
 }
 
-std::array<Signal, 3> read_frame_acceleration(const std::optional<Node>& gravity, const std::optional<Node>& base) {
+std::array<Signal, 3> read_frame_acceleration(const std::optional<Node>& gravity,
+                                              const std::optional<Node>& base) {
   std::array<Signal, 3> frame;
   for (Signal& signal : frame) signal.amplitude = 0;
   if (base) {
@@ -251,17 +264,18 @@ std::array<Signal, 3> read_frame_acceleration(const std::optional<Node>& gravity
 void check_clamps(const Problem& problem, const Node& scene) {
   if (problem.clamps.empty()) return;
   const bool is_at_rest = problem.initial_motions.empty();
-  std::vector<double> state(is_at_rest ? std::size_t(field_count) : problem.lattice.element_count * field_count, 0.0);
+  std::vector<double> state(
+      is_at_rest ? std::size_t(field_count) : problem.lattice.element_count * field_count, 0.0);
   if (!is_at_rest) initial_state(problem, 0, problem.lattice.element_count, state.data());
   auto clamp = problem.clamps.begin();
   problem.lattice.for_each_element([&](std::size_t element, const Row& row, int x) {
     if (clamp == problem.clamps.end() || clamp->element != element) return;
     const Body& body = problem.bodies[std::size_t(row.body)];
-    const std::string conflict =
-        clamp_conflict(*clamp++, body, state.data() + (is_at_rest ? 0 : element * std::size_t(field_count)));
+    const std::string conflict = clamp_conflict(
+        *clamp++, body, state.data() + (is_at_rest ? 0 : element * std::size_t(field_count)));
     if (!conflict.empty())
-      ObjectNode(scene).require("clamps").fail(
-          fmt::format("element [{}, {}, {}] of body \"{}\" {}", x, row.y, row.z, body.name, conflict));
+      ObjectNode(scene).require("clamps").fail(fmt::format("element [{}, {}, {}] of body \"{}\" {}",
+                                                           x, row.y, row.z, body.name, conflict));
   });
 }
 

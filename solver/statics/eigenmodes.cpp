@@ -16,17 +16,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double tolerance = 1e-11; ///< of an eigenvector's residual against its eigenvalue of the inverse
-constexpr Index first_block = 6;    ///< a free body has so many equal eigenvalues
-constexpr int most_attempts = 3;    ///< each with twice the block
+/// Largest residual of an eigenvector, over its eigenvalue of the inverse.
+constexpr double tolerance = 1e-11;
+constexpr Index first_block = 6; ///< a free body has this many equal eigenvalues
+constexpr int most_attempts = 3; ///< each with twice the block
 
-/// A space that grows by what the inverse makes of its newest block, orthonormal over the mass.
+/// A space with a basis orthonormal over the mass. It grows by the inverse applied to its newest
+/// block.
 class BlockLanczos {
 public:
   BlockLanczos(const Factors& factors, const SparseMatrix& mass, Index block)
       : factors_(factors), mass_(mass), block_(std::min(block, mass.rows())) {}
 
-  /// The `count` largest eigenvalues of the inverse, descending, and their vectors; nothing if they do not converge.
+  /// Finds the `count` largest eigenvalues of the inverse, descending, and their vectors.
+  /// @return false if they do not converge
   bool find(Index count, VectorXd& values, MatrixXd& vectors) {
     const Index most = std::min(mass_.rows(), 20 * count + 40 * block_);
     basis_.resize(mass_.rows(), std::min(most + block_, 8 * block_));
@@ -40,12 +43,13 @@ public:
       const Index have = std::min(count, size_);
       values = ritz.values.tail(have).reverse();
       const MatrixXd small = ritz.vectors.rightCols(have).rowwise().reverse();
-      // What of (inverse x - value x) lies outside of the space comes from the newest block alone.
+      // The part of (inverse x - value x) outside the space comes from the newest block alone.
       const MatrixXd gram = outside.transpose() * mass_product(outside);
       const MatrixXd ends = small.bottomRows(added);
       const VectorXd residual = (ends.transpose() * gram * ends).diagonal().cwiseMax(0).cwiseSqrt();
       const bool is_whole = size_ == mass_.rows();
-      if (have == count && (is_whole || (residual.array() <= tolerance * values.array().abs()).all())) {
+      if (have == count &&
+          (is_whole || (residual.array() <= tolerance * values.array().abs()).all())) {
         vectors = space() * small;
         return true;
       }
@@ -54,7 +58,9 @@ public:
   }
 
 private:
-  MatrixXd mass_product(const MatrixXd& x) const { return mass_.selfadjointView<Eigen::Lower>() * x; }
+  MatrixXd mass_product(const MatrixXd& x) const {
+    return mass_.selfadjointView<Eigen::Lower>() * x;
+  }
 
   MatrixXd random_block(Index columns) {
     std::normal_distribution<double> normal;
@@ -62,9 +68,13 @@ private:
   }
 
   MatrixXd::ConstColsBlockXpr space() const { return basis_.leftCols(size_); }
-  double norm(const VectorXd& x) const { return std::sqrt(std::max(0.0, x.dot(VectorXd(mass_product(x))))); }
+  double norm(const VectorXd& x) const {
+    return std::sqrt(std::max(0.0, x.dot(VectorXd(mass_product(x)))));
+  }
 
-  /// Adds what of a block is new, a vector at a time, orthogonalised again where it was small. @return vectors added
+  /// Adds the new directions of a block, vector by vector. Repeats the orthogonalisation if little
+  /// is left of a vector.
+  /// @return number of added vectors
   Index append(const MatrixXd& block) {
     const Index before = size_;
     for (Index c = 0; c < block.cols() && size_ < mass_.rows(); ++c) {
@@ -83,7 +93,9 @@ private:
     return size_ - before;
   }
 
-  /// The inverse in the space, of which the last `added` columns are new and have these images. @return what of these lies outside
+  /// Updates the inverse projected on the space. The last `added` columns of the space are new;
+  /// `images` are the inverse applied to them.
+  /// @return part of the images outside the space
   MatrixXd project(const MatrixXd& images, Index added) {
     const MatrixXd columns = space().transpose() * mass_product(images);
     projected_.conservativeResize(size_, size_);
@@ -98,7 +110,7 @@ private:
   const SparseMatrix& mass_;
   Index block_;
   std::mt19937_64 generator_{1};
-  MatrixXd basis_; ///< its first `size_` columns
+  MatrixXd basis_; ///< its first `size_` columns are used
   Index size_ = 0;
   MatrixXd projected_;
 };
@@ -107,7 +119,8 @@ SparseMatrix shifted(const SparseMatrix& stiffness, const SparseMatrix& mass, do
   return stiffness - shift * mass;
 }
 
-/// A number between the eigenvalue `count` and the next lower that is not equal to it, and how many are below it.
+/// A number between the largest eigenvalue and the next lower one that is not equal to it, and the
+/// number of eigenvalues below.
 struct Cut {
   double value = 0;
   long below = 0;
@@ -124,24 +137,28 @@ Cut cut_below(const VectorXd& values, double shift) {
 long count_below(const SparseMatrix& stiffness, const SparseMatrix& mass, double value) {
   Factors factors;
   factors.compute(shifted(stiffness, mass, value));
-  if (factors.info() != Eigen::Success) throw InputError("eigenvalues cannot be counted: a pivot is zero");
+  if (factors.info() != Eigen::Success)
+    throw InputError("eigenvalues cannot be counted: a pivot is zero");
   return factors.negative_pivots();
 }
 
-Eigenmodes lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass, int count, double shift) {
+Eigenmodes lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass, int count,
+                        double shift) {
   const Index wanted = std::min<Index>(count, mass.rows());
   Factors factors;
   factors.compute(shifted(stiffness, mass, shift));
   for (int attempt = 0; attempt < most_attempts && factors.info() == Eigen::Success; ++attempt) {
     VectorXd inverse;
     Eigenmodes found;
-    if (!BlockLanczos(factors, mass, first_block << attempt).find(wanted, inverse, found.shapes)) continue;
-    if ((inverse.array() <= 0).any()) break; // something is below the shift
+    if (!BlockLanczos(factors, mass, first_block << attempt).find(wanted, inverse, found.shapes))
+      continue;
+    if ((inverse.array() <= 0).any()) break; // an eigenvalue is below the shift
     found.values = inverse.cwiseInverse().array() + shift;
     const Cut cut = cut_below(found.values, shift);
     if (count_below(stiffness, mass, cut.value) == cut.below) return found;
   }
-  throw InputError("the lowest natural frequencies were not found: is something free to move, or buckled?");
+  throw InputError(
+      "the lowest natural frequencies were not found: is something free to move, or buckled?");
 }
 
 } // namespace dss

@@ -14,11 +14,13 @@ namespace {
 
 constexpr int most_corrections = 40;          ///< under the same loads
 constexpr double largest_turn = 0.5;          ///< of one correction [rad]
-constexpr double large_turn = 1e-3;           ///< of the first one, after which the matrix has changed [rad]
+constexpr double large_turn = 1e-3;           ///< first turn [rad] that calls for a new matrix
 constexpr double least_increment = 1.0 / 256; ///< of the loads
-constexpr double near_enough = 1e-9;          ///< a correction that rounding keeps from falling further
+/// Relative correction that counts as found if rounding keeps it from falling further.
+constexpr double near_enough = 1e-9;
 
-/// Conjugate gradients take some thirty iterations for each element along the longest side: what is held at one end is felt at the other.
+/// Conjugate gradients take about 30 iterations for each element along the longest side, because
+/// information crosses the body once.
 double expected_iterations(const Problem& problem) {
   int longest = 1;
   for (const Row& row : problem.lattice.rows)
@@ -26,15 +28,17 @@ double expected_iterations(const Problem& problem) {
   return 30.0 * longest;
 }
 
-/// Factors of more unknowns take more than some 10 GB: in a plane they grow nearly in proportion, in space by the power 4/3.
+/// Beyond these sizes, factors need more than about 10 GB. In a plane they grow almost in
+/// proportion to the unknowns, in space with the power 4/3.
 SolverKind affordable(const StaticSystem& system, SolverKind kind) {
   const Problem& problem = system.problem();
   const bool is_flat = double(problem.link_count()) < 2.2 * double(problem.lattice.element_count);
   const Eigen::Index most = is_flat ? 1'500'000 : 150'000;
   if (system.size() <= most) return kind;
   if (kind == SolverKind::direct)
-    throw InputError(fmt::format("{}: {} unknowns are too many for factors; give --solver cg, relaxation or auto",
-                                 problem.name, system.size()));
+    throw InputError(fmt::format(
+        "{}: {} unknowns are too many for factors; give --solver cg, relaxation or auto",
+        problem.name, system.size()));
   return SolverKind::cg;
 }
 
@@ -42,7 +46,8 @@ class Iteration {
 public:
   Iteration(StaticSystem& system, const EquilibriumOptions& options)
       : system_(system), options_(options),
-        solver_(affordable(system, options.solver), options.preconditioner, expected_iterations(system.problem())),
+        solver_(affordable(system, options.solver), options.preconditioner,
+                expected_iterations(system.problem())),
         edge_(shortest_edge(system.problem())) {}
 
   Equilibrium run(const StaticSystem::State& start) {
@@ -75,7 +80,7 @@ private:
     ++found_.matrices;
   }
 
-  /// The degree of freedom that moves without any force, in words; empty if there is none.
+  /// Degree of freedom that moves without any force, as text; empty if there is none.
   std::string forceless(const SparseMatrix& stiffness) const {
     if (!solver_.is_direct() || !options_.must_be_stable) return {};
     const std::optional<Eigen::Index> zero = solver_.factors().zero_pivot(stiffness);
@@ -84,16 +89,18 @@ private:
 
   void avoid_mechanism(const std::string& dof, const SparseMatrix& stiffness) {
     if (options_.solver != SolverKind::automatic)
-      throw InputError(fmt::format("{}: {} moves without any force: no link feels it (a mechanism, as of links without "
-                                   "rotational springs); clamp it, give springs, or take --solver cg or relaxation, "
-                                   "which may pass it by",
-                                   system_.problem().name, dof));
-    found_.note = fmt::format("{} moves without any force, and no load drives it (a mechanism)", dof);
+      throw InputError(fmt::format(
+          "{}: {} moves without any force: no link resists it (a mechanism, as of links without "
+          "rotational springs); clamp it, give springs, or take --solver cg or relaxation, "
+          "which may pass it by",
+          system_.problem().name, dof));
+    found_.note =
+        fmt::format("{} moves without any force, and no load drives it (a mechanism)", dof);
     solver_.take_conjugate_gradients();
     prepare(stiffness);
   }
 
-  /// Largest displacement of a correction, turns times the shortest edge [m].
+  /// Largest displacement of a correction [m]. Turns are multiplied by the shortest edge.
   double size_of(const Eigen::VectorXd& step) const {
     double largest = 0;
     for (Eigen::Index n = 0; n < step.size(); ++n)
@@ -107,7 +114,8 @@ private:
     for (std::size_t n = 0; n < state.size(); ++n) {
       const auto field = int(n % field_count);
       if (field <= uz) largest = std::max(largest, std::abs(state[n]));
-      if (field >= qx && field <= qz) largest = std::max(largest, 2 * StaticSystem::Real(edge_) * std::abs(state[n]));
+      if (field >= qx && field <= qz)
+        largest = std::max(largest, 2 * StaticSystem::Real(edge_) * std::abs(state[n]));
     }
     return double(largest);
   }
@@ -120,13 +128,15 @@ private:
     return turn;
   }
 
-  /// Corrects the state until it bears that share of the loads, or leaves it as it was.
+  /// Corrects the state until it carries `share` of the loads. If that fails, the state is
+  /// unchanged.
   bool corrected(double share) {
     const StaticSystem::State before = found_.state;
     double last = std::numeric_limits<double>::infinity();
-    bool is_of_here = true; // the matrix is of the state that is corrected
+    bool is_of_here = true; // the matrix belongs to the present state
     for (int n = 0; n < most_corrections; ++n) {
-      auto step = solver_.solve(system_.unbalanced(found_.state, share).cast<double>(), cg_reduction());
+      auto step =
+          solver_.solve(system_.unbalanced(found_.state, share).cast<double>(), cg_reduction());
       if (!step || !step->allFinite()) break;
       const double turn = turn_of(*step);
       if (turn > largest_turn && !system_.is_linear()) *step *= largest_turn / turn;
@@ -135,7 +145,8 @@ private:
       const double size = size_of(*step), of_state = size_of(found_.state);
       found_.correction = of_state > 0 ? size / of_state : 0;
       const bool is_stuck = is_of_here && size > 0.5 * last;
-      if (found_.correction <= options_.tolerance || (found_.correction < near_enough && is_stuck)) return true;
+      if (found_.correction <= options_.tolerance || (found_.correction < near_enough && is_stuck))
+        return true;
       is_of_here = system_.is_linear();
       if (!is_of_here && (size > 0.1 * last || (n == 0 && turn > large_turn))) {
         prepare(system_.tangent(found_.state));
@@ -151,11 +162,13 @@ private:
 
   std::string failure(double share) const {
     if (!solver_.is_direct())
-      return solver_.met_no_stiffness()
-                 ? "conjugate gradients met a motion without stiffness: something is free to move, or has buckled"
-                 : fmt::format("conjugate gradients did not converge in {} iterations: is something free to move?",
-                               solver_.iterations());
-    return fmt::format("no equilibrium was found beyond {:.4g} of the loads; take smaller ones, or --solver relaxation",
+      return solver_.met_no_stiffness() ? "conjugate gradients met a motion without stiffness: "
+                                          "something is free to move, or has buckled"
+                                        : fmt::format("conjugate gradients did not converge in {} "
+                                                      "iterations: is something free to move?",
+                                                      solver_.iterations());
+    return fmt::format("no equilibrium was found beyond {:.4g} of the loads; take smaller ones, or "
+                       "--solver relaxation",
                        share);
   }
 
@@ -164,17 +177,20 @@ private:
     found_.cg_iterations = solver_.iterations();
     found_.is_found = found_.reason.empty();
     found_.residual = system_.residual(found_.state);
-    if (!found_.is_found || system_.is_linear() || !solver_.is_direct() || !options_.must_be_stable) return;
+    if (!found_.is_found || system_.is_linear() || !solver_.is_direct() || !options_.must_be_stable)
+      return;
     const SparseMatrix tangent = system_.tangent(found_.state);
     prepare(tangent);
     if (const std::string dof = forceless(tangent); !dof.empty())
-      throw UnstableError(fmt::format("{}: {} moves without any force in the loaded state, which is on the point of "
-                                      "buckling; take smaller loads",
-                                      system_.problem().name, dof));
+      throw UnstableError(fmt::format(
+          "{}: {} moves without any force in the loaded state, which is on the point of "
+          "buckling; take smaller loads",
+          system_.problem().name, dof));
     if (const long negative = solver_.factors().negative_pivots(); negative > 0)
-      throw UnstableError(fmt::format("{}: the equilibrium that was found is not stable: the loads buckle the body in "
-                                      "{} mode{}; take smaller ones",
-                                      system_.problem().name, negative, negative == 1 ? "" : "s"));
+      throw UnstableError(fmt::format(
+          "{}: the equilibrium that was found is not stable: the loads buckle the body in "
+          "{} mode{}; take smaller ones",
+          system_.problem().name, negative, negative == 1 ? "" : "s"));
   }
 
   StaticSystem& system_;

@@ -13,7 +13,7 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// A neighbour of an element, and where it lies from there [m].
+/// A neighbour of an element, and its position relative to the element [m].
 struct Joint {
   std::size_t element;
   Eigen::Vector3d offset;
@@ -22,7 +22,9 @@ struct Joint {
 std::vector<std::vector<Joint>> joints_of(const Problem& problem, const std::vector<int>& body) {
   std::vector<std::vector<Joint>> joints(body.size());
   const auto join = [&](std::size_t i, std::size_t j, int axis) {
-    const auto half = [&](std::size_t e) { return problem.bodies[std::size_t(body[e])].edge[std::size_t(axis)] / 2; };
+    const auto half = [&](std::size_t e) {
+      return problem.bodies[std::size_t(body[e])].edge[std::size_t(axis)] / 2;
+    };
     const Eigen::Vector3d offset = Eigen::Vector3d::Unit(axis) * (half(i) + half(j));
     joints[i].push_back({j, offset});
     joints[j].push_back({i, -offset});
@@ -32,7 +34,8 @@ std::vector<std::vector<Joint>> joints_of(const Problem& problem, const std::vec
   return joints;
 }
 
-/// Displacement and turn of an element in the six rigid motions about an origin; turns go by 1 m of an arm of `length`.
+/// Displacement and turn of an element in the six rigid motions about an origin. Unit of turns: 1 m
+/// of displacement at an arm of `length`.
 Matrix6 rigid_motions(const Eigen::Vector3d& place, double length) {
   Matrix6 motions = Matrix6::Identity();
   const Eigen::Vector3d x = place / length;
@@ -40,14 +43,16 @@ Matrix6 rigid_motions(const Eigen::Vector3d& place, double length) {
   return motions;
 }
 
-/// What resists the six rigid motions of a group of linked elements, in shares of its elements: a clamped degree of freedom that would
-/// move, a tie, or a closed chain of links that does not fit together.
+/// Resistance of a group of linked elements against the six rigid motions, in shares of its
+/// elements. A clamped degree of freedom, a tie, or a closed chain of links that does not fit
+/// together resists.
 class Group {
 public:
   Group(const Linearised& system, std::uint8_t dofs, std::vector<Eigen::Vector3d>& place)
       : system_(system), dofs_(dofs), place_(place) {}
 
-  void collect(std::size_t first, const std::vector<std::vector<Joint>>& joints, std::vector<bool>& is_taken) {
+  void collect(std::size_t first, const std::vector<std::vector<Joint>>& joints,
+               std::vector<bool>& is_taken) {
     members_ = {first};
     is_taken[first] = true;
     place_[first].setZero();
@@ -65,23 +70,27 @@ public:
       }
   }
 
-  /// Of the motion that nothing resists; nothing if there is none.
+  /// Name of a motion that nothing resists; empty if there is none.
   std::string free_motion() const {
     Matrix6 resistance = Matrix6::Zero();
-    const auto resist = [&](const Eigen::Matrix<double, 1, 6>& row) { resistance += row.transpose() * row; };
+    const auto resist = [&](const Eigen::Matrix<double, 1, 6>& row) {
+      resistance += row.transpose() * row;
+    };
     for (const std::size_t e : members_) {
       const Matrix6 motions = rigid_motions(place_[e], length_);
       for (int d = 0; d < 6; ++d)
-        if ((system_.clamped[e] | ~dofs_) >> d & 1 || system_.tie_stiffness[d] > 0) resist(motions.row(d));
+        if ((system_.clamped[e] | ~dofs_) >> d & 1 || system_.tie_stiffness[d] > 0)
+          resist(motions.row(d));
     }
     for (const Eigen::Vector3d& misfit : misfits_) {
-      const Matrix6 strained = rigid_motions(misfit, length_) - Matrix6::Identity(); // a turn opens the chain
+      const Matrix6 strained =
+          rigid_motions(misfit, length_) - Matrix6::Identity(); // a turn opens the chain
       for (int d = 0; d < 3; ++d) resist(strained.row(d));
     }
     const SymmetricEigen motions(resistance);
     if (motions.values[0] > 1e-12 * std::max(1.0, motions.values[5])) return {};
     Eigen::Index most = 0;
-    // A turn about another axis than the origin's displaces too: what turns is called a turn.
+    // A turn about an axis that is not through the origin also displaces. It is reported as a turn.
     const Eigen::Matrix<double, 6, 1> free = motions.vectors.col(0);
     const bool turns = free.tail<3>().norm() > 1e-6;
     (turns ? free.tail<3>() : free.head<3>()).cwiseAbs().maxCoeff(&most);
@@ -109,8 +118,9 @@ std::string why_not_held(const Problem& problem, std::uint8_t dofs) {
     Group group(system, dofs, place);
     group.collect(e, joints, is_taken);
     if (const std::string motion = group.free_motion(); !motion.empty())
-      return fmt::format("body \"{}\" is free to {}; clamp it, or tie it to the frame by \"stabilization\"",
-                         problem.bodies[std::size_t(system.body[e])].name, motion);
+      return fmt::format(
+          "body \"{}\" is free to {}; clamp it, or tie it to the frame by \"stabilization\"",
+          problem.bodies[std::size_t(system.body[e])].name, motion);
   }
   return {};
 }

@@ -13,17 +13,20 @@ using Motion = reference::Motion<Real>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr Real angle_step = 1e-6L; // of differences [rad]
+constexpr Real angle_step = 1e-6L; // step of differences [rad]
 
-/// Adds the lower half of a matrix that couples degrees of freedom `dof` (6 element + 0 .. 5), without exact zeros.
+/// Adds the lower half of a matrix that couples the degrees of freedom `dof` (6 element + 0 .. 5).
+/// Exact zeros are left out.
 template <class Matrix>
-void add_block(const FreeDofs& dofs, const std::array<std::size_t, std::size_t(Matrix::RowsAtCompileTime)>& dof,
+void add_block(const FreeDofs& dofs,
+               const std::array<std::size_t, std::size_t(Matrix::RowsAtCompileTime)>& dof,
                const Matrix& block, Triplets& entries) {
   for (std::size_t r = 0; r < dof.size(); ++r)
     for (std::size_t c = 0; c < dof.size(); ++c) {
       const Eigen::Index row = dofs.index[dof[r]], column = dofs.index[dof[c]];
       const double value = block(Eigen::Index(r), Eigen::Index(c));
-      if (row >= column && column >= 0 && value != 0) entries.emplace_back(int(row), int(column), value);
+      if (row >= column && column >= 0 && value != 0)
+        entries.emplace_back(int(row), int(column), value);
     }
 }
 
@@ -50,15 +53,18 @@ SparseMatrix assembled(const Triplets& entries, Eigen::Index size) {
 SparseMatrix StaticSystem::stiffness_at_rest() const {
   const Linearised system(problem_);
   Triplets entries;
-  for (const auto& [i, j, kind] : system.links) add_block(dofs_, dofs_of_link(i, j), system.kinds[kind].k, entries);
+  for (const auto& [i, j, kind] : system.links)
+    add_block(dofs_, dofs_of_link(i, j), system.kinds[kind].k, entries);
   const Matrix6 tie = system.tie_stiffness.asDiagonal();
   if (problem_.stabilization.is_present())
-    for (std::size_t e = 0; e < body_.size(); ++e) add_block(dofs_, dofs_of_element<0, 6>(e), tie, entries);
+    for (std::size_t e = 0; e < body_.size(); ++e)
+      add_block(dofs_, dofs_of_element<0, 6>(e), tie, entries);
   return assembled(entries, size());
 }
 
-/// Slope of what a link does to its two elements over their displacements and turns about axes in space, by central differences; its sign is
-/// that of a stiffness, and columns of degrees of freedom that do not move are zero.
+/// Stiffness of a link: minus the derivative of its reactions by the displacements of its two
+/// elements and their turns about axes in space, by central differences. Columns of degrees of
+/// freedom that do not move are zero.
 Matrix12 StaticSystem::link_stiffness(const Link& link, const State& state) const {
   const Motion at[2] = {dynamics_.placed(link.i, &state[link.i * field_count]),
                         dynamics_.placed(link.j, &state[link.j * field_count])};
@@ -71,7 +77,8 @@ Matrix12 StaticSystem::link_stiffness(const Link& link, const State& state) cons
     else
       turn_fields(fields.data(), by * reference::Vector<Real>::Unit(Eigen::Index(dof % 6 - 3)));
     const Motion moved = dynamics_.placed(e, fields.data());
-    const auto r = end == 0 ? dynamics_.link_reaction(moved, at[1], link) : dynamics_.link_reaction(at[0], moved, link);
+    const auto r = end == 0 ? dynamics_.link_reaction(moved, at[1], link)
+                            : dynamics_.link_reaction(at[0], moved, link);
     Eigen::Matrix<Real, 12, 1> forces;
     forces << r.force, r.moment_i, -r.force, r.moment_j;
     return forces;
@@ -90,13 +97,15 @@ SparseMatrix StaticSystem::tangent(const State& state) const {
   Triplets entries;
   for (const Link& link : dynamics_.links()) {
     const Matrix12 slope = link_stiffness(link, state);
-    add_block(dofs_, dofs_of_link(link.i, link.j), Matrix12((slope + slope.transpose()) / 2), entries);
+    add_block(dofs_, dofs_of_link(link.i, link.j), Matrix12((slope + slope.transpose()) / 2),
+              entries);
   }
   const Stabilization& tie = problem_.stabilization;
   for (std::size_t e = 0; e < body_.size() && (tie.k != 0 || tie.k_rot != 0); ++e) {
     const bool has_vectors = dynamics_.coordinates().has_vectors();
     const double scalar = has_vectors ? 1 : double(1 + state[e * field_count + qs]);
-    Vector6 diagonal; // of the moment -2 k_rot v(q), whose slope over a turn has the symmetric part q0 k_rot
+    // Slope of the moment -2 k_rot v(q) over a turn; its symmetric part is q0 k_rot.
+    Vector6 diagonal;
     diagonal << tie.k, tie.k, tie.k, Eigen::Vector3d::Constant(tie.k_rot * scalar);
     add_block(dofs_, dofs_of_element<0, 6>(e), Matrix6(diagonal.asDiagonal()), entries);
   }
@@ -108,10 +117,12 @@ SparseMatrix StaticSystem::mass(const State& state) const {
   for (std::size_t e = 0; e < body_.size(); ++e) {
     const Body& body = problem_.bodies[std::size_t(body_[e])];
     const Eigen::Vector3d own(body.inertia[0], body.inertia[1], body.inertia[2]);
-    add_block(dofs_, dofs_of_element<0, 3>(e), Eigen::Matrix3d(Eigen::Matrix3d::Identity() * body.mass), entries);
+    add_block(dofs_, dofs_of_element<0, 3>(e),
+              Eigen::Matrix3d(Eigen::Matrix3d::Identity() * body.mass), entries);
     Eigen::Matrix3d inertia = own.asDiagonal();
     if (body.has_tensor_inertia() && !dynamics_.coordinates().has_vectors()) {
-      const Eigen::Matrix3d axes = dynamics_.placed(e, &state[e * field_count]).rotation().cast<double>();
+      const Eigen::Matrix3d axes =
+          dynamics_.placed(e, &state[e * field_count]).rotation().cast<double>();
       inertia = axes * own.asDiagonal() * axes.transpose();
     }
     add_block(dofs_, dofs_of_element<3, 3>(e), inertia, entries);

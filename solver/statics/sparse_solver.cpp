@@ -13,12 +13,13 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
 
-// Of time: a multiplication of a factorisation takes as long as so many of conjugate gradients.
+// One multiplication of a factorisation takes as long as this number of multiplications of
+// conjugate gradients.
 constexpr double weight_of_factors = 3;
 constexpr double cg_work = 8; ///< multiplications of an iteration for each entry of the lower half
 constexpr double zero_pivot_share = 1e-12;
 
-/// Inverses of blocks of six successive unknowns, an element's where nothing is clamped.
+/// Inverses of diagonal blocks of six successive unknowns. Without clamps a block is an element.
 class BlockJacobi {
 public:
   explicit BlockJacobi(const Matrix& lower) : size_(lower.rows()) {
@@ -31,7 +32,8 @@ public:
       for (Matrix::InnerIterator entry(lower, column); entry; ++entry)
         if (entry.row() / block == column / block)
           blocks[std::size_t(column / block)](entry.row() % block, column % block) = entry.value();
-    for (const Eigen::MatrixXd& one : blocks) inverses_.emplace_back(one.selfadjointView<Eigen::Lower>());
+    for (const Eigen::MatrixXd& one : blocks)
+      inverses_.emplace_back(one.selfadjointView<Eigen::Lower>());
   }
   VectorXd operator()(const VectorXd& x) const {
     VectorXd result(size_);
@@ -57,7 +59,9 @@ double Factors::work() const {
   return sum;
 }
 
-double Factors::nonzeros() const { return double(m_nonZerosPerCol.cast<double>().sum()) + double(m_diag.size()); }
+double Factors::nonzeros() const {
+  return double(m_nonZerosPerCol.cast<double>().sum()) + double(m_diag.size());
+}
 
 long Factors::negative_pivots() const { return long((m_diag.array() < 0).count()); }
 
@@ -68,14 +72,16 @@ std::optional<Index> Factors::zero_pivot(const Matrix& lower) const {
   for (Index n = 0; n < diagonal.size(); ++n) unknown[std::size_t(place[n])] = n;
   for (Index k = 0; k < m_diag.size(); ++k) {
     const Index n = unknown[std::size_t(k)];
-    if (std::abs(m_diag[k]) <= zero_pivot_share * std::abs(diagonal[n])) return n; // where it is 0 later ones are unset
+    if (std::abs(m_diag[k]) <= zero_pivot_share * std::abs(diagonal[n]))
+      return n; // a zero pivot leaves the later ones unset
   }
   return {};
 }
 
 std::string_view SparseSolver::name() const {
   if (is_direct()) return "direct";
-  return preconditioner_ == Preconditioner::block_jacobi ? "cg, block Jacobi" : "cg, incomplete Cholesky";
+  return preconditioner_ == Preconditioner::block_jacobi ? "cg, block Jacobi"
+                                                         : "cg, incomplete Cholesky";
 }
 
 void SparseSolver::prepare(const Matrix& lower) {
@@ -83,9 +89,10 @@ void SparseSolver::prepare(const Matrix& lower) {
     factors_.analyzePattern(lower);
     is_analysed_ = true;
     if (kind_ == SolverKind::automatic)
-      kind_ = weight_of_factors * factors_.work() <= cg_work * cg_iterations_ * double(lower.nonZeros())
-                  ? SolverKind::direct
-                  : SolverKind::cg;
+      kind_ =
+          weight_of_factors * factors_.work() <= cg_work * cg_iterations_ * double(lower.nonZeros())
+              ? SolverKind::direct
+              : SolverKind::cg;
   }
   if (is_direct()) {
     factors_.analyzePattern(lower); // entries may vanish or appear with the state

@@ -36,7 +36,8 @@ FreeDofs free_dofs(const Problem& problem, std::uint8_t dofs) {
     found.dof.push_back(n);
   }
   if (found.dof.empty())
-    throw InputError(fmt::format("{}: every degree of freedom is clamped; free some", problem.name));
+    throw InputError(
+        fmt::format("{}: every degree of freedom is clamped; free some", problem.name));
   return found;
 }
 
@@ -45,8 +46,8 @@ std::string dof_text(const Problem& problem, std::size_t dof) {
   std::string text;
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
     if (e == dof / 6)
-      text =
-          fmt::format("{} of element {} of body \"{}\"", names[dof % 6], e, problem.bodies[std::size_t(row.body)].name);
+      text = fmt::format("{} of element {} of body \"{}\"", names[dof % 6], e,
+                         problem.bodies[std::size_t(row.body)].name);
   });
   return text;
 }
@@ -54,7 +55,8 @@ std::string dof_text(const Problem& problem, std::size_t dof) {
 StaticSystem::StaticSystem(const Problem& problem, Rotation law, std::uint8_t dofs, double loads)
     : problem_(problem), moving_(dofs), dofs_(free_dofs(problem, dofs)), dynamics_(problem, law),
       signals_(signals_at_end(problem, loads)), edge_(shortest_edge(problem)) {
-  problem.lattice.for_each_element([&](std::size_t, const Row& row, int) { body_.push_back(row.body); });
+  problem.lattice.for_each_element(
+      [&](std::size_t, const Row& row, int) { body_.push_back(row.body); });
 }
 
 StaticSystem::State StaticSystem::inside(std::span<const double> fields) {
@@ -134,7 +136,8 @@ double StaticSystem::residual(const State& state) {
 double StaticSystem::load_norm() const {
   std::vector<Real> all(6 * body_.size(), 0);
   for (std::size_t e = 0; e < body_.size(); ++e)
-    for (std::size_t a = 0; a < 3; ++a) all[6 * e + a] = problem_.bodies[std::size_t(body_[e])].mass * signals_[a];
+    for (std::size_t a = 0; a < 3; ++a)
+      all[6 * e + a] = problem_.bodies[std::size_t(body_[e])].mass * signals_[a];
   for (std::size_t l = 0; l < problem_.loads.size(); ++l)
     for (const std::size_t e : problem_.loads[l].elements)
       for (std::size_t a = 0; a < 3; ++a) {
@@ -152,12 +155,14 @@ Problem held_still(const Problem& problem, double loads) {
     signal.amplitude = value;
     return signal;
   };
-  for (std::size_t l = 0; l < still.loads.size(); ++l) still.loads[l].signal = constant(signals[3 + l]);
+  for (std::size_t l = 0; l < still.loads.size(); ++l)
+    still.loads[l].signal = constant(signals[3 + l]);
   for (Signal& signal : still.frame_acceleration) signal = constant(0);
   if (signals[0] == 0 && signals[1] == 0 && signals[2] == 0) return still;
   std::vector<Load> weights(problem.bodies.size());
-  problem.lattice.for_each_element(
-      [&](std::size_t e, const Row& row, int) { weights[std::size_t(row.body)].elements.push_back(e); });
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
+    weights[std::size_t(row.body)].elements.push_back(e);
+  });
   for (std::size_t b = 0; b < weights.size(); ++b) {
     for (std::size_t a = 0; a < 3; ++a) weights[b].force[a] = problem.bodies[b].mass * signals[a];
     still.loads.push_back(weights[b]);

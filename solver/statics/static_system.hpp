@@ -1,9 +1,11 @@
 #pragma once
-/// A problem without motion: which degrees of freedom are unknown, the forces that are left on them, and how these change.
+/// A problem without motion: its unknown degrees of freedom, the unbalanced forces on them, and the
+/// derivatives of these forces.
 ///
-/// Loads and the frame's acceleration are as they are at the end of the problem's run; dampers do nothing. Forces come from the oracle's
-/// link laws in long double, so that stiffnesses found by differences keep ten digits and no formula of the links is used twice.
-#include "solver/model/model.hpp"
+/// Loads and the frame's acceleration are those at the end of the problem's run. Dampers have no
+/// effect. Forces come from the oracle's link laws in long double. So stiffnesses by differences
+/// keep ten digits, and no link formula exists twice.
+#include "kernels/model.hpp"
 #include "solver/model/problem.hpp"
 #include "solver/reference/dynamics.hpp"
 
@@ -16,31 +18,37 @@
 
 namespace dss {
 
-using SparseMatrix = Eigen::SparseMatrix<double>; ///< of a symmetric one the lower half alone
+using SparseMatrix = Eigen::SparseMatrix<double>; ///< a symmetric matrix stores only its lower half
 
 /// The free degrees of freedom of a problem.
 struct FreeDofs {
-  std::vector<Eigen::Index> index; ///< of each degree of freedom (6 an element), -1 where it does not move
-  std::vector<std::size_t> dof;    ///< the other way round: 6 element + 0 .. 5
+  /// Unknown of each degree of freedom (6 an element); -1 if it does not move.
+  std::vector<Eigen::Index> index;
+  std::vector<std::size_t> dof; ///< degree of freedom of each unknown: 6 element + 0 .. 5
   Eigen::Index size() const { return Eigen::Index(dof.size()); }
 };
-/// Those of `dofs` that are not clamped. @throws InputError where there are none
+/// The degrees of freedom in `dofs` that are not clamped.
+/// @throws InputError if there are none
 FreeDofs free_dofs(const Problem& problem, std::uint8_t dofs = dof_all);
 
-/// "uz of element 7 of body "plate"", for messages. @param dof  6 element + 0 .. 5
+/// Returns e.g. "uz of element 7 of body "plate"", for messages.
+/// @param dof  6 element + 0 .. 5
 std::string dof_text(const Problem& problem, std::size_t dof);
 
+/// The equations of a static problem.
 class StaticSystem {
 public:
   using Real = long double; // differences lose half of the digits
   using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-  /// Fields of all elements, as the oracle has them inside for the law's Rotation; velocities are zero.
+  /// Fields of all elements in the oracle's coordinates for the Rotation of the law. Velocities are
+  /// zero.
   using State = std::vector<Real>;
 
-  /// @param law    Rotation::quaternion, linearised or small  @param dofs  bits of Dof that may move
-  /// @param loads  the loads and the frame's acceleration are multiplied by it
-  explicit StaticSystem(const Problem& problem, Rotation law = Rotation::quaternion, std::uint8_t dofs = dof_all,
-                        double loads = 1);
+  /// @param law    Rotation::quaternion, linearised or small
+  /// @param dofs   bits of Dof that may move
+  /// @param loads  factor on the loads and on the frame's acceleration
+  explicit StaticSystem(const Problem& problem, Rotation law = Rotation::quaternion,
+                        std::uint8_t dofs = dof_all, double loads = 1);
 
   const Problem& problem() const { return problem_; }
   const FreeDofs& dofs() const { return dofs_; }
@@ -49,28 +57,31 @@ public:
   bool is_linear() const { return dynamics_.coordinates().rotation() == Rotation::linearised; }
 
   State rest() const { return State(problem_.lattice.element_count * field_count, 0); }
-  /// From and to fields as they are outside of the oracle; velocities become zero.
+  /// inside: a State from fields outside the oracle (kernels/fields.hpp), with zero velocities.
+  /// fields: the inverse.
   State inside(std::span<const double> fields);
   std::vector<double> fields(const State& state) const;
 
-  /// Forces and moments on the free degrees of freedom, of links and ties, and of `share` of the loads [N, N m].
+  /// Forces and moments of links, ties and `share` of the loads on the free degrees of freedom [N,
+  /// N m].
   Vector unbalanced(const State& state, double share = 1);
-  /// Adds displacements [m] and turns about axes in space [rad] of the free degrees of freedom.
+  /// Adds displacements [m] and turns about axes in space [rad] to the free degrees of freedom.
   void move(State& state, const Eigen::VectorXd& step) const;
 
-  /// Stiffness at rest, exact: from the matrices of the links (solver/numerics/linearised.hpp).
+  /// Stiffness at rest, exact, from the matrices of the links (solver/numerics/linearised.hpp).
   SparseMatrix stiffness_at_rest() const;
-  /// Minus the slope of the unbalanced forces at a state, by central differences link by link; its symmetric part, which is all of it at an
-  /// equilibrium under forces that have a potential.
+  /// Minus the derivative of the unbalanced forces at a state, by central differences, link by
+  /// link. Only the symmetric part: at an equilibrium under forces with a potential the derivative
+  /// is symmetric.
   SparseMatrix tangent(const State& state) const;
-  /// Masses and moments of inertia about axes in space, of elements turned as in `state`.
+  /// Masses and moments of inertia about axes in space, with the elements turned as in `state`.
   SparseMatrix mass(const State& state) const;
 
-  /// Length of a vector of forces, moments over the shortest edge of an element [N].
+  /// Norm of a vector of forces [N]. Moments are divided by the shortest edge of an element.
   double norm(const Vector& forces) const;
-  /// That of all loads and of the frame's acceleration on the free degrees of freedom [N].
+  /// Norm of all loads and of the frame's acceleration on the free degrees of freedom [N].
   double load_norm() const;
-  /// Unbalanced forces of a state against the loads, by their norms; where nothing is loaded the forces themselves [N].
+  /// Norm of the unbalanced forces of a state over load_norm(). Without loads, the norm itself [N].
   double residual(const State& state);
 
 private:
@@ -84,11 +95,13 @@ private:
   FreeDofs dofs_;
   reference::Dynamics<Real> dynamics_;
   std::vector<double> signals_;
-  std::vector<int> body_; ///< of each element
+  std::vector<int> body_; ///< body of each element
   double edge_;
 };
 
-/// The problem as it is at the end of its run, for ever: loads are constant, and what the frame's acceleration does to masses is a load.
+/// The problem with the state of its loads at the end of its run: loads are constant, and the
+/// frame's acceleration acts as a load on the masses.
+/// @param loads  factor on the loads
 Problem held_still(const Problem& problem, double loads = 1);
 
 } // namespace dss

@@ -1,5 +1,5 @@
-#include "experiments/runner/atlas/beam_theory.hpp"
-#include "experiments/runner/atlas/continuum_study.hpp"
+#include "experiments/studies/continuum/beam_theory.hpp"
+#include "experiments/studies/continuum/continuum_study.hpp"
 #include "solver/error.hpp"
 
 #include <gtest/gtest.h>

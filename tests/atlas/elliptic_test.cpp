@@ -1,4 +1,4 @@
-#include "experiments/runner/atlas/elliptic.hpp"
+#include "experiments/studies/failures/elliptic.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,8 @@ TEST(Jacobi, repeats_after_four_quarter_periods) {
   for (const double k : moduli) {
     const double quarter = std::comp_ellint_1(k);
     for (const double u : arguments) {
-      const Jacobi here = jacobi(u, k), there = jacobi(u + 4 * quarter, k), half = jacobi(u + 2 * quarter, k);
+      const Jacobi here = jacobi(u, k), there = jacobi(u + 4 * quarter, k),
+                   half = jacobi(u + 2 * quarter, k);
       EXPECT_NEAR(there.sn, here.sn, 1e-12);
       EXPECT_NEAR(there.cn, here.cn, 1e-12);
       EXPECT_NEAR(half.cn, -here.cn, 1e-12);

@@ -1,4 +1,4 @@
-#include "experiments/runner/atlas/free_top.hpp"
+#include "experiments/studies/failures/free_top.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,10 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-const Attitude start = {Quaterniond(Eigen::AngleAxisd(0.8, Vector3d(1, -2, 0.5).normalized())), Vector3d(3, -2, 5)};
+const Attitude start = {Quaterniond(Eigen::AngleAxisd(0.8, Vector3d(1, -2, 0.5).normalized())),
+                        Vector3d(3, -2, 5)};
 
-/// Euler's equations in the body and the quaternion's rate, by small steps of RK4.
+/// Integrates Euler's equations in the body and the quaternion by small steps of RK4.
 Attitude integrated(const Vector3d& inertia, double t) {
   using State = Eigen::Matrix<double, 7, 1>;
   const auto rate = [&](const State& y) {

@@ -1,4 +1,4 @@
-"""Advice: what the command says, as text and JSON, its errors, and the study that judges it."""
+"""Advice: text and JSON of the command, its errors, and the study that judges it."""
 import csv
 import json
 import shlex
@@ -8,22 +8,26 @@ from program import ProgramTest, dssbench
 
 BEAM = ("advise", "cantilever_beam", "--set", "n=6", "--end", 0.02, "--saved-times", 4)
 
-PENDULUM = {  # a chain of elements without bending stiffness that falls from level
+# A chain of elements without bending stiffness. It starts level and falls.
+PENDULUM = {
     "scene": "pendulum",
     "title": "A pendulum of four parts",
     "bodies": [{"name": "chain", "geometry": {"box": [4, 1, 1]}, "element": 0.1,
-                "constants": {"law": "paper", "k": 1e4, "d": 0, "kt": 0, "dt": 0, "mass": 1, "inertia": 0.01}}],
+                "constants": {"law": "paper", "k": 1e4, "d": 0, "kt": 0, "dt": 0, "mass": 1,
+                              "inertia": 0.01}}],
     "clamps": [{"select": {"elements": [[0, 0, 0]]}}],
     "gravity": [0, 0, -9.81],
     "run": {"dt": 2e-3, "steps": 1000},
     "verify": {"steps": 10},
-    "tolerance": {"f64": {"evaluation": 1e-13, "run": 1e-3}, "f32": {"evaluation": 1e-5, "run": 1e-3}},
+    "tolerance": {"f64": {"evaluation": 1e-13, "run": 1e-3},
+                  "f32": {"evaluation": 1e-5, "run": 1e-3}},
 }
 
 
 class Advise(ProgramTest):
     def test_what_is_advised_can_be_run_as_printed(self):
-        result = dssbench(*BEAM, "--tolerance", "1e-4", "--json", self.path("advice.json"), "--verbose")
+        result = dssbench(*BEAM, "--tolerance", "1e-4", "--json", self.path("advice.json"),
+                          "--verbose")
         self.assertEqual(result.returncode, 0, result.stderr)
         advice = json.loads(self.read("advice.json"))
         chosen = advice["chosen"]
@@ -71,7 +75,8 @@ class Advise(ProgramTest):
         self.assertNotIn("dssbench run", result.stdout)
 
     def test_a_grid_is_chosen_where_a_parameter_refines_it(self):
-        beam = ("advise", "cantilever_beam", "--set", "n=12", "--end", 0.1, "--saved-times", 4, "--vary")
+        beam = ("advise", "cantilever_beam", "--set", "n=12", "--end", 0.1, "--saved-times", 4,
+                "--vary")
         result = dssbench(*beam, "n", "--tolerance", "0.2", "--json", "-")
         self.assertEqual(result.returncode, 0, result.stderr)
         advice = json.loads(result.stdout)
@@ -84,13 +89,18 @@ class Advise(ProgramTest):
         coarser = [run for run in grid["grids"] if run["value"] < grid["value"]]
         self.assertTrue(all(run["error"] > 0.1 for run in coarser), grid)
         self.assert_refused(2, ["--vary m", "no such parameter"], *beam, "m", "--tolerance", "1e-2")
-        self.assert_refused(2, ["--vary E", "number of elements"], *beam, "E", "--tolerance", "1e-2")
-        self.assert_refused(2, ["stress"], *beam, "n", "--tolerance", "1e-2", "--quantity", "stress")
+        self.assert_refused(2, ["--vary E", "number of elements"], *beam, "E", "--tolerance",
+                            "1e-2")
+        self.assert_refused(2, ["stress"], *beam, "n", "--tolerance", "1e-2", "--quantity",
+                            "stress")
 
     def study(self, **changes):
         work = {"solution": {"tolerance": 1e-9}, "tolerances": [1e-2, 1e-5],
                 "scenes": [{"scene": "chain", "set": {"n": 6}, "end_time": 2e-4, "saved_times": 4}]}
-        whole = {"experiment": "judged", "title": "Judged", "advise": {**work, **changes}, "scales": {"smoke": {}}}
+        whole = {
+            "experiment": "judged", "title": "Judged", "advise": {**work, **changes},
+            "scales": {"smoke": {}}
+        }
         return self.write("judged.json", json.dumps(whole))
 
     def test_a_study_holds_advice_against_the_oracle_and_everything(self):
@@ -108,15 +118,29 @@ class Advise(ProgramTest):
             self.assertGreaterEqual(float(row["time_over_cheapest"]), 0.5)
 
     def test_a_study_that_is_wrong_is_refused(self):
-        for change, words in (({"tolerances": [0]}, ["/advise/tolerances", "positive"]),
-                              ({"tolerances": []}, ["/advise/tolerances", "at least one"]),
-                              ({"scenes": [{"scene": "chian", "end_time": 1, "saved_times": 4}]}, ["/advise/scenes/0", "chain"]),
-                              ({"scenes": [{"scene": "chain", "end_time": 1, "saved_times": 4, "quantity": "strain"}]}, ["quantity", "stress"])):
-            self.assert_refused(2, words, "experiment", self.study(**change), "--scale", "smoke", "--out", self.path("out"))
+        for change, words in (
+            ({"tolerances": [0]}, ["/advise/tolerances", "positive"]),
+            ({"tolerances": []}, ["/advise/tolerances", "at least one"]),
+            (
+                {"scenes": [{"scene": "chian", "end_time": 1, "saved_times": 4}]},
+                ["/advise/scenes/0", "chain"],
+            ),
+            (
+                {
+                    "scenes": [
+                        {"scene": "chain", "end_time": 1, "saved_times": 4, "quantity": "strain"}
+                    ]
+                },
+                ["quantity", "stress"],
+            ),
+        ):
+            self.assert_refused(2, words, "experiment", self.study(**change), "--scale", "smoke",
+                                "--out", self.path("out"))
 
     def test_bad_input_is_refused_in_one_line(self):
         self.assert_refused(2, ["--tolerance -1"], *BEAM, "--tolerance", "-1")
-        self.assert_refused(2, ["--quantity strain", "stress"], *BEAM, "--tolerance", "1e-2", "--quantity", "strain")
+        self.assert_refused(2, ["--quantity strain", "stress"], *BEAM, "--tolerance", "1e-2",
+                            "--quantity", "strain")
         self.assert_refused(2, ["--end 0"], "advise", "chain", "--tolerance", "1e-2", "--end", "0")
         self.assert_refused(2, ["--budget"], *BEAM, "--tolerance", "1e-2", "--budget", "0")
         self.assert_refused(2, ["avx1024"], *BEAM, "--tolerance", "1e-2", "--variant", "avx1024")

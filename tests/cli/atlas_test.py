@@ -1,4 +1,4 @@
-"""The failure atlas and the continuum checks: both directions of a wrong expectation fail, and say why."""
+"""The failure atlas and the continuum checks: a wrong expectation fails in both directions."""
 import csv
 import json
 import os
@@ -6,16 +6,24 @@ import unittest
 
 from program import ProgramTest, dssbench
 
-EXPERIMENTS = os.path.join(os.path.dirname(__file__), "..", "..", "experiments")
+EXPERIMENTS = os.path.join(os.path.dirname(__file__), "..", "..", "experiments", "scenes")
 
 
 def case(**changes):
-    """An undamped pair, 10 % below the limit of its mode and 10 % above."""
+    """An undamped pair, 10 % below and 10 % above the limit of its mode."""
     return {
-        "case": "pair", "scene": os.path.join(EXPERIMENTS, "failures", "pair.json"), "methods": ["rk4"],
-        "mode": {"omega": "=sqrt(k/mass)", "rate": 0}, "dt": "=0.9*mode_limit", "steps": 400, "forced": True,
-        "metric": "amplitude", "ok": {"below": 1.1}, "unstable_above": 100,
-        "expect": [{"verdict": "ok", "why": "below the limit"}], **changes,
+        "case": "pair",
+        "scene": os.path.join(EXPERIMENTS, "failures", "pair.json"),
+        "methods": ["rk4"],
+        "mode": {"omega": "=sqrt(k/mass)", "rate": 0},
+        "dt": "=0.9*mode_limit",
+        "steps": 400,
+        "forced": True,
+        "metric": "amplitude",
+        "ok": {"below": 1.1},
+        "unstable_above": 100,
+        "expect": [{"verdict": "ok", "why": "below the limit"}],
+        **changes,
     }
 
 
@@ -36,7 +44,9 @@ class Atlas(ProgramTest):
         self.assertEqual(result.returncode, 0, result.stdout)
         rows = self.rows("failures")
         self.assertEqual({row["status"] for row in rows}, {"passed"})
-        self.assertEqual({row["verdict"] for row in rows} - {"drifts"}, {"ok", "inaccurate", "unstable", "refused"})
+        self.assertEqual({row["verdict"]
+                          for row in rows} - {"drifts"},
+                         {"ok", "inaccurate", "unstable", "refused"})
 
     def test_the_shipped_continuum_checks_pass(self):
         result = dssbench("experiment", "continuum", "--scale", "smoke", "--out", self.directory)
@@ -53,11 +63,13 @@ class Atlas(ProgramTest):
     def test_a_method_that_fails_where_it_should_not_is_a_failed_check(self):
         result = self.run_study(case(dt="=1.1*mode_limit"))
         self.assertEqual(result.returncode, 1)
-        self.assertEqual((self.rows()[0]["verdict"], self.rows()[0]["status"]), ("unstable", "failed"))
+        self.assertEqual((self.rows()[0]["verdict"], self.rows()[0]["status"]),
+                         ("unstable", "failed"))
 
     def test_a_run_that_stops_being_finite_is_named_with_step_time_and_element(self):
         self.run_study(case(dt="=1.1*mode_limit", steps=100000))
-        self.assertRegex(self.rows()[0]["reason"], r"not finite after step \d+ \(t = [0-9.e+-]+ s\), element 1")
+        self.assertRegex(self.rows()[0]["reason"],
+                         r"not finite after step \d+ \(t = [0-9.e+-]+ s\), element 1")
 
     def test_a_figure_far_from_its_prediction_is_a_failed_check(self):
         expect = [{"verdict": "ok", "why": "x", "predicted": 0.5, "within": 0.1}]
@@ -72,7 +84,8 @@ class Atlas(ProgramTest):
         self.assertIn("stability limit", self.rows()[0]["reason"])
 
     def test_a_cell_without_expectation_is_a_failed_check(self):
-        result = self.run_study(case(expect=[{"methods": ["velocity_verlet"], "verdict": "ok", "why": "x"}]))
+        result = self.run_study(
+            case(expect=[{"methods": ["velocity_verlet"], "verdict": "ok", "why": "x"}]))
         self.assertEqual(result.returncode, 1)
         self.assertIn("no expectation", result.stdout)
 
@@ -90,12 +103,14 @@ class Atlas(ProgramTest):
             ({"methods": ["rk5"]}, ["/failures/0/methods", "rk4"]),
             ({"metric": "eror"}, ["/failures/0/metric", '"error"']),
             ({"metric": "error"}, ["/failures/0", "reference"]),
-            ({"expect": [{"verdict": "fine", "why": "x"}]}, ["/failures/0/expect/0/verdict", "fine"]),
+            ({"expect": [{"verdict": "fine",
+                          "why": "x"}]}, ["/failures/0/expect/0/verdict", "fine"]),
             ({"dt": "=0.9*limitt"}, ["/failures/0/dt", "limitt"]),
             ({"set": {"kk": 1}}, ["kk"]),
             ({"case": "pair", "dtt": 1}, ["/failures/0", "dtt"]),
         ):
-            self.assert_refused(2, words, "experiment", self.study(case(**wrong)), "--out", self.directory)
+            self.assert_refused(2, words, "experiment", self.study(case(**wrong)), "--out",
+                                self.directory)
         self.assertEqual(self.read("tables/atlas.csv"), before)
 
     def test_a_dry_run_computes_nothing(self):

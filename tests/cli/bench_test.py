@@ -1,4 +1,4 @@
-"""`bench` and the studies of kernels and of the chain: what they write, what a kill leaves, what compare says."""
+"""`bench`, the studies of kernels and of the chain: their files, a kill, `compare`."""
 import csv
 import json
 import os
@@ -9,7 +9,8 @@ import unittest
 
 from program import PROGRAM, ProgramTest, dssbench, why_no_variant
 
-FEW = ("bench", "--kernel", "rotation,rk_update", "--variant", "scalar", "--model", "spatial,planar")
+FEW = ("bench", "--kernel", "rotation,rk_update", "--variant", "scalar", "--model",
+       "spatial,planar")
 SHORT = ("--min-time", "0.001")
 
 
@@ -28,7 +29,8 @@ class Bench(ProgramTest):
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 6)  # rotation of two models, rk_update of one, two precisions
         for row in rows:
-            self.assertEqual((row["check"], row["status"], row["repetitions"]), ("passed", "ok", "2"))
+            self.assertEqual((row["check"], row["status"], row["repetitions"]),
+                             ("passed", "ok", "2"))
             self.assertGreater(float(row["measured_ns_per_element"]), 0)
         with open(self.path("out/raw/kernels.json"), encoding="utf-8") as file:
             self.assertIn("hardware_counters", json.load(file)["context"])
@@ -36,7 +38,10 @@ class Bench(ProgramTest):
     def test_a_run_killed_and_resumed_has_the_records_of_a_whole_one(self):
         few = (*FEW, "--repetitions", "4", "--min-time", "0.02")
         self.assertEqual(dssbench(*few, "--out", self.path("whole")).returncode, 0)
-        running = subprocess.Popen([PROGRAM, *few, "--out", self.path("cut")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        running = subprocess.Popen(
+            [PROGRAM, *few, "--out", self.path("cut")],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)
         raw = self.path("cut/raw/kernels.csv")
         for _ in range(1000):  # until some are there
             if os.path.exists(raw) and os.path.getsize(raw) > 1500:
@@ -50,7 +55,8 @@ class Bench(ProgramTest):
         self.assertEqual(self.cells("cut"), self.cells("whole"))
 
     def test_compare_has_a_verdict_for_each_kernel(self):
-        self.assertEqual(dssbench(*FEW, *SHORT, "--repetitions", 9, "--out", self.path("a")).returncode, 0)
+        self.assertEqual(
+            dssbench(*FEW, *SHORT, "--repetitions", 9, "--out", self.path("a")).returncode, 0)
         with open(self.path("a/raw/kernels.csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         with open(self.path("slower.csv"), "w", encoding="utf-8", newline="") as file:
@@ -61,37 +67,57 @@ class Bench(ProgramTest):
                 writer.writerow({**row, "wall_s": slower * float(row["wall_s"])})
         result = dssbench("compare", self.path("a/raw/kernels.csv"), self.path("slower.csv"))
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertEqual(result.stdout.count("slower"), 4, result.stdout)  # rotation: two models, two precisions
+        # rotation: two models, two precisions
+        self.assertEqual(result.stdout.count("slower"), 4, result.stdout)
         self.assertIn("Mann-Whitney", result.stdout)
 
     @unittest.skipIf(why_no_variant("opencl"), why_no_variant("opencl"))
     def test_the_kernel_of_a_device_is_timed_by_itself(self):
-        result = dssbench("bench", "--kernel", "rates", "--variant", "opencl,scalar", "--model", "spatial,planar", "--n", 12, *SHORT, "--repetitions", 1, "--out", self.path("out"))
+        result = dssbench("bench", "--kernel", "rates", "--variant", "opencl,scalar", "--model",
+                          "spatial,planar", "--n", 12, *SHORT, "--repetitions", 1, "--out",
+                          self.path("out"))
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual({row["cell"].split("/", 1)[0] for row in self.records("out")}, {"rates_12"})
+        self.assertEqual({row["cell"].split("/", 1)[0]
+                          for row in self.records("out")}, {"rates_12"})
         for row in self.records("out"):
-            self.assertEqual((row["variant"], row["check"], row["status"]), ("opencl", "passed", "ok"))
+            self.assertEqual((row["variant"], row["check"], row["status"]),
+                             ("opencl", "passed", "ok"))
         self.assertEqual(len(self.records("out")), 4)  # two models, two precisions
 
     def test_attribution_keeps_the_times_of_its_rounds(self):
         cases = {"variants": "scalar", "models": "planar", "precisions": "f64", "n": 20}
-        scale = {"repetitions": 1, "sample_s": 1e-4, "attribution_rounds": 7, "attribution_sample_s": 1e-4, "ceilings": False}
-        few = {"kernels": "rotation", "models": "planar", "precisions": "f64", "variants": "scalar", "levels": "L1"}
-        study = {"experiment": "tiny", "title": "Tiny", "microbenchmarks": {"sets": [few], "attribution": [cases]}, "scales": {"smoke": scale}}
-        result = dssbench("experiment", self.write("study.json", json.dumps(study)), "--scale", "smoke", "--out", self.path("out"))
+        scale = {
+            "repetitions": 1, "sample_s": 1e-4, "attribution_rounds": 7,
+            "attribution_sample_s": 1e-4, "ceilings": False
+        }
+        few = {
+            "kernels": "rotation", "models": "planar", "precisions": "f64", "variants": "scalar",
+            "levels": "L1"
+        }
+        study = {
+            "experiment": "tiny", "title": "Tiny",
+            "microbenchmarks": {"sets": [few], "attribution": [cases]}, "scales": {"smoke": scale}
+        }
+        result = dssbench("experiment", self.write("study.json", json.dumps(study)), "--scale",
+                          "smoke", "--out", self.path("out"))
         self.assertEqual(result.returncode, 0, result.stderr)
         rounds = self.records("out", "attribution")
         with open(self.path("out/tables/attribution.csv"), encoding="utf-8", newline="") as file:
             step = next(row for row in csv.DictReader(file) if row["part"] == "step")
-        of_step = sorted(1e9 * float(row["wall_s"]) / float(row["elements"]) for row in rounds if row["timed"] == "step")
+        of_step = sorted(1e9 * float(row["wall_s"]) / float(row["elements"])
+                         for row in rounds
+                         if row["timed"] == "step")
         self.assertEqual(len(of_step), 7)
         self.assertAlmostEqual(float(step["measured_ns_per_element_step"]) / of_step[3], 1)
         self.assertAlmostEqual(float(step["measured_ns_per_element_step_low"]) / of_step[0], 1)
         self.assertLess(float(step["sum_over_step_low"]), float(step["sum_over_step_high"]))
-        self.assertTrue({"stage_row", "stage_row L1", "stage_row_last", "peak"} <= {row["timed"] for row in rounds})
+        self.assertTrue({"stage_row", "stage_row L1", "stage_row_last", "peak"} <=
+                        {row["timed"]
+                         for row in rounds})
 
     def test_unknown_names_are_refused_with_the_nearest(self):
-        self.assert_refused(2, ["rotatoin", "rotation"], "bench", "--kernel", "rotatoin", "--out", self.path("out"))
+        self.assert_refused(2, ["rotatoin", "rotation"], "bench", "--kernel", "rotatoin", "--out",
+                            self.path("out"))
         self.assert_refused(2, ["L5", "L3"], "bench", "--level", "L5", "--out", self.path("out"))
         self.assertFalse(os.path.exists(self.path("out/raw/kernels.csv")))
 
@@ -101,8 +127,10 @@ class Chain(ProgramTest):
         result = dssbench("experiment", "chain", "--scale", "smoke", "--out", self.path("out"))
         with open(self.path("out/tables/chain.csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual([row["integrator"] for row in rows], 7 * ["rk4"] + ["velocity_verlet"] + 2 * ["smoothed_verlet"], result.stderr)
-        self.assertEqual([row["model"] for row in rows], 4 * ["spatial"] + 5 * ["planar"] + ["membrane"])
+        self.assertEqual([row["integrator"] for row in rows],
+                         7 * ["rk4"] + ["velocity_verlet"] + 2 * ["smoothed_verlet"], result.stderr)
+        self.assertEqual([row["model"] for row in rows],
+                         4 * ["spatial"] + 5 * ["planar"] + ["membrane"])
         for row in rows:
             self.assertEqual(row["status"], "ok", row)
             self.assertLess(float(row["error_max"]), 1e-3)
@@ -110,11 +138,16 @@ class Chain(ProgramTest):
         self.assertGreater(float(rows[2]["factor_vs_reference"]), 3)
 
     def test_a_chain_with_an_unknown_model_is_refused(self):
-        study = {"experiment": "c", "title": "c", "scales": {"host": {"repetitions": 1, "sample_s": 1e-3}},
-                 "chain": {"scene": "plate_paper", "end_time": 1e-5, "saved_times": 1, "bar": 1, "solution": {"steps_an_interval": 20},
-                           "links": [{"label": "a", "variant": "scalar", "steps_an_interval": 10}, {"label": "b", "model": "planer"}]}}
-        self.assert_refused(2, ["/chain/links/1/model", "planer", "planar"], "experiment", self.write("c.json", json.dumps(study)),
-                            "--out", self.path("out"))
+        study = {
+            "experiment": "c", "title": "c",
+            "scales": {"host": {"repetitions": 1, "sample_s": 1e-3}},
+            "chain": {"scene": "plate_paper", "end_time": 1e-5, "saved_times": 1, "bar": 1,
+                      "solution": {"steps_an_interval": 20},
+                      "links": [{"label": "a", "variant": "scalar", "steps_an_interval": 10},
+                                {"label": "b", "model": "planer"}]}
+        }
+        self.assert_refused(2, ["/chain/links/1/model", "planer", "planar"], "experiment",
+                            self.write("c.json", json.dumps(study)), "--out", self.path("out"))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Help of every command, and the manual page made from it."""
+"""Help of every command, and the manual page that is made from it."""
 import json
 import os
 import re
@@ -33,13 +33,16 @@ class Help(ProgramTest):
                 words = shlex.split(example.split("|")[0].split(">")[0], comments=True)
                 self.assertEqual(words[0], command)
                 for option in (word for word in words if word.startswith("--")):
-                    self.assertIn(option, dssbench("complete", command, option).stdout.split(), example)
+                    self.assertIn(option,
+                                  dssbench("complete", command, option).stdout.split(), example)
 
     def test_the_scene_that_is_shown_to_newcomers_runs(self):
         with open(os.path.join(ROOT, "solver/scene/README.md"), encoding="utf-8") as file:
             scene = re.search(r"^    \{$.*?^    \}$", file.read(), re.M | re.S).group(0)
-        result = dssbench("run", self.write("hanging_strip.json", scene), "--variant", "reference", "--json", "-")
-        self.assertEqual((result.returncode, json.loads(result.stdout)["status"]), (0, "ok"), result.stderr)
+        result = dssbench("run", self.write("hanging_strip.json", scene), "--variant", "reference",
+                          "--json", "-")
+        self.assertEqual((result.returncode, json.loads(result.stdout)["status"]), (0, "ok"),
+                         result.stderr)
 
     def page(self):
         result = dssbench("help", "--man")
@@ -48,15 +51,20 @@ class Help(ProgramTest):
 
     @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_the_manual_page_has_every_command_and_option_and_no_warning(self):
-        page = subprocess.run(["groff", "-man", "-Tascii", "-rLL=150n", "-P-cbou", "-ww", self.page()], capture_output=True, text=True, timeout=60)
+        page = subprocess.run(
+            ["groff", "-man", "-Tascii", "-rLL=150n", "-P-cbou", "-ww", self.page()],
+            capture_output=True, text=True, timeout=60,
+        )
         self.assertEqual((page.returncode, page.stderr), (0, ""))
         sections = re.split(r"^   (?=\w)", page.stdout, flags=re.M)
         for command in COMMANDS:
             section = next(text for text in sections if text.startswith(command + "\n"))
             self.assertIn("Example: dssbench " + command, section)
-            for option in re.findall(r"^  (?:-\w,)?(--[\w-]+)", dssbench(command, "--help").stdout, re.M):
+            for option in re.findall(r"^  (?:-\w,)?(--[\w-]+)",
+                                     dssbench(command, "--help").stdout, re.M):
                 self.assertIn(option, section)
-        for heading in ("NAME", "SYNOPSIS", "OPTIONS", "COMMANDS", "EXIT STATUS", "ENVIRONMENT", "EXAMPLES"):
+        for heading in ("NAME", "SYNOPSIS", "OPTIONS", "COMMANDS", "EXIT STATUS", "ENVIRONMENT",
+                        "EXAMPLES"):
             self.assertRegex(page.stdout, rf"(?m)^{heading}$")
 
     def test_the_manual_page_has_every_variable_that_the_program_reads(self):

@@ -1,4 +1,4 @@
-"""Runs the program under test, whose path is in the environment variable DSSBENCH."""
+"""Runs the program under test. Its path is in the environment variable DSSBENCH."""
 import json
 import os
 import subprocess
@@ -10,7 +10,8 @@ PROGRAM = os.environ["DSSBENCH"]
 
 def dssbench(*arguments, **options):
     """The finished process, with its output as text."""
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=300, **options)
 
 
 def why_no_variant(name):
@@ -41,7 +42,7 @@ class ProgramTest(unittest.TestCase):
             return file.read()
 
     def assert_refused(self, exit_code, words, *arguments, **options):
-        """The command ends with this code and one line on standard error that has all of these words."""
+        """The command ends with this code, and its one line of error has all of these words."""
         result = dssbench(*arguments, **options)
         self.assertEqual(result.returncode, exit_code, result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)

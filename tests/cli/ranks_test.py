@@ -1,4 +1,4 @@
-"""Runs on several ranks: the bits of one process, whoever starts them; what is refused; what becomes of a job when a rank fails."""
+"""Runs on several ranks: the bits of one process, refusals, and jobs in which a rank fails."""
 import functools
 import json
 import os
@@ -19,8 +19,11 @@ MPIRUN = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
 def why_no_ranks():
-    """Why there is nothing to test here, or an empty string."""
-    status = {row["variant"]: row["status"] for row in json.loads(dssbench("list", "variants", "--json").stdout)}
+    """Why nothing can be tested here; empty if it can."""
+    status = {
+        row["variant"]: row["status"]
+        for row in json.loads(dssbench("list", "variants", "--json").stdout)
+    }
     if status.get("mpi") != "usable":
         return "variant mpi: " + status.get("mpi", "not built")
     return "" if shutil.which("mpirun") else "mpirun is not installed"
@@ -31,7 +34,7 @@ WHY_NOT = why_no_ranks()
 
 @functools.lru_cache(maxsize=None)
 def record(*arguments):
-    """The result of a run; equal runs are made once."""
+    """The result of a run. Equal runs are made once."""
     result = dssbench(*arguments, "--json", "-")
     if result.returncode != 0:
         raise AssertionError(result.stderr)
@@ -39,18 +42,21 @@ def record(*arguments):
 
 
 def mpirun(ranks, *arguments):
-    """The program as somebody's own mpirun starts it."""
-    command = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none", PROGRAM, *arguments]
-    return subprocess.run(command, capture_output=True, text=True, timeout=300, env={**os.environ, **MPIRUN})
+    """The program, started by an mpirun of the user."""
+    command = [
+        "mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none", PROGRAM, *arguments
+    ]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300,
+                          env={**os.environ, **MPIRUN})
 
 
 def own_lines(result):
-    """What the program itself said on standard error; mpirun adds a frame of its own to a job that fails."""
+    """The program's own lines on standard error. mpirun adds others to a job that fails."""
     return [line for line in result.stderr.splitlines() if line.startswith("dssbench: ")]
 
 
 def processes(word):
-    """Living processes with this word on their command line: {process: its environment}."""
+    """Running processes with this word on their command line: {process: its environment}."""
     found = {}
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -73,13 +79,15 @@ class Bits(ProgramTest):
                 self.assertEqual(other[key], one[key], (halo, key))
 
     def test_states_equal_those_of_one_process_with_each_strategy(self):
-        scenes = (PLATE, ("run", "l_bracket", "--steps", "30", "--model", "spatial"))  # auto takes proven models alone on ranks
+        # on ranks, auto takes only proven models
+        scenes = (PLATE, ("run", "l_bracket", "--steps", "30", "--model", "spatial"))
         for number, strategy in enumerate(STRATEGIES):
             for place, scene in enumerate(scenes):
                 ranks, precision = 2 + (number + place) % 2, ("f64", "f32")[number // 2 % 2]
                 with self.subTest(scene=scene[1], precision=precision, ranks=ranks, halo=strategy):
                     one = record(*scene, "--precision", precision)
-                    several = record(*scene, "--precision", precision, "--ranks", str(ranks), "--halo", strategy)
+                    several = record(*scene, "--precision", precision, "--ranks", str(ranks),
+                                     "--halo", strategy)
                     self.assertEqual((several["ranks"], several["halo"]), (ranks, strategy))
                     self.assertEqual(several["state_digest"], one["state_digest"])
 
@@ -90,11 +98,16 @@ class Bits(ProgramTest):
         passed, failed = (int(result.stdout.splitlines()[-1].split()[place]) for place in (0, 3))
         self.assertGreater(passed, 100)
         self.assertEqual(failed, 0)
-        reasons = [line.split(" (and ")[0].split("skipped  ")[-1] for line in result.stdout.splitlines() if "skipped  " in line]
+        reasons = [
+            line.split(" (and ")[0].split("skipped  ")[-1]
+            for line in result.stdout.splitlines()
+            if "skipped  " in line
+        ]
         self.assertEqual(len(reasons), len(set(reasons)))  # one row a reason
 
     def test_deep_sends_a_quarter_of_the_messages_and_the_same_bytes(self):
-        every_stage, once = (record(*PLATE, "--ranks", "2", "--halo", halo) for halo in ("sendrecv", "deep"))
+        every_stage, once = (record(*PLATE, "--ranks", "2", "--halo", halo)
+                             for halo in ("sendrecv", "deep"))
         self.assertEqual((every_stage["messages_per_step"], once["messages_per_step"]), (2 * 4, 2))
         self.assertEqual(every_stage["bytes_per_step"], once["bytes_per_step"])
 
@@ -102,7 +115,8 @@ class Bits(ProgramTest):
         for ranks in ("1", "2"):
             folder = pathlib.Path(self.path(ranks))
             folder.mkdir()
-            result = dssbench(*PLATE, "--ranks", ranks, "--state", "s.csv", "--output", "p.vtu", "--frames", "2", cwd=folder)
+            result = dssbench(*PLATE, "--ranks", ranks, "--state", "s.csv", "--output", "p.vtu",
+                              "--frames", "2", cwd=folder)
             self.assertEqual(result.returncode, 0, result.stderr)
         names = ["p.pvd", "p_0000.vtu", "p_0001.vtu", "p_0002.vtu", "s.csv"]
         for ranks in ("1", "2"):
@@ -123,7 +137,8 @@ class Bits(ProgramTest):
 class Decompositions(ProgramTest):
     def parts_file(self, parts):
         path = self.path(f"{parts}.json")
-        result = dssbench("decompose", "plate_paper", "--set", "n=12", "--parts", parts, "--method", "blocks", "--output", path)
+        result = dssbench("decompose", "plate_paper", "--set", "n=12", "--parts", parts, "--method",
+                          "blocks", "--output", path)
         self.assertEqual(result.returncode, 0, result.stderr)
         return path
 
@@ -131,7 +146,9 @@ class Decompositions(ProgramTest):
         path = self.parts_file(2)
         document = json.loads(self.read("2.json"))
         document["method"] = "by hand"
-        for part, segments in zip(document["parts"], ([[row, 0, 12] for row in range(3)], [[row, 0, 12] for row in range(3, 12)])):
+        for part, segments in zip(
+                document["parts"],
+            ([[row, 0, 12] for row in range(3)], [[row, 0, 12] for row in range(3, 12)])):
             part["segments"] = segments
             del part["own_elements"]
         self.write("2.json", json.dumps(document))
@@ -141,15 +158,20 @@ class Decompositions(ProgramTest):
 
     def test_a_decomposition_that_does_not_fit_is_refused(self):
         path = self.parts_file(2)
-        self.assert_refused(2, ["2.json", "2 parts", "3 ranks", "--ranks 2"], *PLATE, "--ranks", "3", "--decomposition", path)
-        self.assert_refused(2, ["2.json", "144", "100", "size"], "run", "plate_paper", "--set", "n=10", "--ranks", "2", "--decomposition", path)
-        self.assert_refused(2, ["2 rows", "at most 2"], "run", "plate_paper", "--set", "n=2", "--ranks", "3")
+        self.assert_refused(2, ["2.json", "2 parts", "3 ranks", "--ranks 2"], *PLATE, "--ranks",
+                            "3", "--decomposition", path)
+        self.assert_refused(2, ["2.json", "144", "100", "size"], "run", "plate_paper", "--set",
+                            "n=10", "--ranks", "2", "--decomposition", path)
+        self.assert_refused(2, ["2 rows", "at most 2"], "run", "plate_paper", "--set", "n=2",
+                            "--ranks", "3")
 
     def test_a_slow_rank_gets_a_part_in_proportion_to_its_measured_speed(self):
         slow = {"env": {**os.environ, "DSSBENCH_FAULT": "slow:1:3"}}
-        result = dssbench("run", "plate_paper", "--set", "n=60", "--steps", "20", "--ranks", "2", "--halo", "deep", "--shares", "measured", "--json", "-", **slow)
+        result = dssbench("run", "plate_paper", "--set", "n=60", "--steps", "20", "--ranks", "2",
+                          "--halo", "deep", "--shares", "measured", "--json", "-", **slow)
         self.assertEqual(result.returncode, 0, result.stderr)
-        imbalance = json.loads(result.stdout)["imbalance"]  # 1.5 on idle cores: three quarters of the elements on rank 0
+        # 1.5 on idle cores: three quarters of the elements on rank 0
+        imbalance = json.loads(result.stdout)["imbalance"]
         self.assertGreater(imbalance, 1.2)
         self.assertLess(imbalance, 2)
 
@@ -157,31 +179,40 @@ class Decompositions(ProgramTest):
 @unittest.skipIf(WHY_NOT, WHY_NOT)
 class Refusals(ProgramTest):
     def test_unknown_words_are_told_with_the_nearest_in_one_line(self):
-        for option, word, nearest in (("--halo", "depe", '"deep"'), ("--decomposition", "stripes", '"strips"'), ("--shares", "mesured", '"measured"')):
+        for option, word, nearest in (
+            ("--halo", "depe", '"deep"'),
+            ("--decomposition", "stripes", '"strips"'),
+            ("--shares", "mesured", '"measured"'),
+        ):
             self.assert_refused(2, [word, nearest], *PLATE, "--ranks", "2", option, word)
 
     def test_no_ranks_and_a_variant_that_computes_no_parts_are_refused(self):
         self.assert_refused(2, ["--ranks 0", "1 to"], *PLATE, "--ranks", "0")
-        self.assert_refused(2, ["reference", "does not compute parts"], *PLATE, "--ranks", "2", "--variant", "reference")
+        self.assert_refused(2, ["reference", "does not compute parts"], *PLATE, "--ranks", "2",
+                            "--variant", "reference")
 
     def test_without_mpirun_there_is_one_rank_and_a_reason(self):
         nowhere = {"env": {**os.environ, "PATH": self.directory}}
         result = dssbench(*PLATE, "--variant", "mpi", "--json", "-", **nowhere)
         self.assertEqual(result.returncode, 0, result.stderr)
         alone = json.loads(result.stdout)
-        self.assertEqual((alone["ranks"], alone["state_digest"]), (1, record(*PLATE)["state_digest"]))
+        self.assertEqual((alone["ranks"], alone["state_digest"]),
+                         (1, record(*PLATE)["state_digest"]))
         self.assertTrue(alone["variant"].startswith("mpi:"))
-        self.assert_refused(2, ["--ranks 2", "mpirun is not installed"], *PLATE, "--ranks", "2", **nowhere)
+        self.assert_refused(2, ["--ranks 2", "mpirun is not installed"], *PLATE, "--ranks", "2",
+                            **nowhere)
 
 
 @unittest.skipIf(WHY_NOT, WHY_NOT)
 class UnderMpirun(ProgramTest):
     def test_a_job_that_mpirun_starts_prints_one_result_and_writes_its_files_once(self):
-        # a rank other than the first that wrote would be heard on standard error, which all share
-        result = mpirun(2, *PLATE, "--json", "-", "--output", self.path("p.vtu"), "--state", "/dev/stderr")
+        # all ranks share standard error, so a second rank that writes would be seen there
+        result = mpirun(2, *PLATE, "--json", "-", "--output", self.path("p.vtu"), "--state",
+                        "/dev/stderr")
         self.assertEqual(result.returncode, 0, result.stderr)
         several = json.loads(result.stdout)
-        self.assertEqual((several["ranks"], several["state_digest"]), (2, record(*PLATE)["state_digest"]))
+        self.assertEqual((several["ranks"], several["state_digest"]),
+                         (2, record(*PLATE)["state_digest"]))
         self.assertEqual(os.listdir(self.directory), ["p.vtu"])
         self.assertEqual((result.stderr.count("element,"), result.stderr.count("\n")), (1, 1 + 144))
 
@@ -204,10 +235,15 @@ class Failures(ProgramTest):
             os.kill(process, signal.SIGKILL)
 
     def start(self, name, fault=None):
-        """An endless job of 2 ranks whose command line has this name; it writes NAME_0000.vtu when all ranks are about to compute."""
+        """Starts an endless job of 2 ranks with this name on its command line.
+
+        It writes NAME_0000.vtu when all ranks are about to compute.
+        """
         environment = {**os.environ, **({"DSSBENCH_FAULT": fault} if fault else {})}
-        job = subprocess.Popen([PROGRAM, *ENDLESS, "--ranks", "2", "--halo", "deep", "--output", self.path(name + ".vtu"), "--frames", "1"],
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+        job = subprocess.Popen([
+            PROGRAM, *ENDLESS, "--ranks", "2", "--halo", "deep", "--output",
+            self.path(name + ".vtu"), "--frames", "1"
+        ], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
         self.addCleanup(lambda: (job.kill(), job.wait(), job.stdout.close(), job.stderr.close()))
         return job
 
@@ -218,14 +254,16 @@ class Failures(ProgramTest):
             time.sleep(0.05)
 
     def rank_process(self, name, rank):
-        """The process of a rank of a job that computes."""
-        self.wait_for(lambda: os.path.exists(self.path(name + "_0000.vtu")), f"{name} does not start", 30)
+        """The process of one rank of a job that computes."""
+        self.wait_for(lambda: os.path.exists(self.path(name + "_0000.vtu")),
+                      f"{name} does not start", 30)
         mark = f"OMPI_COMM_WORLD_RANK={rank}\0".encode()
-        return next(process for process, environment in processes(self.path(name)).items() if mark in environment)
+        return next(process for process, environment in processes(self.path(name)).items()
+                    if mark in environment)
 
     def assert_ended(self, name, job, begin, *words):
-        """The job has ended in time, in one line, and with all of its processes."""
-        # 10 s with the two cores for the job alone; here other jobs and perhaps other tests wait for the same cores.
+        """The job has ended in time, with one line of error, and with all of its processes."""
+        # A job that has both cores needs 10 s. Here other jobs and tests share the cores.
         output, error = job.communicate(timeout=max(0.1, begin + 12 - time.monotonic()))
         self.assertEqual((job.returncode, output, error.count("\n")), (1, "", 1), error)
         for word in ("rank 1 of 2", *words):
@@ -247,7 +285,8 @@ class Failures(ProgramTest):
         self.rank_process("killed", 1)
         self.assertEqual(len(processes(self.path("killed"))), 4)  # launcher, mpirun, two ranks
         job.kill()
-        self.wait_for(lambda: not processes(self.path("killed")), "processes outlive their launcher", 2)
+        self.wait_for(lambda: not processes(self.path("killed")),
+                      "processes outlive their launcher", 2)
 
 
 if __name__ == "__main__":

@@ -33,7 +33,9 @@ class Statics(ProgramTest):
         chosen, whole = self.record(*plate), self.record(*plate, "--model", "spatial")
         self.assertEqual((chosen["model"], whole["model"]), ("planar", "spatial"))
         self.assertIn("proven", chosen["model_why"])
-        self.assertAlmostEqual(chosen["max_displacement_m"] / whole["max_displacement_m"], 1, delta=1e-12)
+        self.assertAlmostEqual(chosen["max_displacement_m"] / whole["max_displacement_m"],
+                               1,
+                               delta=1e-12)
         self.assertIn("out of its plane", chosen["note"])  # the paper's links do not resist bending
         self.assertEqual(self.record(*STATIC)["model"], "spatial")
         for linear in (("--solver", "cg"), ("--solver", "direct", "--set", "run.model=planar")):
@@ -43,7 +45,8 @@ class Statics(ProgramTest):
         self.assertIn("out of its plane is not known", relaxed["note"])
 
     def test_the_state_and_the_picture_are_of_the_state_of_rest(self):
-        result = dssbench(*STATIC, "--state", self.path("rest.csv"), "--output", self.path("rest.vtu"))
+        result = dssbench(*STATIC, "--state", self.path("rest.csv"), "--output",
+                          self.path("rest.vtu"))
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.path("rest.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
@@ -58,31 +61,46 @@ class Statics(ProgramTest):
         self.assertEqual(len(frequencies), 4)
         self.assertEqual(frequencies, sorted(frequencies))
         self.assertEqual(record["free_motions"], 0)
-        self.assertEqual(sorted(name for name in os.listdir(self.directory) if name.startswith("mode")),
-                         ["mode.pvd", *(f"mode_{n:04}.vtu" for n in range(4))])
-        # A square beam: equal pairs, of which one follows the frame along y alone and the other along z.
-        masses = [[round(mass, 9) for mass in mode["effective_mass_kg"]] for mode in record["modes"][:2]]
-        self.assertEqual({tuple(mass > 0 for mass in of_mode) for of_mode in masses}, {(False, True, False), (False, False, True)})
+        self.assertEqual(
+            sorted(name for name in os.listdir(self.directory) if name.startswith("mode")),
+            ["mode.pvd", *(f"mode_{n:04}.vtu" for n in range(4))])
+        # A square beam has equal pairs. One follows the frame along y, the other along z.
+        masses = [[round(mass, 9)
+                   for mass in mode["effective_mass_kg"]]
+                  for mode in record["modes"][:2]]
+        self.assertEqual({tuple(mass > 0
+                                for mass in of_mode)
+                          for of_mode in masses}, {(False, True, False), (False, False, True)})
 
     def test_a_scene_says_its_analysis_and_the_option_says_another(self):
         self.assertEqual(self.record(*BEAM, "--set", "run.analysis=modal")["analysis"], "modal")
-        self.assertEqual(self.record(*BEAM, "--set", "run.analysis=modal", "--analysis", "static")["analysis"], "static")
+        self.assertEqual(
+            self.record(*BEAM, "--set", "run.analysis=modal", "--analysis", "static")["analysis"],
+            "static")
 
     def test_loads_prestress_a_beam(self):
-        pulled = [self.record(*MODAL, "--prestressed", "--set", f"loads.0.force.0={force}", "--set", "force=0")["modes"][0]["omega_rad_s"]
-                  for force in (-1, 0, 1)]
+        pulled = [
+            self.record(*MODAL, "--prestressed", "--set", f"loads.0.force.0={force}", "--set",
+                        "force=0")["modes"][0]["omega_rad_s"] for force in (-1, 0, 1)
+        ]
         self.assertEqual(pulled, sorted(pulled))
 
     def test_problems_without_one_answer_are_refused_by_name(self):
-        self.assert_refused(2, ['body "box" is free to', "clamp it"], "run", "tumbling_box", "--analysis", "static")
-        block = ("run", "block", "--set", "nx=4", "--set", "ny=4", "--set", "nz=4", "--analysis", "static")
-        self.assert_refused(2, ['of body "block"', "mechanism", "--solver cg"], *block, "--solver", "direct")
+        self.assert_refused(2, ['body "box" is free to', "clamp it"], "run", "tumbling_box",
+                            "--analysis", "static")
+        block = ("run", "block", "--set", "nx=4", "--set", "ny=4", "--set", "nz=4", "--analysis",
+                 "static")
+        self.assert_refused(2, ['of body "block"', "mechanism", "--solver cg"], *block, "--solver",
+                            "direct")
         self.assertIn("mechanism", self.record(*block)["note"])  # which no load drives
-        self.assert_refused(2, ["mechanisms", "--model planar"], "run", "plate_paper", "--set", "n=12", "--analysis", "modal")
-        self.assert_refused(3, ["buckle", "smaller"], *STATIC, "--set", "loads.0.force.0=-40", "--set", "force=0")
+        self.assert_refused(2, ["mechanisms", "--model planar"], "run", "plate_paper", "--set",
+                            "n=12", "--analysis", "modal")
+        self.assert_refused(3, ["buckle", "smaller"], *STATIC, "--set", "loads.0.force.0=-40",
+                            "--set", "force=0")
 
     def test_what_does_not_converge_exits_1_with_how_far_it_came(self):
-        result = dssbench(*STATIC, "--solver", "relaxation", "--steps", "20", "--json", self.path("record.json"))
+        result = dssbench(*STATIC, "--solver", "relaxation", "--steps", "20", "--json",
+                          self.path("record.json"))
         self.assertEqual(result.returncode, 1)
         self.assertIn("after 20 steps", result.stderr)
         self.assertEqual(json.loads(self.read("record.json"))["status"], "not converged")
@@ -95,8 +113,10 @@ class Statics(ProgramTest):
         self.assert_refused(2, ["--solver", "only with"], *BEAM, "--solver", "cg")
         self.assert_refused(2, ["moda", '"modal"'], *BEAM, "--analysis", "moda")
         self.assert_refused(2, ["newtn", '"newton"'], *STATIC, "--solver", "newtn")
-        self.assert_refused(2, ["--solver direct", "--model linear"], *STATIC, "--solver", "direct", "--model", "spatial")
-        self.assert_refused(2, ["--solver newton", "linear"], *STATIC, "--solver", "newton", "--model", "linear")
+        self.assert_refused(2, ["--solver direct", "--model linear"], *STATIC, "--solver", "direct",
+                            "--model", "spatial")
+        self.assert_refused(2, ["--solver newton", "linear"], *STATIC, "--solver", "newton",
+                            "--model", "linear")
         self.assert_refused(2, ["--modes 0"], *MODAL, "--modes", "0")
         self.assert_refused(2, ["--model axial", "load 0"], *STATIC, "--model", "axial")
 

@@ -1,4 +1,4 @@
-"""What tests of studies share: one that takes a second, and its tables."""
+"""Shared by tests of studies: a study that takes a second, and its tables."""
 import csv
 import json
 
@@ -7,11 +7,19 @@ from program import ProgramTest, dssbench
 STUDY = {
     "experiment": "tiny",
     "title": "A tiny study",
-    "cells": [{"scene": "plate_paper", "set": {"n": [10]}, "variants": ["reference", "scalar"], "threads": [1]}],
+    "cells": [{
+        "scene": "plate_paper", "set": {"n": [10]}, "variants": ["reference", "scalar"],
+        "threads": [1]
+    }],
     "base": ["reference"],
     "twin": "scalar",
     "paper": {"source": "nobody", "rows": [{"label": "published", "wall_s": 12.5}]},
-    "scales": {"smoke": {"steps": 40, "oracle_steps": 20, "repetitions": [2, 2], "retries": 0, "budget_s": 60, "time_limit_s": 20}},
+    "scales": {
+        "smoke": {
+            "steps": 40, "oracle_steps": 20, "repetitions": [2, 2], "retries": 0, "budget_s": 60,
+            "time_limit_s": 20
+        }
+    },
 }
 
 
@@ -20,7 +28,8 @@ class TinyStudyTest(ProgramTest):
         return self.write("tiny.json", json.dumps({**STUDY, **changes}))
 
     def experiment(self, *arguments, **options):
-        return dssbench("experiment", self.path("tiny.json"), "--scale", "smoke", "--out", self.path("out"), *arguments, **options)
+        return dssbench("experiment", self.path("tiny.json"), "--scale", "smoke", "--out",
+                        self.path("out"), *arguments, **options)
 
     def rows(self, name):
         with open(self.path(f"out/{name}/tiny.csv"), encoding="utf-8") as file:

@@ -1,5 +1,5 @@
-/// Balances of free bodies with open gaps and large rotations, for every variant: what each evaluation must keep, and
-/// what runs keep.
+/// Balances of free bodies with open gaps and large rotations, for every variant: what an
+/// evaluation must conserve, and what a run conserves.
 #include "solver/model/energy.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
@@ -12,15 +12,18 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-Vector triple(const double* fields, int first) { return {fields[first], fields[first + 1], fields[first + 2]}; }
+Vector triple(const double* fields, int first) {
+  return {fields[first], fields[first + 1], fields[first + 2]};
+}
 
 /// Inertia of an element in global axes.
 Eigen::Matrix3d inertia(const Body& body, const double* y) {
-  const Eigen::Matrix3d a = Eigen::Quaterniond(1 + y[qs], y[qx], y[qy], y[qz]).normalized().toRotationMatrix();
+  const Eigen::Matrix3d a =
+      Eigen::Quaterniond(1 + y[qs], y[qx], y[qy], y[qz]).normalized().toRotationMatrix();
   return a * Vector(body.inertia[0], body.inertia[1], body.inertia[2]).asDiagonal() * a.transpose();
 }
 
-/// A vector sum with the sum of its terms' magnitudes, to which rounding is relative.
+/// A vector sum, and the sum of its terms' magnitudes, which rounding is relative to.
 struct Balance {
   Vector sum = Vector::Zero();
   double magnitudes = 0;
@@ -33,7 +36,8 @@ void each(const Problem& problem, const State& state, Visit&& visit) {
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
     const Vec3 rest = rest_position(problem, row, x);
     const double* y = &state[e * field_count];
-    visit(e, problem.bodies[std::size_t(row.body)], y, Vector(rest[0], rest[1], rest[2]) + triple(y, ux));
+    visit(e, problem.bodies[std::size_t(row.body)], y,
+          Vector(rest[0], rest[1], rest[2]) + triple(y, ux));
   });
 }
 
@@ -78,7 +82,8 @@ TEST_P(EveryFreeBody, keeps_its_linear_momentum_over_10000_steps) {
   for (const Method& method : distinct_methods(plugin)) {
     const Momenta before = momenta(box, start),
                   after = momenta(box, VariantRun{plugin, box, method}.after(start, 10000));
-    EXPECT_LE((after.linear.sum - before.linear.sum).norm(), 2e-13 * before.linear.magnitudes) << method.name;
+    EXPECT_LE((after.linear.sum - before.linear.sum).norm(), 2e-13 * before.linear.magnitudes)
+        << method.name;
   }
 }
 
@@ -89,22 +94,27 @@ TEST_P(EveryFreeBody, loses_angular_momentum_and_energy_at_the_order_of_the_meth
   const double energy = total_energy(box, start);
   for (const Method& method : distinct_methods(plugin)) {
     const auto errors = [&](int refinement) {
-      const State end = VariantRun{plugin, box, method, Model::spatial, Precision::f64, 1, 4e-4 / refinement}.after(
-          start, 250 * refinement);
+      const State end =
+          VariantRun{plugin, box, method, Model::spatial, Precision::f64, 1, 4e-4 / refinement}
+              .after(start, 250 * refinement);
       return std::pair((momenta(box, end).angular.sum - before.angular.sum).norm(),
                        std::abs(total_energy(box, end) - energy));
     };
-    if (method.order > 4) continue; // loses less than rounding does
+    if (method.order > 4) continue; // loses less than rounding
     const auto coarse = errors(4), fine = errors(8);
-    EXPECT_GE(std::log2(coarse.first / fine.first), method.order - 0.2) << "angular momentum, " << method.name;
-    EXPECT_GE(std::log2(coarse.second / fine.second), method.order - 0.2) << "energy, " << method.name;
+    EXPECT_GE(std::log2(coarse.first / fine.first), method.order - 0.2)
+        << "angular momentum, " << method.name;
+    EXPECT_GE(std::log2(coarse.second / fine.second), method.order - 0.2)
+        << "energy, " << method.name;
   }
 }
 
-/// (v / omega)^2 + (1 - (h omega / 2)^2) x^2 is what velocity Verlet keeps of an oscillator, to the last bit but for rounding.
+/// Velocity Verlet conserves (v / omega)^2 + (1 - (h omega / 2)^2) x^2 of an oscillator, except for
+/// rounding.
 TEST(MillionSteps, of_velocity_verlet_leave_the_energy_of_an_undamped_pair_without_a_trend) {
   const Problem pair = fixture::make_pair(LinkLaw::paper, 0);
-  const double omega = std::sqrt(2 * pair.bodies[0].axis[0].k_normal / pair.bodies[0].mass), h_omega = 0.1;
+  const double omega = std::sqrt(2 * pair.bodies[0].axis[0].k_normal / pair.bodies[0].mass),
+               h_omega = 0.1;
   State start(2 * field_count, 0);
   start[ux] = -1e-6, start[field_count + ux] = 1e-6;
   const auto kept = [&](const State& state) {
@@ -119,28 +129,32 @@ TEST(MillionSteps, of_velocity_verlet_leave_the_energy_of_an_undamped_pair_witho
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryFreeBody, testing::ValuesIn(usable_variants()), [](const auto& registered) {
-  std::string name = registered.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Registry, EveryFreeBody, testing::ValuesIn(usable_variants()),
+                         [](const auto& registered) {
+                           std::string name = registered.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(VelocityVerlet, shows_no_energy_trend_over_100000_steps_of_the_fastest_variant) {
   const Problem box = fixture::make_tumbling_box(0);
   const Method& method = *find_method("velocity_verlet");
   State state = initial_state(box);
   const double start = total_energy(box, state);
-  const auto run = load_variant("auto").create({box, method, Model::spatial, Precision::f64, box.dt, 1});
+  const auto run =
+      load_variant("auto").create({box, method, Model::spatial, Precision::f64, box.dt, 1});
   run->write(0, state);
   constexpr int samples = 200;
   std::vector<double> error;
   for (int n = 0; n < samples; ++n) {
-    run->advance(100'000 / samples, signal_rows(box, method, box.dt, long(n) * (100'000 / samples), 100'000 / samples));
+    run->advance(100'000 / samples, signal_rows(box, method, box.dt, long(n) * (100'000 / samples),
+                                                100'000 / samples));
     run->read(0, state);
     error.push_back(total_energy(box, state) / start - 1);
   }
   double early = 0, late = 0, largest = 0;
-  for (int n = 0; n < samples / 4; ++n) early += error[std::size_t(n)], late += error[std::size_t(samples - 1 - n)];
+  for (int n = 0; n < samples / 4; ++n)
+    early += error[std::size_t(n)], late += error[std::size_t(samples - 1 - n)];
   for (const double e : error) largest = std::max(largest, std::abs(e));
   EXPECT_LT(largest, 1e-5);
   EXPECT_LT(std::abs(late - early) / (samples / 4), 0.2 * largest);

@@ -1,4 +1,5 @@
-/// Observed orders and errors of the compiled variants on shipped scenes: what a user gets, rounding included.
+/// Observed orders and errors of the compiled variants on shipped scenes, with rounding: what a
+/// user gets.
 #include "solver/scene/scene.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
@@ -9,8 +10,8 @@
 namespace dss::test {
 namespace {
 
-/// The plate of n = 10 after 2 ms, by the oracle in long double with a step 8 times shorter than the paper's:
-/// converged to 1e-12.
+/// The plate of n = 10 after 2 ms: the oracle in long double with a step 8 times shorter than the
+/// paper's, converged to 1e-12.
 class PlateAfterTwoMilliseconds : public testing::Test {
 protected:
   static const Scene& scene() {
@@ -30,13 +31,13 @@ protected:
     return VariantRun{plugin, scene().problem, *find_method(method), model, precision, 1, dt}.after(
         fixture::rest(scene().problem), std::lround(2e-3 / dt));
   }
-  /// Largest displacement error relative to the largest displacement.
+  /// Largest error of a displacement over the largest displacement.
   static double error(const State& state) {
     double difference = 0, scale = 0;
     for (std::size_t at = 0; at < state.size(); at += field_count)
       for (std::size_t f = at + ux; f <= at + uz; ++f) {
         const double here = std::abs(state[f] - reference()[f]);
-        if (!(here <= difference)) difference = here; // NaN too
+        if (!(here <= difference)) difference = here; // also if NaN
         scale = std::max(scale, std::abs(reference()[f]));
       }
     return difference / scale;
@@ -57,11 +58,14 @@ TEST_F(PlateAfterTwoMilliseconds, velocity_verlet_has_observed_order_two_with_th
     EXPECT_NEAR(order(load_variant(variant), "velocity_verlet", 5e-7), 2, 0.1) << variant;
 }
 
-TEST_F(PlateAfterTwoMilliseconds, smoothed_verlet_bears_a_larger_step_than_velocity_verlet_and_has_its_order) {
+TEST_F(PlateAfterTwoMilliseconds,
+       smoothed_verlet_bears_a_larger_step_than_velocity_verlet_and_has_its_order) {
   for (const char* variant : {"scalar", "auto"}) {
     EXPECT_NEAR(order(load_variant(variant), "smoothed_verlet", 1.25e-7), 2, 0.1) << variant;
-    EXPECT_LT(error(run(load_variant(variant), "smoothed_verlet", 1.25e-6, Precision::f64)), 1e-3) << variant;
-    EXPECT_FALSE(error(run(load_variant(variant), "velocity_verlet", 1.25e-6, Precision::f64)) < 1) << variant;
+    EXPECT_LT(error(run(load_variant(variant), "smoothed_verlet", 1.25e-6, Precision::f64)), 1e-3)
+        << variant;
+    EXPECT_FALSE(error(run(load_variant(variant), "velocity_verlet", 1.25e-6, Precision::f64)) < 1)
+        << variant;
   }
 }
 
@@ -74,8 +78,10 @@ TEST_F(PlateAfterTwoMilliseconds, float32_keeps_a_relative_error_below_1e_4_at_t
   }
 }
 
-/// Kept increments leave the rounding of forces in single precision alone, which is the same at every step; float32's grows as steps shrink.
-TEST_F(PlateAfterTwoMilliseconds, kept_low_parts_stop_the_error_that_float32_gains_as_steps_shrink) {
+/// Kept increments leave only the rounding of forces in single precision, which is the same at
+/// every step. The rounding of float32 grows as steps shrink.
+TEST_F(PlateAfterTwoMilliseconds,
+       kept_low_parts_stop_the_error_that_float32_gains_as_steps_shrink) {
   for (const char* variant : {"scalar", "auto"}) {
     const auto error_of = [&](double dt, Precision precision) {
       const double e = error(run(load_variant(variant), "rk4", dt, precision));
@@ -85,7 +91,8 @@ TEST_F(PlateAfterTwoMilliseconds, kept_low_parts_stop_the_error_that_float32_gai
     EXPECT_LT(error_of(1e-6, Precision::f32c), 2e-7) << variant;
     EXPECT_GT(error_of(1e-6, Precision::f32), 4 * error_of(1e-6, Precision::f32c)) << variant;
     EXPECT_LT(error_of(1.25e-7, Precision::f32c), 2e-7) << variant;
-    EXPECT_GT(error_of(1.25e-7, Precision::f32), 10 * error_of(1.25e-7, Precision::f32c)) << variant;
+    EXPECT_GT(error_of(1.25e-7, Precision::f32), 10 * error_of(1.25e-7, Precision::f32c))
+        << variant;
   }
 }
 
@@ -99,20 +106,24 @@ TEST_F(PlateAfterTwoMilliseconds, planar_and_spatial_agree_to_1e_12) {
   }
 }
 
-/// u = u0 exp(-g t) (cos w t + g/w sin w t), g = d/2m, w^2 = k/m - g^2 (the scene says so).
+/// u = u0 exp(-g t) (cos w t + g/w sin w t), g = d/2m, w^2 = k/m - g^2, as the scene says.
 TEST(TwoElements, approach_their_closed_form_at_the_order_of_each_method) {
   const Scene scene = load_scene("two_elements");
-  const double g = scene.parameters.at("d") / (2 * scene.parameters.at("mass")), u0 = scene.parameters.at("stretch");
-  const double w = std::sqrt(scene.parameters.at("k") / scene.parameters.at("mass") - g * g), t = 0.1;
+  const double g = scene.parameters.at("d") / (2 * scene.parameters.at("mass")),
+               u0 = scene.parameters.at("stretch");
+  const double w = std::sqrt(scene.parameters.at("k") / scene.parameters.at("mass") - g * g),
+               t = 0.1;
   const double exact = u0 * std::exp(-g * t) * (std::cos(w * t) + g / w * std::sin(w * t));
   const State start = initial_state(scene.problem);
   for (const char* variant : {"scalar", "auto"})
     for (const Method& method : methods()) {
       const auto error = [&](double dt) {
-        const VariantRun run{load_variant(variant), scene.problem, method, Model::spatial, Precision::f64, 1, dt};
+        const VariantRun run{
+            load_variant(variant), scene.problem, method, Model::spatial, Precision::f64, 1, dt};
         return std::abs(run.after(start, std::lround(t / dt))[field_count + ux] - exact);
       };
-      EXPECT_NEAR(std::log2(error(5e-4) / error(2.5e-4)), method.order, 0.1) << variant << ' ' << method.name;
+      EXPECT_NEAR(std::log2(error(5e-4) / error(2.5e-4)), method.order, 0.1)
+          << variant << ' ' << method.name;
     }
 }
 

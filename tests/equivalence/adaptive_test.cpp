@@ -1,5 +1,5 @@
-/// Adaptive steps in every variant: the same steps, the same bits, whatever computes them.
-#include "experiments/runner/adaptive_steps.hpp"
+/// Adaptive steps: every variant takes the same steps and gives the same bits.
+#include "experiments/run/timed/adaptive_steps.hpp"
 #include "solver/decomposition/decomposition.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/equivalence/local_halo.hpp"
@@ -12,7 +12,7 @@
 namespace dss::test {
 namespace {
 
-/// What a run leaves: its state, and how it came there.
+/// The result of a run: its state, and its accepted and rejected steps.
 struct AdaptiveResult {
   State state;
   long accepted = 0, rejected = 0;
@@ -26,21 +26,22 @@ struct AdaptiveRun {
   Model model = Model::spatial;
   int threads = 1;
   std::string members{};
-  double rtol = 1e-4; ///< above rounding in f32 too
+  double rtol = 1e-4; ///< above rounding, also in f32
   double end = 100 * problem.dt;
 
   AdaptiveResult after(const State& start) const {
-    const auto run = plugin.create(
-        {problem, dopri5_adaptive(), model, precision, problem.dt, threads, nullptr, nullptr, "", members});
+    const auto run = plugin.create({problem, dopri5_adaptive(), model, precision, problem.dt,
+                                    threads, nullptr, nullptr, "", members});
     run->write(0, start);
     return finish(*run, problem);
   }
   AdaptiveResult finish(Executor& run, const Problem& of) const {
-    AdaptiveSteps steps(run, of, dopri5_adaptive(), {rtol, 0}, 20 * problem.dt, end); // which is rejected first
+    AdaptiveSteps steps(run, of, dopri5_adaptive(), {rtol, 0}, 20 * problem.dt,
+                        end); // this step is rejected first
     for (const double share : {1.0 / 3, 1.0})
       if (const auto failure = steps.advance_to(share * end)) ADD_FAILURE() << *failure;
-    AdaptiveResult result{poisoned(of), steps.counts().accepted, steps.counts().rejected, steps.counts().least_dt,
-                          steps.counts().largest_dt};
+    AdaptiveResult result{poisoned(of), steps.counts().accepted, steps.counts().rejected,
+                          steps.counts().least_dt, steps.counts().largest_dt};
     run.read(0, result.state);
     return result;
   }
@@ -88,7 +89,9 @@ TEST(AdaptiveSteps, of_all_variants_and_threads_are_the_same_to_the_last_bit) {
   each_case([](const AdaptiveResult& expected, AdaptiveRun run, const State& start) {
     for (const std::string& variant : usable_variants()) {
       const Plugin& plugin = load_variant(variant);
-      if (!plugin.has_fma || plugin.devices != nullptr || plugin.is_distributed || variant == "hybrid") continue;
+      if (!plugin.has_fma || plugin.devices != nullptr || plugin.is_distributed ||
+          variant == "hybrid")
+        continue;
       for (const int threads : {1, 3}) {
         SCOPED_TRACE(variant + ' ' + std::to_string(threads));
         AdaptiveRun other{plugin, run.problem, run.precision};
@@ -102,18 +105,21 @@ TEST(AdaptiveSteps, of_all_variants_and_threads_are_the_same_to_the_last_bit) {
 void expect_reference_agrees(const Case& c, Model model, double tolerance) {
   SCOPED_TRACE(c.name + ' ' + std::string(name(model)));
   const State start = restricted(start_of(c.problem, Precision::f64), model);
-  const AdaptiveResult packs = AdaptiveRun{load_variant("auto"), c.problem, Precision::f64, model}.after(start),
-                       plain = AdaptiveRun{load_variant("reference"), c.problem, Precision::f64, model}.after(start);
+  const AdaptiveResult
+      packs = AdaptiveRun{load_variant("auto"), c.problem, Precision::f64, model}.after(start),
+      plain = AdaptiveRun{load_variant("reference"), c.problem, Precision::f64, model}.after(start);
   EXPECT_EQ(packs.accepted, plain.accepted);
   EXPECT_EQ(packs.rejected, plain.rejected);
-  EXPECT_LT(relative_error(restricted(packs.state, model), restricted(plain.state, model)), tolerance);
+  EXPECT_LT(relative_error(restricted(packs.state, model), restricted(plain.state, model)),
+            tolerance);
 }
 
 TEST(AdaptiveSteps, agree_with_those_of_the_reference) {
   for (const Case& c : cases()) {
     expect_reference_agrees(c, Model::spatial, 1e-8);
 #ifndef DSS_FEWER_MODELS
-    // Its rows have the stage of the error's estimate apart. The reference estimates that of quaternions, so that steps differ a little.
+    // Its rows have the stage of the error estimate apart. The estimate of the reference is that of
+    // quaternions, so its steps differ a little.
     expect_reference_agrees(c, Model::small, 1e-3);
 #endif
   }
@@ -128,7 +134,8 @@ TEST(AdaptiveSteps, of_members_of_a_hybrid_are_the_same) {
   });
 }
 
-/// Steps of several lengths that are tried, some of which are accepted: what try_step returns, and the state.
+/// What try_step returned for steps of several lengths, of which some were accepted, and the state
+/// at the end.
 struct Tries {
   std::vector<StepMaxima> maxima;
   State state;
@@ -138,9 +145,10 @@ Tries tries_of(Executor& run, const Problem& whole, const Problem& part) {
   double t = 0;
   for (int n = 0; n < 12; ++n) {
     const double dt = whole.dt * (1 + n % 3);
-    result.maxima.push_back(run.try_step(dt, stage_signals(part, dopri5_adaptive(), t, dt)));
+    result.maxima.push_back(
+        adaptive(run).try_step(dt, stage_signals(part, dopri5_adaptive(), t, dt)));
     if (n % 4 == 1) continue;
-    run.accept_step();
+    adaptive(run).accept_step();
     t += dt;
   }
   result.state = poisoned(part);
@@ -148,7 +156,8 @@ Tries tries_of(Executor& run, const Problem& whole, const Problem& part) {
   return result;
 }
 
-Tries tries_in_parts(const AdaptiveRun& run, const State& start, int parts, bool is_every_stage, bool is_overlapped) {
+Tries tries_in_parts(const AdaptiveRun& run, const State& start, int parts, bool is_every_stage,
+                     bool is_overlapped) {
   const Decomposition decomposition = decompose(run.problem, "blocks", parts);
   Mailboxes mailboxes;
   std::vector<Tries> own(static_cast<std::size_t>(parts));
@@ -156,18 +165,20 @@ Tries tries_in_parts(const AdaptiveRun& run, const State& start, int parts, bool
   std::vector<std::thread> team;
   for (int p = 0; p < parts; ++p)
     team.emplace_back([&, p] {
-      const Part part = make_part(run.problem, decomposition, p, is_every_stage ? 1 : dopri5_adaptive().stages);
+      const Part part =
+          make_part(run.problem, decomposition, p, is_every_stage ? 1 : dopri5_adaptive().stages);
       LocalHalo halo(part, mailboxes, false);
       const PartSetup setup{part, halo, is_every_stage, is_overlapped};
-      const auto executor = run.plugin.create(
-          {part.problem, dopri5_adaptive(), run.model, run.precision, run.problem.dt, run.threads, &setup});
+      const auto executor = run.plugin.create({part.problem, dopri5_adaptive(), run.model,
+                                               run.precision, run.problem.dt, run.threads, &setup});
       halo.attach(*executor);
       for (const Run& piece : part.runs)
-        executor->write(piece.local, std::span(start).subspan(piece.global * field_count, piece.count * field_count));
+        executor->write(piece.local, std::span(start).subspan(piece.global * field_count,
+                                                              piece.count * field_count));
       own[std::size_t(p)] = tries_of(*executor, run.problem, part.problem);
       for (const Run& piece : part.runs)
-        std::copy_n(&own[std::size_t(p)].state[piece.local * field_count], piece.count * field_count,
-                    &joined.state[piece.global * field_count]);
+        std::copy_n(&own[std::size_t(p)].state[piece.local * field_count],
+                    piece.count * field_count, &joined.state[piece.global * field_count]);
     });
   for (std::thread& thread : team) thread.join();
   joined.maxima = own.front().maxima;
@@ -176,9 +187,11 @@ Tries tries_in_parts(const AdaptiveRun& run, const State& start, int parts, bool
   return joined;
 }
 
-void expect_same_tries_in_parts(const AdaptiveRun& model, AdaptiveRun run, const std::vector<int>& counts) {
+void expect_same_tries_in_parts(const AdaptiveRun& model, AdaptiveRun run,
+                                const std::vector<int>& counts) {
   const State start = start_of(model.problem, model.precision);
-  const auto whole = model.plugin.create({model.problem, dopri5_adaptive(), model.model, model.precision});
+  const auto whole =
+      model.plugin.create({model.problem, dopri5_adaptive(), model.model, model.precision});
   whole->write(0, start);
   const Tries expected = tries_of(*whole, model.problem, model.problem);
   for (const int parts : counts)
@@ -201,7 +214,8 @@ TEST(AdaptiveSteps, of_parts_are_those_of_the_whole) {
     for (const Precision precision : {Precision::f64, Precision::f32c}) {
       SCOPED_TRACE(c.name + ' ' + std::string(name(precision)));
       AdaptiveRun run{load_variant("auto"), c.problem, precision};
-      for (run.threads = 1; run.threads <= 2; ++run.threads) expect_same_tries_in_parts(run, run, {2, 3});
+      for (run.threads = 1; run.threads <= 2; ++run.threads)
+        expect_same_tries_in_parts(run, run, {2, 3});
     }
 }
 
@@ -209,29 +223,37 @@ TEST(AdaptiveSteps, with_one_number_that_is_not_finite_are_told_so) {
   const Problem problem = fixture::make_block(9, 3, 1, LinkLaw::paper);
   for (const std::string& variant : usable_variants()) {
     const Plugin& plugin = load_variant(variant);
-    if (plugin.devices != nullptr || variant == "hybrid") continue; // below; a hybrid chooses among all
+    if (plugin.devices != nullptr || variant == "hybrid")
+      continue; // tested below; a hybrid chooses among all members
     const auto run = plugin.create({problem, dopri5_adaptive()});
     State state(problem.lattice.element_count * field_count, 0.0);
     state[13 * field_count + uy] = std::numeric_limits<double>::infinity();
     run->write(0, state);
-    EXPECT_FALSE(run->try_step(problem.dt, stage_signals(problem, dopri5_adaptive(), 0, problem.dt)).is_finite)
+    EXPECT_FALSE(adaptive(*run)
+                     .try_step(problem.dt, stage_signals(problem, dopri5_adaptive(), 0, problem.dt))
+                     .is_finite)
         << variant;
   }
 }
 
-/// One case each, since PoCL takes seconds to compile a program.
+/// One case each, because PoCL takes seconds to compile a program.
 class AdaptiveOnDevices : public OpenCl {
 protected:
-  static void compare(const char* variant, const Problem& problem, Precision precision, Model model, int bands) {
+  static void compare(const char* variant, const Problem& problem, Precision precision, Model model,
+                      int bands) {
     State start = start_of(problem, precision);
     if (model == Model::planar) start = rounded(flattened(start), Precision::f32);
-    AdaptiveRun run{packs(), problem, precision, model}, other{load_variant(variant), problem, precision, model, bands};
+    AdaptiveRun run{packs(), problem, precision, model},
+        other{load_variant(variant), problem, precision, model, bands};
     expect_same(run.after(start), other.after(start), precision);
     State infinite = start;
     infinite.back() = std::numeric_limits<double>::infinity();
-    const auto executor = other.plugin.create({problem, dopri5_adaptive(), model, precision, problem.dt, bands});
+    const auto executor =
+        other.plugin.create({problem, dopri5_adaptive(), model, precision, problem.dt, bands});
     executor->write(0, infinite);
-    EXPECT_FALSE(executor->try_step(problem.dt, stage_signals(problem, dopri5_adaptive(), 0, problem.dt)).is_finite);
+    EXPECT_FALSE(adaptive(*executor)
+                     .try_step(problem.dt, stage_signals(problem, dopri5_adaptive(), 0, problem.dt))
+                     .is_finite);
   }
 };
 

@@ -1,12 +1,12 @@
 #pragma once
-/// Runs a problem on a variant and compares states: by tolerance with the oracle, to the last bit among variants with
-/// FMA.
+/// Runs a problem on a variant and compares states: with the oracle by tolerance, with variants
+/// with FMA to the last bit.
 #include "solver/model/rotation_vector.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
 #include "tests/fixtures/schemes.hpp"
 #include "variants/engine/layout.hpp"
-#include "variants/loader.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,17 +23,19 @@ inline bool has(std::string_view name) {
 }
 
 inline State poisoned(const Problem& problem) {
-  return State(problem.lattice.element_count * field_count, std::numeric_limits<double>::quiet_NaN());
+  return State(problem.lattice.element_count * field_count,
+               std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Every number as the precision inside holds it, so that the oracle starts from what the variant sees.
+/// Rounds every number to the precision of the variant, so that the oracle starts from the same
+/// state.
 inline State rounded(State state, Precision precision) {
   if (precision == Precision::f32)
     for (double& x : state) x = double(float(x));
   return state;
 }
 
-/// Motions that leave the plane z = const removed: what the planar model can hold.
+/// Removes motions that leave the plane z = const: the part that the planar model can hold.
 inline State flattened(State state) {
   for (std::size_t at = 0; at < state.size(); at += field_count) {
     for (const Field f : {uz, vz, wx, wy}) state[at + f] = 0;
@@ -45,7 +47,8 @@ inline State flattened(State state) {
   return state;
 }
 
-/// What a model can hold of a state: of orientations the part of its rotation vector, or of its rotation in the plane.
+/// The part of a state that a model can hold. Of an orientation, that is the part of its rotation
+/// vector, or of its rotation in the plane.
 inline State restricted(State state, Model model) {
   if (model == Model::planar) return flattened(std::move(state));
   const ModelLayout layout = model_layout(model);
@@ -53,27 +56,34 @@ inline State restricted(State state, Model model) {
     const auto fields = std::span(state).subspan(at, field_count);
     to_rotation_vector(fields);
     for (int f = 0; f < field_count; ++f)
-      if (std::ranges::find(layout.fields, Field(f)) == layout.fields.end()) fields[std::size_t(f)] = 0;
+      if (std::ranges::find(layout.fields, Field(f)) == layout.fields.end())
+        fields[std::size_t(f)] = 0;
     to_quaternion(fields);
   }
   return state;
 }
-/// Likewise of rates at a state that it can hold.
+/// The same for rates at a state that the model can hold.
 inline State restricted_rates(State rates, Model model) {
   const ModelLayout layout = model_layout(model);
   for (std::size_t at = 0; at < rates.size(); ++at) {
     const auto field = Field(at % field_count);
-    if (field != qs && std::ranges::find(layout.fields, field) == layout.fields.end()) rates[at] = 0;
+    if (field != qs && std::ranges::find(layout.fields, field) == layout.fields.end())
+      rates[at] = 0;
   }
   return rates;
 }
 
-/// Whether a variant computes by kernels that are not its own: on devices, by members, on ranks. What kernels do is tested in theirs.
-inline bool is_composed(const Plugin& plugin) { return plugin.kernels == nullptr && !plugin.has_all; }
+/// Whether a variant computes with kernels that are not its own: on devices, by members, on ranks.
+/// Those kernels have tests of their own.
+inline bool is_composed(const Plugin& plugin) {
+  return plugin.kernels == nullptr && !plugin.has_all;
+}
 
-/// Methods for what a variant does by itself: all, but not again where its bits are those of the fastest variant.
+/// Methods that a variant is tested with: all, or few if its bits are those of the fastest variant.
 inline std::vector<Method> distinct_methods(const Plugin& plugin) {
-  return plugin.has_fma && plugin.name != std::string_view(load_variant("auto").name) ? brief_methods() : methods();
+  return plugin.has_fma && plugin.name != std::string_view(load_variant("auto").name)
+             ? brief_methods()
+             : methods();
 }
 
 struct VariantRun {
@@ -85,7 +95,9 @@ struct VariantRun {
   int threads = 1;
   double dt = problem.dt;
 
-  std::unique_ptr<Executor> executor() const { return plugin.create({problem, method, model, precision, dt, threads}); }
+  std::unique_ptr<Executor> executor() const {
+    return plugin.create({problem, method, model, precision, dt, threads});
+  }
   State derivative(const State& state) const {
     const auto run = executor();
     run->write(0, state);
@@ -94,7 +106,7 @@ struct VariantRun {
     run->derivative(std::span(signals).first(signal_count(problem)), rates);
     return rates;
   }
-  /// After `steps` steps, taken in two calls of advance so that a restart between them is always exercised.
+  /// After `steps` steps in two calls of advance, so that a restart between them is always tested.
   State after(const State& state, long steps) const {
     const auto run = executor();
     run->write(0, state);
@@ -107,7 +119,8 @@ struct VariantRun {
   }
 };
 
-/// By the equations of a model; its part of the results, which is all where its degrees of freedom suffice, or where equations are linear.
+/// With the equations of a model: the part of the results that it has. That is all of them if its
+/// degrees of freedom suffice, or if the equations are linear.
 inline State oracle_derivative(const Problem& problem, const Method& method, const State& state,
                                Model model = Model::spatial) {
   Oracle<long double> oracle(problem, method, problem.dt, rotation_of(model));
@@ -116,18 +129,20 @@ inline State oracle_derivative(const Problem& problem, const Method& method, con
   oracle.derivative(0.0, rates);
   return restricted_rates(std::move(rates), model);
 }
-inline State oracle_after(const Problem& problem, const Method& method, const State& state, long steps,
-                          Model model = Model::spatial) {
+inline State oracle_after(const Problem& problem, const Method& method, const State& state,
+                          long steps, Model model = Model::spatial) {
   Oracle<long double> oracle(problem, method, problem.dt, rotation_of(model));
   oracle.write(state);
   oracle.advance(steps);
   State result = poisoned(problem);
   oracle.read(result);
-  return model == Model::planar ? result : restricted(std::move(result), model); // flattening would mend |q|
+  return model == Model::planar
+             ? result
+             : restricted(std::move(result), model); // flattening would repair |q|
 }
 
-/// Largest difference over a group of fields (u, v, q, w), relative to the group's largest magnitude in `expected`; the
-/// worst group. NaN anywhere gives infinity.
+/// Largest difference over a group of fields (u, v, q, w), relative to the group's largest
+/// magnitude in `expected`. The worst group counts. NaN gives infinity.
 inline double relative_error(const State& actual, const State& expected) {
   constexpr int groups[][2] = {{ux, uz}, {vx, vz}, {qs, qz}, {wx, wz}};
   double worst = 0;
@@ -136,16 +151,19 @@ inline double relative_error(const State& actual, const State& expected) {
     for (std::size_t at = 0; at < expected.size(); at += field_count)
       for (int f = from; f <= to; ++f) {
         const double d = std::abs(actual[at + std::size_t(f)] - expected[at + std::size_t(f)]);
-        difference = std::isnan(d) ? std::numeric_limits<double>::infinity() : std::max(difference, d);
+        difference =
+            std::isnan(d) ? std::numeric_limits<double>::infinity() : std::max(difference, d);
         scale = std::max(scale, std::abs(expected[at + std::size_t(f)]));
       }
     if (difference > 0)
-      worst = std::max(worst, scale > 0 ? difference / scale : std::numeric_limits<double>::infinity());
+      worst =
+          std::max(worst, scale > 0 ? difference / scale : std::numeric_limits<double>::infinity());
   }
   return worst;
 }
 
-/// Numbers whose bits differ; -0 counts as 0, and so does what flushing denormals may remove (DESIGN.md section 6).
+/// Counts numbers whose bits differ. -0 counts as 0. So does what flushing denormals may remove
+/// (DESIGN.md section 6).
 inline std::size_t differing_bits(const State& a, const State& b, Precision precision) {
   const double tiny = precision == Precision::f64 ? 0x1p-1000 : 0x1p-120;
   std::size_t count = 0;

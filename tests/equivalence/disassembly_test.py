@@ -1,7 +1,10 @@
 """Disassembles the variant modules and checks which instructions their row kernels hold.
 
-avx512: fused multiply-adds on zmm.  avx2: on ymm, and no zmm anywhere.  scalar: neither FMA nor packed arithmetic in the kernels.
-A module that fails here would measure something else than its name says.
+avx512  fused multiply-adds on zmm
+avx2    fused multiply-adds on ymm, and no zmm anywhere
+scalar  neither FMA nor packed arithmetic in the kernels
+
+A module that fails here would not measure what its name says.
 """
 import re
 import subprocess
@@ -14,8 +17,11 @@ PACKED = re.compile(r"^v?(add|sub|mul|div)p[ds]$|^vf.*p[ds]$")
 
 
 def instructions(module):
-    """Yields (function, mnemonic, operands) of every instruction of a module."""
-    text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", str(module)], check=True, capture_output=True, text=True).stdout
+    """Yields (function, mnemonic, operands) for every instruction of a module."""
+    text = subprocess.run(
+        ["objdump", "-d", "--no-show-raw-insn", str(module)], check=True, capture_output=True,
+        text=True,
+    ).stdout
     function = ""
     for line in text.splitlines():
         header = re.match(r"^[0-9a-f]+ <(.*)>:$", line)
@@ -47,10 +53,12 @@ def main():
     folder = Path(sys.argv[1])
     failures = []
     for variant, checks in {
-        "avx512": [("fma_zmm", lambda n: n > 100, "fused multiply-adds on zmm")],
-        "avx2": [("fma_ymm", lambda n: n > 100, "fused multiply-adds on ymm"), ("zmm", lambda n: n == 0, "no zmm register")],
-        "scalar": [("kernel", lambda n: n > 100, "kernels at all"), ("fma", lambda n: n == 0, "no FMA"),
-                   ("packed", lambda n: n == 0, "no packed arithmetic")],
+            "avx512": [("fma_zmm", lambda n: n > 100, "fused multiply-adds on zmm")],
+            "avx2": [("fma_ymm", lambda n: n > 100, "fused multiply-adds on ymm"),
+                     ("zmm", lambda n: n == 0, "no zmm register")],
+            "scalar": [("kernel", lambda n: n > 100, "kernels at all"),
+                       ("fma", lambda n: n == 0, "no FMA"),
+                       ("packed", lambda n: n == 0, "no packed arithmetic")],
     }.items():
         found = counts(folder / f"{variant}.so")
         for key, holds, meaning in checks:

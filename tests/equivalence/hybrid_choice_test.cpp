@@ -1,4 +1,4 @@
-/// Who the members of a hybrid are: as asked, for tests, or by trials.
+/// Which members a hybrid has: as asked, for tests, or by trials.
 #include "solver/error.hpp"
 #include "tests/equivalence/hybrid_run.hpp"
 #include "variants/hybrid/choice.hpp"
@@ -22,11 +22,12 @@ TEST_F(Hybrid, takes_the_members_of_its_setup_or_its_own) {
       State result = poisoned(problem);
       run->read(0, result);
       EXPECT_EQ(differing_bits(whole, result, Precision::f64), 0u) << members << ' ' << threads;
-      const HybridInfo info = run->hybrid_info();
+      const HybridInfo info = hybrid_info(*run);
       double share = 0;
       for (const auto& entry : info.members) share += entry.share;
       EXPECT_NEAR(share, 1, 1e-12) << members;
-      EXPECT_EQ(info.members.size(), setup.members.empty() || setup.members.find(',') != std::string::npos ? 2u : 1u)
+      EXPECT_EQ(info.members.size(),
+                setup.members.empty() || setup.members.find(',') != std::string::npos ? 2u : 1u)
           << members;
       EXPECT_EQ(info.reason.empty(), setup.members != "auto") << members;
     }
@@ -40,7 +41,7 @@ TEST_F(Hybrid, has_no_more_members_than_rows) {
     setup.members = here("avx512:1,avx2:1,avx2:1");
     const auto run = create_hybrid(setup);
     run->advance(5, signal_rows(on, methods().front(), on.dt, 0, 5));
-    return run->hybrid_info().members.size();
+    return hybrid_info(*run).members.size();
   };
   EXPECT_EQ(members_on(problem), 2u);
   EXPECT_EQ(members_on(row), 1u);
@@ -69,7 +70,7 @@ TEST_F(Hybrid, refuses_members_that_compute_no_parts_or_round_otherwise) {
   }
 }
 
-/// A run of what an automatic choice leaves, from a state that is written first.
+/// A run of the executor that an automatic choice leaves, from a state that is written first.
 State after_choice(const Choice& choice, const dss::Setup& setup, const State& start) {
   const auto made = choice.executor ? nullptr : make_executor(setup, choice.participants);
   Executor& run = choice.executor ? *choice.executor : *made;
@@ -90,13 +91,14 @@ TEST_F(Hybrid, auto_tries_devices_that_may_pay_and_leaves_out_those_that_cannot)
   EXPECT_NE(equals.reason.find("tried: "), std::string::npos) << equals.reason;
   EXPECT_EQ(differing_bits(whole, after_choice(equals, setup, start), Precision::f64), 0u);
   if (!has("reference")) return;
-  const Choice unlike = choose_fastest(setup, {{{"reference", "slow", 1}, &load_variant("reference")}});
+  const Choice unlike =
+      choose_fastest(setup, {{{"reference", "slow", 1}, &load_variant("reference")}});
   ASSERT_EQ(unlike.participants.size(), 1u) << unlike.reason;
   EXPECT_EQ(unlike.participants[0].member.device, "");
   EXPECT_EQ(differing_bits(whole, after_choice(unlike, setup, start), Precision::f64), 0u);
 }
 
-/// More ranks: tests/cli.
+/// tests/cli tests more ranks.
 TEST_F(Hybrid, gives_members_to_ranks) {
   if (!has("mpi")) GTEST_SKIP() << "no mpi";
   const Problem problem = fixture::make_plate(12);
@@ -104,8 +106,8 @@ TEST_F(Hybrid, gives_members_to_ranks) {
   dss::Setup setup{problem, method, Model::spatial, Precision::f64, problem.dt};
   setup.members = here("avx2:2,avx512:1");
   const auto run = load_variant("mpi").create(setup);
-  EXPECT_EQ(run->rank_info().variant, "avx2");
-  EXPECT_EQ(run->rank_info().halo, "deep");
+  EXPECT_EQ(rank_info(*run).variant, "avx2");
+  EXPECT_EQ(rank_info(*run).halo, "deep");
   EXPECT_EQ(run->workers(), 2);
   const State start = fixture::random_state(problem, 11, 1e-4, 0.02, 0.01);
   run->write(0, start);

@@ -1,5 +1,6 @@
 #pragma once
-/// Runs on members of a hybrid. Times of steps are given, not measured, so that moves of elements do not depend on the machine.
+/// Runs on members of a hybrid. Times of steps are given, not measured, so that moves of elements
+/// do not depend on the machine.
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
 #include "variants/hybrid/joint.hpp"
@@ -8,7 +9,7 @@
 
 namespace dss::test {
 
-/// Members where avx512 stands for the widest packs there are.
+/// Members in which avx512 is replaced by the widest packs of this CPU.
 inline std::string here(std::string members) {
   constexpr std::string_view widest = "avx512";
   for (std::size_t at = 0; !has(widest) && (at = members.find(widest)) != std::string::npos;)
@@ -35,8 +36,8 @@ struct JointRun {
   double dt = problem.dt;
 
   std::unique_ptr<JointExecutor> executor() const {
-    return std::make_unique<JointExecutor>(Setup{problem, method, model, precision, dt}, participants_of(members),
-                                           step_time);
+    return std::make_unique<JointExecutor>(Setup{problem, method, model, precision, dt},
+                                           participants_of(members), step_time);
   }
   State after(const State& state, long steps, int* rebalances = nullptr) const {
     const auto run = executor();
@@ -46,12 +47,13 @@ struct JointRun {
     run->advance(steps - first, signal_rows(problem, method, dt, first, steps - first));
     State result = poisoned(problem);
     run->read(0, result);
-    if (rebalances != nullptr) *rebalances = run->hybrid_info().rebalances;
+    if (rebalances != nullptr) *rebalances = hybrid_info(*run).rebalances;
     return result;
   }
 };
 
-/// Seconds a step as if each member were so many times slower than the first, for as many calls; then the other way round.
+/// Times of steps for members that are slow in turn: first member 0, then all others. It changes
+/// every four calls a member. `slowness` is the ratio [1].
 inline StepTime swinging(int members, double slowness) {
   return [members, slowness, calls = 0](std::size_t member, std::size_t elements) mutable {
     const bool is_slow = (calls++ / (4 * members)) % 2 == 0 ? member == 0 : member != 0;

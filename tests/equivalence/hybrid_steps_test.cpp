@@ -1,4 +1,4 @@
-/// What members of a hybrid do beside computing: they keep in balance, and end together.
+/// What members of a hybrid do apart from computing: they keep in balance, and end together.
 #include "solver/numerics/stability.hpp"
 #include "tests/equivalence/hybrid_run.hpp"
 
@@ -7,8 +7,8 @@ namespace {
 
 TEST(Balance, moves_only_by_lasting_evidence_against_the_same_member) {
   Balance balance;
-  for (const std::vector<double>& step_s :
-       std::vector<std::vector<double>>{{1, 2}, {1, 2}, {2, 1}, {1, 2}, {1, 1.04}, {1, 2}, {1, 2}}) {
+  for (const std::vector<double>& step_s : std::vector<std::vector<double>>{
+           {1, 2}, {1, 2}, {2, 1}, {1, 2}, {1, 1.04}, {1, 2}, {1, 2}}) {
     balance.add(step_s);
     EXPECT_FALSE(balance.is_uneven());
   }
@@ -33,11 +33,13 @@ TEST_F(Hybrid, of_wrong_weights_is_balanced_within_200_steps) {
   for (const auto& [members, share] :
        {std::pair("avx512:1=1,avx2:1=9", 0.75), std::pair("avx512:1=9,avx2:1=1", 0.75)}) {
     const JointRun made{problem, methods().front(), members, Precision::f64,
-                        [&](std::size_t m, std::size_t elements) { return seconds_an_element[m] * double(elements); }};
+                        [&](std::size_t m, std::size_t elements) {
+                          return seconds_an_element[m] * double(elements);
+                        }};
     const auto run = made.executor();
     run->write(0, State(problem.lattice.element_count * field_count, 0.0));
     run->advance(200, signal_rows(problem, methods().front(), problem.dt, 0, 200));
-    const HybridInfo info = run->hybrid_info();
+    const HybridInfo info = hybrid_info(*run);
     EXPECT_GE(info.rebalances, 1);
     EXPECT_NEAR(info.members[0].share, share, 0.01) << members;
     EXPECT_NEAR(info.members[0].step_s / info.members[1].step_s, 1, 0.05) << members;
@@ -56,9 +58,10 @@ TEST_F(Hybrid, of_unlinked_bodies_knows_its_times_and_has_the_bits_of_the_whole)
   const auto run = made.executor();
   run->write(0, start);
   run->advance(100, signal_rows(problem, method, problem.dt, 0, 100));
-  for (const HybridInfo::Entry& member : run->hybrid_info().members) EXPECT_GT(member.step_s, 0) << member.member;
-  EXPECT_EQ(differing_bits(VariantRun{plugin_of("avx512"), problem, method}.after(start, 100), made.after(start, 100),
-                           Precision::f64),
+  for (const HybridInfo::Entry& member : hybrid_info(*run).members)
+    EXPECT_GT(member.step_s, 0) << member.member;
+  EXPECT_EQ(differing_bits(VariantRun{plugin_of("avx512"), problem, method}.after(start, 100),
+                           made.after(start, 100), Precision::f64),
             0u);
 }
 
@@ -67,11 +70,12 @@ TEST_F(Hybrid, in_balance_or_with_noise_moves_nothing) {
   int calls = 0;
   const JointRun made{problem, methods().front(), "avx512:1=1,avx2:1=1", Precision::f64,
                       [&](std::size_t, std::size_t elements) {
-                        return 1e-3 * double(elements) * (calls++ % 3 == 0 ? 1.2 : 1); // now the one, now the other
+                        return 1e-3 * double(elements) *
+                               (calls++ % 3 == 0 ? 1.2 : 1); // the members are slow in turn
                       }};
   const auto run = made.executor();
   run->advance(400, signal_rows(problem, methods().front(), problem.dt, 0, 400));
-  EXPECT_EQ(run->hybrid_info().rebalances, 0);
+  EXPECT_EQ(hybrid_info(*run).rebalances, 0);
 }
 
 TEST_F(Hybrid, reports_the_first_failure_of_a_single_executor) {
@@ -87,12 +91,13 @@ TEST_F(Hybrid, reports_the_first_failure_of_a_single_executor) {
       }
       return Outcome{};
     };
-    const Outcome single =
-        failure(*plugin_of("avx512").create({problem, method, Model::spatial, Precision::f64, dt}), 1);
+    const Outcome single = failure(
+        *plugin_of("avx512").create({problem, method, Model::spatial, Precision::f64, dt}), 1);
     ASSERT_FALSE(single.is_finite) << method.name;
     for (const char* members : {"avx512:1,avx2:1", "avx2:2,avx512:1,avx2:1"})
       for (const long at_once : {1L, 7L, 2000L}) {
-        const auto run = JointRun{problem, method, members, Precision::f64, {}, Model::spatial, dt}.executor();
+        const auto run =
+            JointRun{problem, method, members, Precision::f64, {}, Model::spatial, dt}.executor();
         const Outcome joint = failure(*run, at_once);
         EXPECT_FALSE(joint.is_finite) << method.name << ' ' << members;
         EXPECT_EQ(joint.step, single.step) << method.name << ' ' << members << ' ' << at_once;
@@ -102,12 +107,14 @@ TEST_F(Hybrid, reports_the_first_failure_of_a_single_executor) {
 }
 
 /// Gives up in the middle of its steps, while others wait for its halo.
-class QuittingExecutor final : public Executor {
+class QuittingExecutor final : public Executor, public PartHalos {
 public:
   explicit QuittingExecutor(const dss::Setup& setup)
       : width_(signal_count(setup.problem)), stages_(std::size_t(setup.method.stages)),
         right_(load_variant("avx2").create(setup)) {}
-  void write(std::size_t first, std::span<const double> fields) override { right_->write(first, fields); }
+  void write(std::size_t first, std::span<const double> fields) override {
+    right_->write(first, fields);
+  }
   void read(std::size_t first, std::span<double> fields) override { right_->read(first, fields); }
   void derivative(std::span<const double> signals, std::span<double> rates) override {
     right_->derivative(signals, rates);
@@ -122,9 +129,10 @@ public:
   std::string schedule() const override { return right_->schedule(); }
   int workers() const override { return right_->workers(); }
   std::size_t bytes() const override { return right_->bytes(); }
-  int halo_copies() const override { return right_->halo_copies(); }
+  PartHalos* part_halos() override { return this; }
+  int halo_copies() const override { return dss::halo_copies(*right_); }
   HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) override {
-    return right_->halo_layout(elements, copy);
+    return dss::halo_layout(*right_, elements, copy);
   }
 
 private:
@@ -132,15 +140,16 @@ private:
   std::unique_ptr<Executor> right_;
 };
 
-constexpr Plugin quitting{
-    plugin_abi,
-    "quitting",
-    "x86-64-v3",
-    true,
-    true,
-    false,
-    [](const dss::Setup& setup) -> std::unique_ptr<Executor> { return std::make_unique<QuittingExecutor>(setup); },
-    nullptr};
+constexpr Plugin quitting{plugin_abi,
+                          "quitting",
+                          "x86-64-v3",
+                          true,
+                          true,
+                          false,
+                          [](const dss::Setup& setup) -> std::unique_ptr<Executor> {
+                            return std::make_unique<QuittingExecutor>(setup);
+                          },
+                          nullptr};
 
 TEST_F(Hybrid, ends_by_the_exception_of_one_member_and_does_not_wait_for_it) {
   const Problem problem = fixture::make_plate(40);
@@ -162,7 +171,7 @@ TEST_F(Hybrid, ends_by_the_exception_of_one_member_and_does_not_wait_for_it) {
   }
 }
 
-/// Executors of unknown pack width order messages by what their layouts say.
+/// Executors with an unknown pack width order messages by their layouts.
 TEST_F(Hybrid, members_of_unknown_order_of_messages_understand_one_another) {
   const Problem problem = fixture::make_plate(31);
   const Method& method = methods().front();

@@ -1,12 +1,12 @@
-/// The kernel cases as C++: declared costs against counted ones, and every compiled module against long double and
-/// against each other.
+/// The kernel cases as C++. Declared costs must equal counted ones. Every compiled module is
+/// compared with long double and with the other modules.
 #include "kernels/simd/simd.hpp"
 
 #include <cmath>
 
 namespace dss {
 
-/// A number that counts the operations made with it.
+/// A number that counts its operations.
 struct Counted {
   double value = 0;
   static inline int flops = 0;
@@ -18,7 +18,7 @@ struct Counted {
   friend Counted operator/(Counted a, Counted b) { return ++flops, Counted(a.value / b.value); }
   friend Counted operator-(Counted a) { return Counted(-a.value); }
 };
-namespace simd { // before the physics is included: it calls simd::fma by its qualified name
+namespace simd { // must come before the physics, which calls simd::fma by its qualified name
 inline Counted fma(Counted a, Counted b, Counted c) {
   return Counted::flops += 2, Counted(a.value * b.value + c.value);
 }
@@ -30,7 +30,7 @@ inline long double fma(long double a, long double b, long double c) { return a *
 #include "kernels/stage_row/cost.hpp"
 #include "kernels/stage_row/stage_row.hpp"
 #include "tests/equivalence/kernel_operands.hpp"
-#include "variants/loader.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,8 @@ TEST(KernelCases, declare_the_flops_that_they_make) {
   }
 }
 
-/// Flops of one stage of the fused row kernel on an element of the plate's interior, by running it on counting numbers.
+/// Flops of one stage of the fused row kernel, for an element of a plate's interior. The kernel
+/// runs on counting numbers.
 template <class P>
 int stage_flops(row_action action) {
   constexpr Terms terms{.is_damped = true};
@@ -71,7 +72,7 @@ int stage_flops(row_action action) {
     row.run(update);
     return Counted::flops;
   };
-  return count(2) - count(1); // of one element, without what a row begins with
+  return count(2) - count(1); // of one element, without the start of the row
 }
 
 TEST(StageRow, makes_the_flops_that_its_readme_declares) {
@@ -100,12 +101,14 @@ void expect_near_long_double(const Plugin& plugin, const CompiledKernel& kernel,
       long double in[32], out[32];
       for (int n = 0; n < c.inputs; ++n) in[n] = operands.input(n, e);
       c.evaluate(in, out);
-      long double scale = 0; // a result that cancels is no better than its operands
+      long double scale = 0; // a result that cancels is as exact as its operands
       for (int n = 0; n < c.inputs; ++n) scale = std::max(scale, std::abs(in[n]) / 16);
       for (int n = 0; n < c.outputs; ++n) scale = std::max(scale, std::abs(out[n]));
       for (int n = 0; n < c.outputs; ++n)
-        ASSERT_NEAR(double(results[std::size_t(n) * Operands<T>::elements + e] - out[n]), 0, tolerance * double(scale))
-            << plugin.name << ' ' << kernel.name << ' ' << name(kernel.model) << " output " << n << " of element " << e;
+        ASSERT_NEAR(double(results[std::size_t(n) * Operands<T>::elements + e] - out[n]), 0,
+                    tolerance * double(scale))
+            << plugin.name << ' ' << kernel.name << ' ' << name(kernel.model) << " output " << n
+            << " of element " << e;
     }
   }
 }
@@ -114,7 +117,7 @@ TEST(CompiledKernels, agree_with_long_double) {
   for (const Plugin* plugin : plugins_with_kernels())
     for (const CompiledKernel& kernel : plugin->kernels())
       if (kernel.is_row)
-        continue; // tests/runner has them, as microbenchmarks check them
+        continue; // tests/runner checks these, as microbenchmarks do
       else if (kernel.precision == Precision::f64)
         expect_near_long_double<double>(*plugin, kernel, 1e-14);
       else
@@ -135,10 +138,11 @@ TEST(CompiledKernels, are_bitwise_equal_over_the_variants_with_fma) {
     if (first == nullptr) first = plugin;
     for (std::size_t k = 0; k < plugin->kernels().size(); ++k) {
       const CompiledKernel &a = first->kernels()[k], &b = plugin->kernels()[k];
-      if (a.is_row) continue; // of other lanes, other places
-      EXPECT_EQ(a.precision == Precision::f64 ? differing<double>(a, b) : differing<float>(a, b), 0u)
-          << a.name << ' ' << name(a.model) << ' ' << name(a.precision) << ": " << first->name << " and "
-          << plugin->name;
+      if (a.is_row) continue; // other lanes give other places
+      EXPECT_EQ(a.precision == Precision::f64 ? differing<double>(a, b) : differing<float>(a, b),
+                0u)
+          << a.name << ' ' << name(a.model) << ' ' << name(a.precision) << ": " << first->name
+          << " and " << plugin->name;
     }
     ++compared;
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Random operands for kernel cases, aligned for packs, guarded by poison.
+/// Random operands for kernel cases: aligned for packs, with poison around them.
 #include "kernels/compiled_kernel.hpp"
 
 #include <cmath>
@@ -15,13 +15,17 @@ template <class T>
 class Operands {
 public:
   static constexpr std::size_t elements = 1024; // a multiple of every variant's lanes
-  Operands(int inputs, int outputs) : outputs_(outputs), in_(std::size_t(inputs) * elements + line) {
+  Operands(int inputs, int outputs)
+      : outputs_(outputs), in_(std::size_t(inputs) * elements + line) {
     std::mt19937_64 generator(7);
     std::normal_distribution<double> normal(0, 0.3);
-    for (std::size_t n = 0; n < std::size_t(inputs) * elements; ++n) aligned(in_)[n] = T(normal(generator));
+    for (std::size_t n = 0; n < std::size_t(inputs) * elements; ++n)
+      aligned(in_)[n] = T(normal(generator));
   }
   const T* inputs() const { return aligned(in_); }
-  T input(int n, std::size_t element) const { return aligned(in_)[std::size_t(n) * elements + element]; }
+  T input(int n, std::size_t element) const {
+    return aligned(in_)[std::size_t(n) * elements + element];
+  }
   std::size_t output_count() const { return std::size_t(outputs_) * elements; }
   std::vector<T> run(const CompiledKernel& kernel) const {
     std::vector<T> out(output_count() + line, std::numeric_limits<T>::quiet_NaN());
@@ -40,7 +44,7 @@ private:
   std::vector<T> in_;
 };
 
-/// Numbers whose bits differ (NaN differs from everything).
+/// Counts numbers whose bits differ. (NaN differs from everything.)
 template <class T>
 std::size_t count_differing(const std::vector<T>& a, const std::vector<T>& b) {
   std::size_t count = 0;

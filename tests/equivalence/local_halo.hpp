@@ -1,6 +1,6 @@
 #pragma once
 /// A halo whose neighbours are threads of the same process: parts without MPI.
-#include "variants/api.hpp"
+#include "variants/api/api.hpp"
 
 #include <condition_variable>
 #include <cstring>
@@ -25,7 +25,7 @@ public:
     std::unique_lock lock(mutex_);
     auto& box = boxes_[{from, to}];
     for (int yields = 0; yields < most_yields && box.empty();
-         ++yields) { // to sleep and to be woken takes most of a test's time
+         ++yields) { // sleeping and waking would take most of a test's time
       lock.unlock();
       std::this_thread::yield();
       lock.lock();
@@ -48,12 +48,12 @@ public:
   /// @param has_wrong_bit  one bit of every letter is flipped
   LocalHalo(const Part& part, Mailboxes& mailboxes, bool has_wrong_bit)
       : part_(part), mailboxes_(mailboxes), has_wrong_bit_(has_wrong_bit) {}
-  /// All layouts are asked for before the first exchange.
+  /// All layouts must be known before the first exchange.
   void attach(Executor& executor) {
     for (const Neighbour& neighbour : part_.neighbours)
-      for (int copy = 0; copy < executor.halo_copies(); ++copy) {
-        send_[{neighbour.part, copy}] = executor.halo_layout(neighbour.send, copy);
-        receive_[{neighbour.part, copy}] = executor.halo_layout(neighbour.receive, copy);
+      for (int copy = 0; copy < halo_copies(executor); ++copy) {
+        send_[{neighbour.part, copy}] = halo_layout(executor, neighbour.send, copy);
+        receive_[{neighbour.part, copy}] = halo_layout(executor, neighbour.receive, copy);
       }
   }
 
@@ -62,7 +62,8 @@ public:
       if (side_of(part_, neighbour) != side) continue;
       const HaloLayout& layout = send_.at({neighbour.part, copy});
       Mailboxes::Letter letter(layout.size);
-      for (const auto& piece : layout.pieces) std::memcpy(&letter[piece.offset], piece.at, piece.count);
+      for (const auto& piece : layout.pieces)
+        std::memcpy(&letter[piece.offset], piece.at, piece.count);
       if (has_wrong_bit_) letter.back() ^= std::byte(1);
       mailboxes_.put(part_.index, neighbour.part, std::move(letter));
     }
@@ -72,8 +73,10 @@ public:
       if (side_of(part_, neighbour) != side) continue;
       const HaloLayout& layout = receive_.at({neighbour.part, copy});
       const Mailboxes::Letter letter = mailboxes_.take(neighbour.part, part_.index);
-      if (letter.size() != layout.size) throw std::logic_error("the letter is not as long as the halo");
-      for (const auto& piece : layout.pieces) std::memcpy(piece.at, &letter[piece.offset], piece.count);
+      if (letter.size() != layout.size)
+        throw std::logic_error("the letter is not as long as the halo");
+      for (const auto& piece : layout.pieces)
+        std::memcpy(piece.at, &letter[piece.offset], piece.count);
     }
   }
 

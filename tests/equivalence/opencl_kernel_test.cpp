@@ -1,5 +1,5 @@
-/// The OpenCL flavour of the shared physics: every kernel case is built as OpenCL C for the CPU device and gives the
-/// same bits as packs.
+/// The shared physics in OpenCL C: every kernel case is built for the CPU device and must give the
+/// bits of packs.
 #include "tests/equivalence/kernel_operands.hpp"
 #include "tests/equivalence/opencl_run.hpp"
 #include "variants/engine/layout.hpp"
@@ -12,28 +12,33 @@
 namespace dss::test {
 namespace {
 
-/// A file of the tree, with the shared headers that it includes in their place.
+/// A file of the tree with its shared includes expanded.
 std::string shared_header(const std::string& path) {
   std::ifstream file(std::filesystem::path(DSS_SOURCE_DIR) / path);
   EXPECT_TRUE(file) << path;
   std::string text;
   for (std::string line; std::getline(file, line);)
-    text += line.starts_with("#include \"") ? shared_header(line.substr(10, line.size() - 11)) : line + "\n";
+    text += line.starts_with("#include \"") ? shared_header(line.substr(10, line.size() - 11))
+                                            : line + "\n";
   return text;
 }
 
-/// The shared headers of a model over vectors of eight, and a kernel around one case.
+/// The shared headers of a model for vectors of eight, and a kernel around one case.
 std::string program_source(const CompiledKernel& kernel) {
   const std::string scalar = kernel.precision == Precision::f64 ? "double" : "float";
-  std::string source = "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#pragma OPENCL FP_CONTRACT OFF\n";
-  source +=
-      fmt::format("#define REAL {0}8\n#define SPLAT(a) (({0}8)({0})(a))\n#define FMA(a, b, c) fma(a, b, c)\n", scalar);
+  std::string source =
+      "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#pragma OPENCL FP_CONTRACT OFF\n";
+  source += fmt::format(
+      "#define REAL {0}8\n#define SPLAT(a) (({0}8)({0})(a))\n#define FMA(a, b, c) fma(a, b, c)\n",
+      scalar);
   source += fmt::format("#define AXES {}\n", model_layout(kernel.model).axes);
   if (is_of_plane(kernel.model)) source += "#define PLANAR\n";
   if (is_linear(kernel.model)) source += "#define LINEAR\n";
-  source += shared_header(fmt::format("kernels/algebra/{}.h", name(kernel.model))) + shared_header("kernels/laws.h");
-  if (kernel.model == Model::spatial) source += "#define STRESS\n" + shared_header("kernels/stress/stress.h");
-  source += shared_header("kernels/cases.h");
+  source += shared_header(fmt::format("kernels/algebra/{}.h", name(kernel.model))) +
+            shared_header("kernels/laws.h");
+  if (kernel.model == Model::spatial)
+    source += "#define STRESS\n" + shared_header("kernels/stress/stress.h");
+  source += shared_header("kernels/case_functions.h");
   source += fmt::format(R"(
 __kernel void run_case(__global const {0} *in, __global {0} *out, int stride) {{
   REAL operands[{1}], results[{2}];
@@ -47,12 +52,15 @@ __kernel void run_case(__global const {0} *in, __global {0} *out, int stride) {{
 }
 
 template <class T>
-std::vector<T> run_on(opencl::Queue& queue, const CompiledKernel& kernel, const Operands<T>& operands) {
+std::vector<T> run_on(opencl::Queue& queue, const CompiledKernel& kernel,
+                      const Operands<T>& operands) {
   std::vector<T> results(operands.output_count(), std::numeric_limits<T>::quiet_NaN());
   const std::size_t inputs = std::size_t(kernel.inputs) * Operands<T>::elements;
-  const opencl::Buffer in = queue.make_buffer(inputs * sizeof(T)), out = queue.make_buffer(results.size() * sizeof(T));
+  const opencl::Buffer in = queue.make_buffer(inputs * sizeof(T)),
+                       out = queue.make_buffer(results.size() * sizeof(T));
   queue.write(in, 0, std::as_bytes(std::span(operands.inputs(), inputs)));
-  opencl::Kernel entry = queue.make_kernel(opencl::build_program(queue.device(), program_source(kernel)), "run_case");
+  opencl::Kernel entry =
+      queue.make_kernel(opencl::build_program(queue.device(), program_source(kernel)), "run_case");
   entry.set(in, out, cl_int(Operands<T>::elements));
   queue.launch(entry, cl::NDRange(Operands<T>::elements / 8));
   queue.read(out, 0, std::as_writable_bytes(std::span(results)));
@@ -70,10 +78,11 @@ TEST_F(OpenCl, kernels_have_the_bits_of_packs) {
   opencl::Queue queue(opencl::find_device("", Precision::f64));
   for (const CompiledKernel& kernel : packs().kernels())
     if (!kernel.is_row) {
-      EXPECT_EQ(kernel.precision == Precision::f64 ? differing<double>(queue, kernel) : differing<float>(queue, kernel),
+      EXPECT_EQ(kernel.precision == Precision::f64 ? differing<double>(queue, kernel)
+                                                   : differing<float>(queue, kernel),
                 0u)
-          << kernel.name << ' ' << name(kernel.model) << ' ' << name(kernel.precision) << ": OpenCL and "
-          << packs().name;
+          << kernel.name << ' ' << name(kernel.model) << ' ' << name(kernel.precision)
+          << ": OpenCL and " << packs().name;
     }
 }
 

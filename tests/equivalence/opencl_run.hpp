@@ -1,5 +1,6 @@
 #pragma once
-/// Tests of the OpenCL variants: skipped where there is no device, and what a device may be taken for.
+/// Shared by tests of the OpenCL variants. They are skipped without a device, and may use a device
+/// as one of another kind.
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
 
@@ -8,7 +9,7 @@
 
 namespace dss::test {
 
-/// While it lives, executors take the device for one of another kind.
+/// While this object lives, executors use the device as one of another kind.
 class DeviceAs {
 public:
   explicit DeviceAs(const char* kind) { ::setenv(variable, kind, 1); }
@@ -26,7 +27,7 @@ protected:
     if (!has("opencl")) GTEST_SKIP() << "opencl is not here";
     if (!packs().has_fma) GTEST_SKIP() << packs().name << " has no FMA";
   }
-  /// The fastest variant of the CPU: the model of all bits.
+  /// The fastest variant of the CPU gives the expected bits.
   static const Plugin& packs() { return load_variant("auto"); }
 };
 
@@ -46,12 +47,13 @@ inline std::vector<NamedProblem> problems_of_all_terms() {
           {"bars", fixture::make_bars(4, 37, LinkLaw::material), false, true}};
 }
 
-/// Whether a problem is run in a model and scheme: each pairing is a program of its own, which PoCL compiles for seconds. Every scheme where all terms are, those
-/// that most runs take on the plate, and every other problem once; rare models once each, one of them in both families of methods.
+/// Whether a problem is run in a model and scheme. Each pairing is a program that PoCL compiles for
+/// seconds. Every scheme runs the problem with all terms, common ones run the plate, every other
+/// problem runs once. Rare models run once each, one of them in both families of methods.
 inline bool is_run(const NamedProblem& c, Model model, const Scheme& scheme) {
   const bool is_f64 = scheme.precision == Precision::f64, is_rk4 = scheme.method.name == "rk4";
   const bool is_leapfrog = is_f64 && scheme.method.is_staggered();
-  if (c.is_bar) // undamped: where leapfrogs hold no half-step velocities
+  if (c.is_bar) // undamped: leapfrogs hold no half-step velocities
     return model == Model::axial && ((is_f64 && is_rk4) || scheme.method.is_staggered());
   if (model == Model::spatial) {
     if (c.name == "everything") return true;
@@ -64,7 +66,8 @@ inline bool is_run(const NamedProblem& c, Model model, const Scheme& scheme) {
   return c.name == (degrees_of(model) != dof_all ? "flat_everything" : "everything");
 }
 
-/// Calls visit(problem, run of `plugin`, start of the run) for every problem, model, precision and method.
+/// Calls visit(problem, run of `plugin`, start of the run) for every problem, model, precision and
+/// method.
 template <class Visit>
 void each_run(const Plugin& plugin, Visit&& visit) {
   for (const NamedProblem& c : problems_of_all_terms())
@@ -72,9 +75,10 @@ void each_run(const Plugin& plugin, Visit&& visit) {
       for (const auto& [method, precision] : brief_schemes()) {
         if (!is_run(c, model, {method, precision})) continue;
         const State start = fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01);
-        SCOPED_TRACE(c.name + ' ' + std::string(name(model)) + ' ' + std::string(name(precision)) + ' ' +
-                     std::string(method.name));
-        visit(VariantRun{plugin, c.problem, method, model, precision}, rounded(restricted(start, model), precision));
+        SCOPED_TRACE(c.name + ' ' + std::string(name(model)) + ' ' + std::string(name(precision)) +
+                     ' ' + std::string(method.name));
+        visit(VariantRun{plugin, c.problem, method, model, precision},
+              rounded(restricted(start, model), precision));
       }
 }
 

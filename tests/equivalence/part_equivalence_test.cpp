@@ -1,5 +1,6 @@
-/// Parts with halos, exchanged within this process, against the whole: equal to the last bit, whatever the
-/// decomposition, the schedule of exchanges and the threads. What messages do on top: dssbench verify --ranks, tests/cli/ranks_test.py.
+/// Parts with halos that are exchanged within this process, against the whole: equal to the last
+/// bit for any decomposition, schedule of exchanges and threads. dssbench verify --ranks and
+/// tests/cli/ranks_test.py add messages.
 #include "solver/decomposition/decomposition.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/equivalence/local_halo.hpp"
@@ -27,7 +28,8 @@ std::vector<Case> cases() {
           {"column", fixture::make_block(3, 2, 40, LinkLaw::paper)}};
 }
 
-/// What all parts do, each in its thread: the state after a run in two calls, or the derivative.
+/// Runs all parts, each in its thread. Returns the state after a run in two calls, or the
+/// derivative.
 struct PartsRun {
   const Plugin& plugin;
   const Problem& problem;
@@ -49,14 +51,16 @@ struct PartsRun {
       team.emplace_back([&] {
         LocalHalo halo(part, mailboxes, has_wrong_bit);
         const PartSetup setup{part, halo, is_every_stage, is_overlapped};
-        const auto executor =
-            plugin.create({part.problem, method, Model::spatial, precision, problem.dt, threads, &setup});
+        const auto executor = plugin.create(
+            {part.problem, method, Model::spatial, precision, problem.dt, threads, &setup});
         halo.attach(*executor);
         for (const Run& run : part.runs)
-          executor->write(run.local, std::span(state).subspan(run.global * field_count, run.count * field_count));
+          executor->write(run.local, std::span(state).subspan(run.global * field_count,
+                                                              run.count * field_count));
         const State own = act(*executor, part);
         for (const Run& run : part.runs)
-          std::copy_n(&own[run.local * field_count], run.count * field_count, &result[run.global * field_count]);
+          std::copy_n(&own[run.local * field_count], run.count * field_count,
+                      &result[run.global * field_count]);
       });
     for (std::thread& thread : team) thread.join();
     return result;
@@ -65,7 +69,8 @@ struct PartsRun {
     return run(decomposition, state, [&](Executor& executor, const Part& part) {
       const long first = steps / 3;
       executor.advance(first, signal_rows(problem, method, problem.dt, 0, first));
-      executor.advance(steps - first, signal_rows(problem, method, problem.dt, first, steps - first));
+      executor.advance(steps - first,
+                       signal_rows(problem, method, problem.dt, first, steps - first));
       State own = poisoned(part.problem);
       executor.read(0, own);
       return own;
@@ -92,7 +97,7 @@ class Parts : public testing::TestWithParam<std::string> {
 protected:
   const Plugin& plugin = load_variant(GetParam());
   void SetUp() override {
-    if (plugin.create({fixture_problem_, methods().front()})->halo_copies() == 0)
+    if (halo_copies(*plugin.create({fixture_problem_, methods().front()})) == 0)
       GTEST_SKIP() << plugin.name << " does not compute parts";
   }
 
@@ -101,7 +106,8 @@ private:
 };
 
 TEST_P(Parts, make_up_the_whole_to_the_last_bit) {
-  const bool is_on_device = plugin.devices != nullptr; // a launch takes there what all steps of a run take here
+  const bool is_on_device =
+      plugin.devices != nullptr; // a launch takes as long there as a whole run here
   const bool is_fastest = plugin.name == std::string_view(load_variant("auto").name);
   const std::vector<int> counts = is_fastest ? std::vector{2, 3, 4} : std::vector{3};
   for (const Case& c : cases())
@@ -109,16 +115,22 @@ TEST_P(Parts, make_up_the_whole_to_the_last_bit) {
       const bool is_first = precision == Precision::f64 && method.name == "rk4";
       if (is_on_device && !is_first && c.name != "everything") continue;
       const State start = rounded(fixture::random_state(c.problem, 4, 1e-4, 0.02, 0.01), precision);
-      const State whole = VariantRun{plugin, c.problem, method, Model::spatial, precision}.after(start, 30);
+      const State whole =
+          VariantRun{plugin, c.problem, method, Model::spatial, precision}.after(start, 30);
       for (const std::string_view how : usable_methods())
         for (const int parts : counts)
           for (const bool is_every_stage : {false, true})
             for (const bool is_overlapped : {false, true}) {
               if (how == "strips" && std::size_t(parts) > c.problem.lattice.rows.size()) continue;
-              const PartsRun run{plugin, c.problem, method, precision, is_every_stage, is_overlapped};
-              EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, parts), start, 30), precision), 0u)
-                  << c.name << ' ' << name(precision) << ' ' << method.name << ", " << parts << ' ' << how
-                  << (is_every_stage ? ", every stage" : ", every step") << (is_overlapped ? ", overlapped" : "");
+              const PartsRun run{plugin,    c.problem,      method,
+                                 precision, is_every_stage, is_overlapped};
+              EXPECT_EQ(differing_bits(whole,
+                                       run.after(decompose(c.problem, how, parts), start, 30),
+                                       precision),
+                        0u)
+                  << c.name << ' ' << name(precision) << ' ' << method.name << ", " << parts << ' '
+                  << how << (is_every_stage ? ", every stage" : ", every step")
+                  << (is_overlapped ? ", overlapped" : "");
             }
     }
 }
@@ -128,8 +140,8 @@ TEST_P(Parts, have_the_derivative_of_the_whole) {
     for (const std::string_view how : usable_methods()) {
       const State start = fixture::random_state(c.problem, 5);
       const State whole = VariantRun{plugin, c.problem, methods().front()}.derivative(start);
-      const State parts =
-          PartsRun{plugin, c.problem, methods().front()}.derivative(decompose(c.problem, how, 3), start);
+      const State parts = PartsRun{plugin, c.problem, methods().front()}.derivative(
+          decompose(c.problem, how, 3), start);
       EXPECT_EQ(differing_bits(whole, parts, Precision::f64), 0u) << c.name << ' ' << how;
     }
 }
@@ -142,16 +154,21 @@ TEST_P(Parts, of_several_threads_make_up_the_whole) {
           const State start = fixture::random_state(c.problem, 6, 1e-4, 0.02, 0.01);
           const State whole = VariantRun{plugin, c.problem, method}.after(start, 12);
           const PartsRun run{plugin, c.problem, method, Precision::f64, is_every_stage, true, 3};
-          EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, 2), start, 12), Precision::f64), 0u)
-              << c.name << ' ' << method.name << ' ' << how << (is_every_stage ? ", every stage" : "");
+          EXPECT_EQ(differing_bits(whole, run.after(decompose(c.problem, how, 2), start, 12),
+                                   Precision::f64),
+                    0u)
+              << c.name << ' ' << method.name << ' ' << how
+              << (is_every_stage ? ", every stage" : "");
         }
 }
 
-/// Halos then have images, and edges and the rest of a part their own queues, if the halo has no elements among the own rows.
+/// Halos then have images. Edges and rest of a part have queues of their own, if no halo element
+/// lies in an own row.
 TEST_F(OpenCl, parts_on_a_device_with_memory_of_its_own_make_up_the_whole) {
   const Plugin& plugin = load_variant("opencl");
   const DeviceAs device("discrete");
-  const Problem problem = fixture::make_block(37, 40, 1, LinkLaw::paper), joint = fixture::make_everything();
+  const Problem problem = fixture::make_block(37, 40, 1, LinkLaw::paper),
+                joint = fixture::make_everything();
   for (const Problem* const p : {&problem, &joint})
     for (const Method& method : brief_methods()) {
       const State start = fixture::random_state(*p, 4, 1e-4, 0.02, 0.01);
@@ -160,28 +177,33 @@ TEST_F(OpenCl, parts_on_a_device_with_memory_of_its_own_make_up_the_whole) {
         for (const bool is_every_stage : {false, true})
           for (const bool is_overlapped : {false, true}) {
             const PartsRun run{plugin, *p, method, Precision::f64, is_every_stage, is_overlapped};
-            EXPECT_EQ(differing_bits(whole, run.after(decompose(*p, how, parts), start, 30), Precision::f64), 0u)
-                << p->name << ' ' << method.name << ' ' << how << (is_every_stage ? ", every stage" : "")
-                << (is_overlapped ? ", overlapped" : "");
+            EXPECT_EQ(differing_bits(whole, run.after(decompose(*p, how, parts), start, 30),
+                                     Precision::f64),
+                      0u)
+                << p->name << ' ' << method.name << ' ' << how
+                << (is_every_stage ? ", every stage" : "") << (is_overlapped ? ", overlapped" : "");
           }
     }
 }
 
-/// The comparison must be able to fail.
+/// Checks that the comparison can fail.
 TEST_P(Parts, with_one_bit_of_a_halo_wrong_are_noticed) {
   const Problem problem = fixture::make_plate(13);
   const State start = fixture::random_state(problem, 7, 1e-4, 0.02, 0.01);
   const State whole = VariantRun{plugin, problem, methods().front()}.after(start, 12);
   PartsRun run{plugin, problem, methods().front()};
   run.has_wrong_bit = true;
-  EXPECT_GT(differing_bits(whole, run.after(decompose(problem, "strips", 2), start, 12), Precision::f64), 0u);
+  EXPECT_GT(
+      differing_bits(whole, run.after(decompose(problem, "strips", 2), start, 12), Precision::f64),
+      0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, Parts, testing::ValuesIn(usable_variants()), [](const auto& registered) {
-  std::string name = registered.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Registry, Parts, testing::ValuesIn(usable_variants()),
+                         [](const auto& registered) {
+                           std::string name = registered.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 } // namespace
 } // namespace dss::test

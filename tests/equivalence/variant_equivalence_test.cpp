@@ -1,6 +1,6 @@
-/// Every variant against the oracle, and against each other: one parametrised test over the registry, so that a new
-/// variant is tested because it exists. Problems are built in code and cover every term; the shipped scenes are covered
-/// by `dssbench verify`.
+/// Every variant against the oracle and against each other. One parametrised test runs over the
+/// registry, so a new variant is tested because it exists. Problems are built in code and cover
+/// every term. `dssbench verify` covers the shipped scenes.
 #include "solver/numerics/stability.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
@@ -14,9 +14,9 @@
 namespace dss::test {
 namespace {
 
-/// The two that most runs take, with every method.
+/// The two most common models, with every method.
 bool is_common(Model model) { return model == Model::spatial || model == Model::planar; }
-/// Of this build.
+/// The models of this build.
 #ifdef DSS_FEWER_MODELS
 bool is_built(Model model) { return model != Model::small && model != Model::linear; }
 #else
@@ -27,12 +27,13 @@ struct Case {
   std::string name;
   Problem problem;
   bool is_flat = false; ///< one element thick, all extra links in the plane
-  double gap = 0.02;    ///< of random states, in the scale of the problem's elements [m]
-  bool is_bar = false;  ///< linked along x alone; for the axial model
-  bool is_bent = false; ///< flat, and what acts leaves the plane, which finite rotations would feel within it
+  double gap = 0.02;    ///< of random states, for the size of the problem's elements [m]
+  bool is_bar = false;  ///< linked along x only, for the axial model
+  bool is_bent =
+      false; ///< flat, with loads across the plane; finite rotations would feel them within it
 
-  /// Where a model's equations are those of a larger one, without what it lacks: linear ones fall apart into those of a bar, of bending and
-  /// of the plane.
+  /// Whether the equations of a model are those of a larger one without the missing parts. Linear
+  /// equations split into those of a bar, of bending and of the plane.
   bool has(Model model) const {
     if (!is_built(model)) return false;
     if (is_bar || model == Model::axial) return is_bar && model == Model::axial;
@@ -41,60 +42,66 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  std::vector<Case> all{{"plate", fixture::make_plate(12), true, 1e-3},
-                        {"everything", fixture::make_everything()},
-                        {"flat_everything", fixture::make_flat_everything(), true},
-                        {"across_the_plane", fixture::make_flat_everything(true), false, 0.02, false, true},
-                        {"pair", fixture::make_pair(LinkLaw::paper)},
-                        {"damped_joint", fixture::make_damped_joint()},
-                        {"sponge", fixture::make_sponge(21, 6, 5, LinkLaw::paper, 1)},
-                        {"material_sponge", fixture::make_sponge(13, 7, 3, LinkLaw::material, 2)},
-                        {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::paper, 3), true},
-                        {"tumbling_box", fixture::make_tumbling_box(1)},
-                        {"bar", fixture::make_block(37, 1, 1, LinkLaw::paper), false, 0.02, true},
-                        {"undamped_bar", fixture::make_block(21, 1, 1, LinkLaw::material, 0), false, 0.02, true}};
+  std::vector<Case> all{
+      {"plate", fixture::make_plate(12), true, 1e-3},
+      {"everything", fixture::make_everything()},
+      {"flat_everything", fixture::make_flat_everything(), true},
+      {"across_the_plane", fixture::make_flat_everything(true), false, 0.02, false, true},
+      {"pair", fixture::make_pair(LinkLaw::paper)},
+      {"damped_joint", fixture::make_damped_joint()},
+      {"sponge", fixture::make_sponge(21, 6, 5, LinkLaw::paper, 1)},
+      {"material_sponge", fixture::make_sponge(13, 7, 3, LinkLaw::material, 2)},
+      {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::paper, 3), true},
+      {"tumbling_box", fixture::make_tumbling_box(1)},
+      {"bar", fixture::make_block(37, 1, 1, LinkLaw::paper), false, 0.02, true},
+      {"undamped_bar", fixture::make_block(21, 1, 1, LinkLaw::material, 0), false, 0.02, true}};
   for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material}) {
     const std::string suffix = law == LinkLaw::paper ? "_paper" : "_material";
     all.push_back({"undamped" + suffix, fixture::make_block(5, 4, 3, law, 0)});
     all.push_back({"sheet" + suffix, fixture::make_block(19, 6, 1, law), true});
     all.push_back({"lean_sheet" + suffix, fixture::make_lean_sheet(19, 6, law), true});
-    for (const int n :
-         {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31}) // awkward sizes: around the lanes of every variant, and primes
-      all.push_back({"row_of_" + std::to_string(n) + suffix, fixture::make_block(n, 2, n < 6 ? n : 1, law)});
+    for (const int n : {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17,
+                        31}) // awkward sizes: near the lanes of every variant, and primes
+      all.push_back(
+          {"row_of_" + std::to_string(n) + suffix, fixture::make_block(n, 2, n < 6 ? n : 1, law)});
   }
   return all;
 }
 
 bool is_row_for_all(const Case& c) {
-  return c.name == "row_of_1_paper" || c.name == "row_of_7_material" || c.name == "row_of_16_paper" ||
-         c.name == "row_of_17_material";
+  return c.name == "row_of_1_paper" || c.name == "row_of_7_material" ||
+         c.name == "row_of_16_paper" || c.name == "row_of_17_material";
 }
 
-/// A variant, and what of the cases is for it.
+/// A variant, and which cases it runs.
 struct TestedVariant {
   const Plugin& plugin;
 
-  /// Rows of awkward sizes, and all problems on devices and in hybrids, in the models that most runs take; devices compile each model of each. Of those
-  /// rows what computes by other variants takes some: of one element, and of packs that are full, one short and one over.
+  /// Rows of awkward sizes run in the two common models. So do all problems on devices and in
+  /// hybrids, because devices compile each model of each problem. Variants that compute by others
+  /// take a few of these rows: one element, and packs that are full, one short, one over.
   std::vector<Model> tested_models(const Case& c) const {
     const bool is_row = c.name.starts_with("row_of");
     if (is_composed(plugin) && ((is_row && !is_row_for_all(c)) || !is_for_joined(c))) return {};
     std::vector<Model> tested;
     for (const Model model : models)
-      if (c.has(model) && (is_common(model) || !(is_composed(plugin) || is_row))) tested.push_back(model);
+      if (c.has(model) && (is_common(model) || !(is_composed(plugin) || is_row)))
+        tested.push_back(model);
     return tested;
   }
-  /// Hybrids and ranks have tests of their own, and members that all cases are for.
+  /// Hybrids and ranks have tests of their own. Their members run all cases.
   bool is_for_joined(const Case& c) const {
-    return plugin.devices != nullptr || c.name == "plate" || c.name == "everything" || c.name == "sponge" ||
-           c.name == "lean_sheet_paper";
+    return plugin.devices != nullptr || c.name == "plate" || c.name == "everything" ||
+           c.name == "sponge" || c.name == "lean_sheet_paper";
   }
-  /// What devices compile for: every pairing where all terms are, and on the paper's plate; elsewhere the first, and where forces do not depend on
-  /// velocities the other family, which then holds no half-step velocities.
+  /// What devices compile: every pairing for the problem with all terms and for the paper's plate.
+  /// Other problems take the first pairing. If forces do not depend on velocities, they also take
+  /// the other family, which then holds no half-step velocities.
   std::vector<Scheme> composed_schemes(const Case& c) const {
     if (c.name == "plate" || c.name == "everything") return device_schemes();
     std::vector<Scheme> first{{*find_method("rk4"), Precision::f64}};
-    if (c.name == "lean_sheet_paper") first.push_back({*find_method("velocity_verlet"), Precision::f64});
+    if (c.name == "lean_sheet_paper")
+      first.push_back({*find_method("velocity_verlet"), Precision::f64});
     return first;
   }
   std::vector<Scheme> tested_schemes(const Case& c, Model model) const {
@@ -118,10 +125,12 @@ TEST_P(EveryVariant, agrees_with_the_oracle_after_one_evaluation_of_a_random_sta
   for (const Case& c : cases())
     for (const Model model : tested_models(c))
       for (const Precision precision : {Precision::f64, Precision::f32}) {
-        if (is_composed(plugin) && precision == Precision::f32 && composed_schemes(c).size() < 3) continue;
-        const Method& method = methods().front(); // no method has a part in it
+        if (is_composed(plugin) && precision == Precision::f32 && composed_schemes(c).size() < 3)
+          continue;
+        const Method& method = methods().front(); // the method does not matter here
         const State state = start(c, model, precision, 1);
-        const State rates = VariantRun{plugin, c.problem, method, model, precision}.derivative(state);
+        const State rates =
+            VariantRun{plugin, c.problem, method, model, precision}.derivative(state);
         const double error = relative_error(plugin.has_all ? restricted_rates(rates, model) : rates,
                                             oracle_derivative(c.problem, method, state, model));
         EXPECT_LE(error, precision == Precision::f64 ? 1e-13 : 1e-5)
@@ -129,7 +138,7 @@ TEST_P(EveryVariant, agrees_with_the_oracle_after_one_evaluation_of_a_random_sta
       }
 }
 
-/// In one test, since the oracle's runs take longer than those of all variants.
+/// One test for all variants, because the oracle's runs take longest.
 TEST(Variants, agree_with_the_oracle_after_a_run_from_a_moderate_state) {
   for (const Case& c : cases()) {
     std::map<std::tuple<Model, std::string_view, Precision>, State> expected;
@@ -137,15 +146,18 @@ TEST(Variants, agree_with_the_oracle_after_a_run_from_a_moderate_state) {
       const TestedVariant tested{load_variant(variant)};
       for (const Model model : tested.tested_models(c))
         for (const auto& [method, precision] : tested.tested_schemes(c, model)) {
-          const State state =
-              rounded(restricted(fixture::random_state(c.problem, 2, c.gap * 0.01, 0.02, 0.01), model), precision);
-          const State end = VariantRun{tested.plugin, c.problem, method, model, precision}.after(state, 60);
+          const State state = rounded(
+              restricted(fixture::random_state(c.problem, 2, c.gap * 0.01, 0.02, 0.01), model),
+              precision);
+          const State end =
+              VariantRun{tested.plugin, c.problem, method, model, precision}.after(state, 60);
           State& of_oracle = expected[{model, method.name, precision}];
           if (of_oracle.empty()) of_oracle = oracle_after(c.problem, method, state, 60, model);
           const bool is_whole = tested.plugin.has_all && !is_common(model);
           EXPECT_LE(relative_error(is_whole ? restricted(end, model) : end, of_oracle),
                     precision == Precision::f64 ? 1e-10 : 2e-3)
-              << variant << ' ' << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name;
+              << variant << ' ' << c.name << ' ' << name(model) << ' ' << name(precision) << ' '
+              << method.name;
         }
     }
   }
@@ -153,24 +165,31 @@ TEST(Variants, agree_with_the_oracle_after_a_run_from_a_moderate_state) {
 
 TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
   if (!plugin.is_threaded) GTEST_SKIP() << "not threaded";
-  const bool is_on_device = is_composed(plugin); // each may be a device of its own there, which takes time to make
+  const bool is_on_device =
+      is_composed(plugin); // each may make a device of its own, which takes time
   const std::vector<int> counts = is_on_device ? std::vector{2, 7} : std::vector{2, 3, 4, 7};
   for (const Case& c : cases())
     for (const auto& [method, precision] : is_on_device ? composed_schemes(c) : brief_schemes()) {
-      if (is_on_device && ((c.name.starts_with("row_of") && !c.name.starts_with("row_of_17")) || !is_for_joined(c)))
+      if (is_on_device &&
+          ((c.name.starts_with("row_of") && !c.name.starts_with("row_of_17")) || !is_for_joined(c)))
         continue;
-      const State state = rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
-      const State one = VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
+      const State state =
+          rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
+      const State one =
+          VariantRun{plugin, c.problem, method, Model::spatial, precision, 1}.after(state, 20);
       for (const int threads : counts)
         EXPECT_EQ(differing_bits(
-                      one, (VariantRun{plugin, c.problem, method, Model::spatial, precision, threads}).after(state, 20),
+                      one,
+                      (VariantRun{plugin, c.problem, method, Model::spatial, precision, threads})
+                          .after(state, 20),
                       precision),
                   0u)
-            << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << threads << " threads";
+            << c.name << ' ' << name(precision) << ' ' << method.name << ' ' << threads
+            << " threads";
     }
 }
 
-/// With a load, a base acceleration and clamps in the middle, where teams of threads are cut.
+/// Teams of threads are cut in the middle, where there are a load, a base acceleration and clamps.
 Problem driven(Problem problem) {
   const std::size_t middle = problem.lattice.element_count / 2;
   Signal harmonic;
@@ -182,8 +201,8 @@ Problem driven(Problem problem) {
   return problem;
 }
 
-/// So many rows that threads make several steps of a method in place in one pass: long rows beside short ones, several planes, rows that
-/// nothing joins.
+/// So many rows that threads make several steps of a method in place in one pass: long and short
+/// rows, several planes, rows without links.
 std::vector<Problem> long_blocks() {
   Problem uneven = fixture::make_block(40, 24, 1, LinkLaw::paper);
   fixture::add_block(uneven, fixture::soft_body(LinkLaw::paper), 2, 200, 1);
@@ -192,8 +211,10 @@ std::vector<Problem> long_blocks() {
           fixture::make_bars(9, 5, LinkLaw::paper)};
 }
 
-/// After 29 steps by teams of so many threads, each of which goes on from where the one before was.
-State by_teams(const Plugin& plugin, const Problem& problem, const Scheme& scheme, const std::vector<int>& teams) {
+/// After 29 steps by teams of these numbers of threads. Each team continues where the last one
+/// stopped.
+State by_teams(const Plugin& plugin, const Problem& problem, const Scheme& scheme,
+               const std::vector<int>& teams) {
   const Method& method = scheme.method;
   const auto executor = [&](int threads) {
     return plugin.create({problem, method, Model::spatial, scheme.precision, problem.dt, threads});
@@ -201,17 +222,20 @@ State by_teams(const Plugin& plugin, const Problem& problem, const Scheme& schem
   State state = rounded(fixture::random_state(problem, 3, 2e-4, 0.02, 0.01), scheme.precision);
   auto run = executor(teams.front());
   run->write(0, state);
-  const std::vector<long> calls = teams.size() == 1 ? std::vector<long>{29} : std::vector<long>{1, 9, 3, 7, 9};
+  const std::vector<long> calls =
+      teams.size() == 1 ? std::vector<long>{29} : std::vector<long>{1, 9, 3, 7, 9};
   long done = 0;
   for (std::size_t call = 0; call < teams.size(); ++call) {
     if (call > 0) {
-      std::vector<double> kept(problem.lattice.element_count * std::size_t(run->kept_fields()));
+      std::vector<double> kept(problem.lattice.element_count * std::size_t(kept_fields(*run)));
       run->read(0, state); // must change nothing
-      run->save(0, kept);
+      save(*run, 0, kept);
       run = executor(teams[call]);
-      run->restore(0, kept);
+      restore(*run, 0, kept);
     }
-    EXPECT_TRUE(run->advance(calls[call], signal_rows(problem, method, problem.dt, done, calls[call])).is_finite);
+    EXPECT_TRUE(
+        run->advance(calls[call], signal_rows(problem, method, problem.dt, done, calls[call]))
+            .is_finite);
     done += calls[call];
   }
   run->read(0, state);
@@ -219,10 +243,13 @@ State by_teams(const Plugin& plugin, const Problem& problem, const Scheme& schem
 }
 
 TEST_P(EveryVariant, has_bitwise_equal_states_where_threads_make_several_steps_at_once) {
-  if (!plugin.is_threaded || is_composed(plugin)) GTEST_SKIP() << "has teams of others, or makes one step a pass";
+  if (!plugin.is_threaded || is_composed(plugin))
+    GTEST_SKIP() << "has teams of others, or makes one step a pass";
   const std::vector<Problem> problems = long_blocks();
   for (const Scheme& scheme : schemes()) {
-    if (!scheme.method.is_in_place() || (scheme.precision == Precision::f32c && !plugin.is_compensated)) continue;
+    if (!scheme.method.is_in_place() ||
+        (scheme.precision == Precision::f32c && !plugin.is_compensated))
+      continue;
     const Problem& first = problems.front();
     EXPECT_NE(plugin.create({first, scheme.method, Model::spatial, scheme.precision, first.dt, 3})
                   ->schedule()
@@ -230,8 +257,10 @@ TEST_P(EveryVariant, has_bitwise_equal_states_where_threads_make_several_steps_a
               std::string::npos);
     for (const Problem& problem : problems) {
       const State one = by_teams(plugin, problem, scheme, {1});
-      for (const auto& teams : {std::vector<int>{2}, std::vector<int>{3}, std::vector<int>{2, 5, 3, 1, 2}})
-        EXPECT_EQ(differing_bits(one, by_teams(plugin, problem, scheme, teams), scheme.precision), 0u)
+      for (const auto& teams :
+           {std::vector<int>{2}, std::vector<int>{3}, std::vector<int>{2, 5, 3, 1, 2}})
+        EXPECT_EQ(differing_bits(one, by_teams(plugin, problem, scheme, teams), scheme.precision),
+                  0u)
             << name(scheme.precision) << ' ' << scheme.method.name << ", teams of "
             << fmt::format("{}", fmt::join(teams, ", "));
     }
@@ -252,20 +281,22 @@ TEST_P(EveryVariant, reports_the_step_and_element_of_the_first_non_finite_state)
     for (const int threads : {1, 3}) {
       State state(problem.lattice.element_count * field_count, 0.0);
       state[13 * field_count + uy] = std::numeric_limits<double>::infinity();
-      const auto run = plugin.create(
-          {problem, method, Model::spatial, Precision::f64, problem.dt, plugin.is_threaded ? threads : 1});
+      const auto run = plugin.create({problem, method, Model::spatial, Precision::f64, problem.dt,
+                                      plugin.is_threaded ? threads : 1});
       run->write(0, state);
       const Outcome outcome = run->advance(10, signal_rows(problem, method, problem.dt, 0, 10));
       EXPECT_FALSE(outcome.is_finite) << method.name;
       EXPECT_EQ(outcome.step, 0) << method.name;
       EXPECT_LE(outcome.element, 13u + 9u)
-          << method.name; // the element itself or a neighbour that it reached within the step
+          << method.name; // the element itself, or a neighbour that it reached within the step
       EXPECT_GE(outcome.element, 13u - 9u - 4u) << method.name;
     }
 }
 
-/// Calls advance() for `at_once` steps at a time until the state is not finite; Outcome::step counts from the start.
-Outcome advance_until_failure(Executor& run, const Problem& problem, const Method& method, double dt, long at_once) {
+/// Calls advance() for `at_once` steps at a time until the state is not finite. Outcome::step
+/// counts from the start.
+Outcome advance_until_failure(Executor& run, const Problem& problem, const Method& method,
+                              double dt, long at_once) {
   for (long n = 0; n < 2000; n += at_once) {
     Outcome outcome = run.advance(at_once, signal_rows(problem, method, dt, n, at_once));
     outcome.step += n;
@@ -279,11 +310,13 @@ TEST_P(EveryVariant, reports_the_same_first_failure_however_many_steps_and_threa
   if (!is_composed(plugin)) problems.push_back(long_blocks().front());
   for (const Problem& problem : problems)
     for (const Method& method : methods()) {
-      if (&problem != &problems.front() && !method.is_in_place()) continue; // others make one step a pass
-      const double dt = 8 * stable_step(problem, *find_method("rk4")).dt;   // beyond the limit of every method
+      if (&problem != &problems.front() && !method.is_in_place())
+        continue; // other methods make one step a pass
+      const double dt =
+          8 * stable_step(problem, *find_method("rk4")).dt; // above the limit of every method
       const auto failure = [&](int threads, long at_once) {
-        const auto run =
-            plugin.create({problem, method, Model::spatial, Precision::f64, dt, plugin.is_threaded ? threads : 1});
+        const auto run = plugin.create({problem, method, Model::spatial, Precision::f64, dt,
+                                        plugin.is_threaded ? threads : 1});
         run->write(0, fixture::random_state(problem, 5, 1e-60, 1e-58, 1e-58));
         return advance_until_failure(*run, problem, method, dt, at_once);
       };
@@ -293,18 +326,20 @@ TEST_P(EveryVariant, reports_the_same_first_failure_however_many_steps_and_threa
       for (const int threads : {1, 3})
         for (const long at_once : {3L, 1000L}) {
           const Outcome other = failure(threads, at_once);
-          EXPECT_EQ(other.step, first.step) << method.name << ' ' << threads << " threads, " << at_once << " steps";
+          EXPECT_EQ(other.step, first.step)
+              << method.name << ' ' << threads << " threads, " << at_once << " steps";
           EXPECT_EQ(other.element, first.element)
               << method.name << ' ' << threads << " threads, " << at_once << " steps";
         }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryVariant, testing::ValuesIn(usable_variants()), [](const auto& registered) {
-  std::string name = registered.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Registry, EveryVariant, testing::ValuesIn(usable_variants()),
+                         [](const auto& registered) {
+                           std::string name = registered.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
   std::vector<const Plugin*> fused;
@@ -315,19 +350,26 @@ TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
     for (const Model model : models)
       for (const auto& [method, precision] : is_common(model) ? schemes() : brief_schemes()) {
         if (!c.has(model) || (!is_common(model) && c.name.starts_with("row_of"))) continue;
-        const State state =
-            rounded(restricted(fixture::random_state(c.problem, 4, c.gap * 0.01, 0.02, 0.01), model), precision);
-        const State first = VariantRun{*fused[0], c.problem, method, model, precision}.after(state, 60);
+        const State state = rounded(
+            restricted(fixture::random_state(c.problem, 4, c.gap * 0.01, 0.02, 0.01), model),
+            precision);
+        const State first =
+            VariantRun{*fused[0], c.problem, method, model, precision}.after(state, 60);
         for (const Plugin* other : fused) {
-          // Devices compile for every problem: here what has all terms; their other actions, and parts, have tests of their own.
+          // Devices compile for every problem, so they run only the one with all terms. Their other
+          // actions and their parts have tests of their own.
           const bool is_left_out =
-              is_composed(*other) && ((c.name != "plate" && c.name != "everything") || method.name != "rk4" ||
-                                      precision == Precision::f32c || !is_common(model));
+              is_composed(*other) &&
+              ((c.name != "plate" && c.name != "everything") || method.name != "rk4" ||
+               precision == Precision::f32c || !is_common(model));
           if (other == fused[0] || is_left_out) continue;
-          EXPECT_EQ(differing_bits(first, VariantRun{*other, c.problem, method, model, precision}.after(state, 60),
-                                   precision),
+          EXPECT_EQ(differing_bits(
+                        first,
+                        VariantRun{*other, c.problem, method, model, precision}.after(state, 60),
+                        precision),
                     0u)
-              << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name << ' ' << other->name;
+              << c.name << ' ' << name(model) << ' ' << name(precision) << ' ' << method.name << ' '
+              << other->name;
         }
       }
 }

@@ -1,6 +1,7 @@
-/// Deliberately wrong variants: each has one small fault over a right one, and `verify` must catch every one of them.
-#include "experiments/runner/verify.hpp"
-#include "variants/loader.hpp"
+/// Variants that are wrong on purpose: each adds one small fault to a correct one. `verify` must
+/// catch every fault.
+#include "experiments/run/verify/verify.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,19 +10,32 @@
 namespace dss {
 namespace {
 
-enum class Fault { none, rate, last_element, last_bit, lost_step, threads, not_a_number, unwritten };
+enum class Fault {
+  none,
+  rate,
+  last_element,
+  last_bit,
+  lost_step,
+  threads,
+  not_a_number,
+  unwritten
+};
 Fault fault = Fault::none;
 
-/// The right executor with the fault put in.
+/// The correct executor with the fault added.
 class WrongExecutor final : public Executor {
 public:
-  explicit WrongExecutor(const Setup& setup) : setup_(setup), right_(load_variant("avx2").create(setup)) {}
-  void write(std::size_t first, std::span<const double> fields) override { right_->write(first, fields); }
+  explicit WrongExecutor(const Setup& setup)
+      : setup_(setup), right_(load_variant("avx2").create(setup)) {}
+  void write(std::size_t first, std::span<const double> fields) override {
+    right_->write(first, fields);
+  }
   void read(std::size_t first, std::span<double> fields) override {
-    if (fault == Fault::unwritten) return; // leaves what the caller's buffer held
+    if (fault == Fault::unwritten) return; // leaves the old content of the caller's buffer
     right_->read(first, fields);
     double& last = fields[fields.size() - field_count + ux];
-    if (fault == Fault::last_element) last *= 1 + (setup_.precision == Precision::f64 ? 1e-8 : 1e-3);
+    if (fault == Fault::last_element)
+      last *= 1 + (setup_.precision == Precision::f64 ? 1e-8 : 1e-3);
     if (fault == Fault::last_bit) last = std::nextafter(last, 1.0);
     if (fault == Fault::threads && setup_.threads == 3) last = std::nextafter(float(last), 1.0f);
     if (fault == Fault::not_a_number) last = std::nan("");
@@ -29,14 +43,16 @@ public:
   void derivative(std::span<const double> signals, std::span<double> rates) override {
     right_->derivative(signals, rates);
     if (fault == Fault::rate)
-      rates[rates.size() - field_count + vx] *= 1 + (setup_.precision == Precision::f64 ? 1e-12 : 1e-4);
+      rates[rates.size() - field_count + vx] *=
+          1 + (setup_.precision == Precision::f64 ? 1e-12 : 1e-4);
   }
   Outcome advance(long steps, std::span<const double> signals) override {
     const std::size_t row = 3 + setup_.problem.loads.size();
     const bool is_short = fault == Fault::lost_step && steps > 1;
-    return right_->advance(is_short ? steps - 1 : steps,
-                           is_short ? signals.first(signals.size() - row * std::size_t(setup_.method.stages))
-                                    : signals);
+    return right_->advance(
+        is_short ? steps - 1 : steps,
+        is_short ? signals.first(signals.size() - row * std::size_t(setup_.method.stages))
+                 : signals);
   }
   std::string schedule() const override { return right_->schedule(); }
   int workers() const override { return right_->workers(); }
@@ -47,21 +63,23 @@ private:
   std::unique_ptr<Executor> right_;
 };
 
-constexpr Plugin wrong{
-    plugin_abi,
-    "wrong",
-    "x86-64-v3",
-    true,
-    true,
-    false,
-    [](const Setup& setup) -> std::unique_ptr<Executor> { return std::make_unique<WrongExecutor>(setup); },
-    nullptr};
+constexpr Plugin wrong{plugin_abi,
+                       "wrong",
+                       "x86-64-v3",
+                       true,
+                       true,
+                       false,
+                       [](const Setup& setup) -> std::unique_ptr<Executor> {
+                         return std::make_unique<WrongExecutor>(setup);
+                       },
+                       nullptr};
 
-/// Names of the checks that failed in f64 of the spatial model; only the wrong variant may be blamed.
+/// Names of the failed checks in f64 of the spatial model. Only the wrong variant may be blamed.
 std::vector<std::string> failed_checks(Fault injected) {
   fault = injected;
   std::vector<std::string> names;
-  for (const VerifyRow& row : verify_scene(load_scene("two_elements"), 60, {&load_variant("avx2"), &wrong})) {
+  for (const VerifyRow& row :
+       verify_scene(load_scene("two_elements"), 60, {&load_variant("avx2"), &wrong})) {
     if (row.verdict != VerifyRow::Verdict::failed) continue;
     EXPECT_EQ(row.variant, "wrong") << row.check << ": " << row.reason;
     if (row.model == "spatial" && row.precision == "f64") names.push_back(row.check);
@@ -69,7 +87,8 @@ std::vector<std::string> failed_checks(Fault injected) {
   return names;
 }
 
-TEST(Verify, passes_what_is_right_and_catches_every_injected_fault_by_the_check_that_is_there_for_it) {
+TEST(Verify,
+     passes_what_is_right_and_catches_every_injected_fault_by_the_check_that_is_there_for_it) {
   for (const VariantStatus& variant : variants())
     if (variant.name == "avx2" && !variant.is_usable()) GTEST_SKIP() << variant.unusable;
   EXPECT_TRUE(failed_checks(Fault::none).empty());
@@ -79,7 +98,8 @@ TEST(Verify, passes_what_is_right_and_catches_every_injected_fault_by_the_check_
         std::pair(Fault::threads, "threads rk4"), std::pair(Fault::not_a_number, "run rk4"),
         std::pair(Fault::unwritten, "run rk4")}) {
     const std::vector<std::string> failed = failed_checks(injected);
-    EXPECT_NE(std::find(failed.begin(), failed.end(), check), failed.end()) << "fault " << int(injected);
+    EXPECT_NE(std::find(failed.begin(), failed.end(), check), failed.end())
+        << "fault " << int(injected);
   }
 }
 

@@ -1,4 +1,4 @@
-/// Memory of a device: refused before it is taken, given back, mapped; and embedded text.
+/// Memory of a device: refused before it is allocated, returned, mapped. Embedded text.
 #include "solver/error.hpp"
 #include "tests/opencl/opencl_test.hpp"
 #include "variants/opencl/embedded.hpp"
@@ -24,7 +24,7 @@ TEST_F(OpenClMemory, of_more_than_the_largest_buffer_is_refused_in_gibibytes) {
 }
 
 TEST_F(OpenClMemory,
-       in_many_buffers_is_refused_when_their_sum_is_more_than_the_device_has_and_is_there_again_afterwards) {
+       in_many_buffers_is_refused_when_their_sum_is_too_much_and_is_there_again_afterwards) {
   device.entry.memory_bytes = 1 << 20;
   const opencl::Queue queue(device);
   {

@@ -1,5 +1,5 @@
 #pragma once
-/// A test on the first OpenCL device, with a binary cache of its own.
+/// A test on the first OpenCL device. It has a binary cache of its own.
 #include "variants/opencl/queue.hpp"
 
 #include <cstdlib>
@@ -16,7 +16,8 @@ protected:
   void SetUp() override {
     if (const std::string why = opencl::why_unusable(); !why.empty()) GTEST_SKIP() << why;
     const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    cache = std::filesystem::temp_directory_path() / ("dssbench-" + std::to_string(::getpid()) + name);
+    cache =
+        std::filesystem::temp_directory_path() / ("dssbench-" + std::to_string(::getpid()) + name);
     std::filesystem::remove_all(cache);
     ::setenv("DSSBENCH_CACHE_DIR", cache.c_str(), 1);
     device = opencl::find_device("", Precision::f32);

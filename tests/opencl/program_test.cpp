@@ -1,4 +1,4 @@
-/// Programs: what their compiler says, and the cache of their binaries.
+/// Programs: messages of the compiler, and the cache of binaries.
 #include "solver/error.hpp"
 #include "tests/opencl/opencl_test.hpp"
 #include "variants/opencl/binary_cache.hpp"
@@ -11,10 +11,11 @@
 namespace dss::test {
 namespace {
 
-/// A program of its own for each call: a process builds a program only once.
+/// A new program for each call, because a process builds a program only once.
 std::string doubling_source() {
   static int number = 0;
-  return fmt::format("__kernel void doubled(__global float *x, int n) {{ int i = get_global_id(0); if (i < n) x[i] *= "
+  return fmt::format("__kernel void doubled(__global float *x, int n) {{ int i = get_global_id(0); "
+                     "if (i < n) x[i] *= "
                      "2; }} /* {} of {} */",
                      ++number, ::getpid());
 }
@@ -26,7 +27,8 @@ protected:
     EXPECT_EQ(std::distance(begin(files), end(files)), 1);
     return std::filesystem::directory_iterator(cache)->path();
   }
-  /// The key of the only file, by what load_binary accepts: its third line and on, of the length in the second.
+  /// The key of the only file, as load_binary accepts it: from the third line on, with the length
+  /// in the second.
   static std::string key_in(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::string title, size;
@@ -57,7 +59,8 @@ protected:
 
 TEST_F(OpenClPrograms, run_and_are_built_once_in_a_process) {
   const std::string source = doubling_source();
-  const opencl::Program first = opencl::build_program(device, source), second = opencl::build_program(device, source);
+  const opencl::Program first = opencl::build_program(device, source),
+                        second = opencl::build_program(device, source);
   EXPECT_FALSE(first.is_cached);
   EXPECT_TRUE(second.is_cached);
   EXPECT_EQ(first.handle(), second.handle());
@@ -79,7 +82,7 @@ TEST_F(OpenClPrograms, are_built_from_a_binary_and_from_source_if_the_driver_ref
   std::string key = key_in(only_file());
   const std::optional<std::string> binary = opencl::load_binary(key);
   ASSERT_TRUE(binary);
-  // The same for another program: its number is another digit of the same length.
+  // Another program: its number has another digit and the same length.
   const std::string other = doubling_source();
   key.replace(key.rfind(source), source.size(), other);
   opencl::store_binary(key, *binary);
@@ -115,12 +118,13 @@ TEST_F(OpenClPrograms, work_where_nothing_can_be_cached) {
 
 TEST_F(OpenClPrograms, that_do_not_compile_show_the_log_after_a_line_that_says_where) {
   try {
-    opencl::build_program(device, "__kernel void broken(__global float *x) { x[0] = no_such_name; }");
+    opencl::build_program(device,
+                          "__kernel void broken(__global float *x) { x[0] = no_such_name; }");
     FAIL() << "it was built";
   } catch (const InputError& error) {
     const std::string text = error.what(), first = text.substr(0, text.find('\n'));
-    for (const std::string& words :
-         {std::string("clBuildProgram"), device.entry.name, std::string("CL_BUILD_PROGRAM_FAILURE")})
+    for (const std::string& words : {std::string("clBuildProgram"), device.entry.name,
+                                     std::string("CL_BUILD_PROGRAM_FAILURE")})
       EXPECT_NE(first.find(words), std::string::npos) << first;
     EXPECT_NE(text.find("no_such_name"), std::string::npos) << text;
   }

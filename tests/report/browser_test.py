@@ -36,9 +36,9 @@ return {look, main: chart.querySelectorAll("svg.main-svg").length, traces: Numbe
         marks: seen(".scatterlayer .trace path, .barlayer .point path, .heatmaplayer image"),
         width: chart.getBoundingClientRect().width, height: chart.getBoundingClientRect().height};
 """
-SECTIONS = ["work-precision-time", "work-precision-evaluations", "pareto", "scaling-1", "scaling-2", "cluster", "stability", "energy", "ladder", "ladder-errors", "atlas", "advice", "error-budget",
-            "continuum", "statics"]
-SAMPLE_SECTIONS = ["chain", "roofline", "attribution", "atlas"]
+SECTIONS = ["speedups-1-host", "speedups-1", "speedups-2", "speedups-3", "figure-9", "work-precision-time", "work-precision-evaluations", "pareto", "scaling-1", "scaling-2", "cluster",
+            "cluster-nodes", "balance", "stability", "energy", "ladder", "ladder-errors", "atlas", "advice", "error-budget", "continuum", "statics"]
+SAMPLE_SECTIONS = ["chain", "roofline", "attribution", "atlas", "speedups-1-host"]
 
 
 class BrowserTest(unittest.TestCase):

@@ -165,7 +165,7 @@ class ReportTest(unittest.TestCase):
         directory = self.directory / "pictures"
         sample.write_sample(directory)
         plots = report.ROOT / "plots"
-        result = subprocess.run([sys.executable, plots / "failure_atlas.py", directory / "tables" / "failures.csv", "--output", directory / "figures" / "failures.png"], capture_output=True, text=True)
+        result = subprocess.run([sys.executable, plots / "make_plots.py", "--results", directory], capture_output=True, text=True)
         self.assertEqual(result.returncode, 0, result.stderr)
         draw = "import sys; sys.path.insert(0, sys.argv[1]); import body_picture, pathlib; body_picture.write(body_picture.plt.figure(), pathlib.Path(sys.argv[2]))"
         subprocess.run([sys.executable, "-c", draw, plots, directory / "figures" / "l_bracket.png"], check=True)
@@ -201,7 +201,7 @@ class Artifact(unittest.TestCase):
         studies = re.findall(r"dssbench experiment (\w+)", self.text)
         self.assertGreater(len(studies), 5)
         for study in studies:
-            self.assertTrue((report.ROOT / "experiments" / f"{study}.json").exists(), study)
+            self.assertTrue(list((report.ROOT / "experiments" / "studies").glob(f"*/{study}.json")), study)
 
     def test_its_scenes_exist(self):
         scenes = re.findall(r"dssbench (?:run|verify|advise|explain|stability|simulate) (?!-)(\w+)", self.text)

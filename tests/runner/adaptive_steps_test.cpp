@@ -1,10 +1,10 @@
-/// Steps as long as the error allows: what tolerance means for the error of a run, what becomes of a jump and of a step at the stability
-/// limit.
-#include "experiments/runner/adaptive_steps.hpp"
+/// Steps as long as the error allows: what the tolerance means for the error of a run, and what
+/// happens at a jump and at the stability limit.
+#include "experiments/run/timed/adaptive_steps.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/step_growth.hpp"
 #include "tests/fixtures/problems.hpp"
-#include "variants/loader.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,36 +13,41 @@
 namespace dss {
 namespace {
 
-/// A step that was tried: its length, and what became of it.
+/// One tried step: its length, and whether it was accepted.
 struct Try {
   double time, dt;
   bool is_accepted;
 };
 
 /// Runs a problem on the reference, and keeps what it tried.
-class Recorder final : public Executor {
+class Recorder final : public Executor, public StepTrials {
 public:
   Recorder(const Problem& problem, const std::vector<double>& start)
       : own_(load_variant("reference").create({problem, dopri5_adaptive()})), problem_(problem) {
     own_->write(0, start);
   }
-  void write(std::size_t first, std::span<const double> fields) override { own_->write(first, fields); }
+  void write(std::size_t first, std::span<const double> fields) override {
+    own_->write(first, fields);
+  }
   void read(std::size_t first, std::span<double> fields) override { own_->read(first, fields); }
   void derivative(std::span<const double> signals, std::span<double> rates) override {
     own_->derivative(signals, rates);
   }
-  Outcome advance(long steps, std::span<const double> signals) override { return own_->advance(steps, signals); }
+  Outcome advance(long steps, std::span<const double> signals) override {
+    return own_->advance(steps, signals);
+  }
   std::string schedule() const override { return own_->schedule(); }
   int workers() const override { return 1; }
   std::size_t bytes() const override { return own_->bytes(); }
   StepMaxima try_step(double dt, std::span<const double> signals) override {
     tries.push_back({time_, dt, false});
-    return own_->try_step(dt, signals);
+    return adaptive(*own_).try_step(dt, signals);
   }
+  StepTrials* step_trials() override { return this; }
   void accept_step() override {
     tries.back().is_accepted = true;
     time_ += tries.back().dt;
-    own_->accept_step();
+    adaptive(*own_).accept_step();
   }
   std::vector<double> state() {
     std::vector<double> fields(problem_.lattice.element_count * field_count);
@@ -57,7 +62,8 @@ private:
   double time_ = 0;
 };
 
-/// Element 0 held, element 1 pulled along the link by 250 N from t = 0: m x'' + d x' + k x = f.
+/// Element 0 is held, element 1 is pulled along the link by 250 N from t = 0: m x'' + d x' + k x =
+/// f.
 Problem pulled_pair(double damping) {
   Problem pair = fixture::make_pair(LinkLaw::paper, damping);
   pair.clamps = {{0, dof_all}};
@@ -66,8 +72,10 @@ Problem pulled_pair(double damping) {
 }
 double pulled_by(const Problem& pair, double t) {
   const double k = pair.bodies[0].axis[0].k_normal, m = pair.bodies[0].mass;
-  const double decay = pair.bodies[0].axis[0].d_normal / (2 * m), omega = std::sqrt(k / m - decay * decay);
-  return 250 / k * (1 - std::exp(-decay * t) * (std::cos(omega * t) + decay / omega * std::sin(omega * t)));
+  const double decay = pair.bodies[0].axis[0].d_normal / (2 * m),
+               omega = std::sqrt(k / m - decay * decay);
+  return 250 / k *
+         (1 - std::exp(-decay * t) * (std::cos(omega * t) + decay / omega * std::sin(omega * t)));
 }
 
 TEST(AdaptiveSteps, have_an_error_in_proportion_to_the_tolerance) {
@@ -91,7 +99,8 @@ TEST(AdaptiveSteps, have_an_error_in_proportion_to_the_tolerance) {
 TEST(AdaptiveSteps, end_where_they_should_to_the_last_bit) {
   const Problem pair = pulled_pair(1);
   Recorder run(pair, fixture::rest(pair));
-  AdaptiveSteps steps(run, pair, dopri5_adaptive(), {1e-6, 0}, 1, 0.1); // a first step beyond the end is cut
+  AdaptiveSteps steps(run, pair, dopri5_adaptive(), {1e-6, 0}, 1,
+                      0.1); // a first step beyond the end is shortened
   for (const double stop : {1e-5, 0.03, 0.1}) ASSERT_FALSE(steps.advance_to(stop));
   EXPECT_EQ(steps.counts().accepted + steps.counts().rejected, long(run.tries.size()));
   double sum = 0;
@@ -122,9 +131,9 @@ TEST(AdaptiveSteps, are_rejected_at_a_jump_of_a_load_and_seldom_elsewhere) {
   EXPECT_LT(least, 0.1 * steps.counts().largest_dt) << "the jump asks for a short step";
 }
 
-/// A chain in its slowest mode, which needs no short steps, so that stability alone limits them: an elementary controller swings there between
-/// rejection and growth (Hairer, Norsett, Wanner II, section IV.2). Just above the limit amplitudes grow by 2e-4 a step, so the step comes
-/// down to it slowly.
+/// A chain in its slowest mode needs no short steps, so only stability limits them. An elementary
+/// controller oscillates there between rejection and growth (Hairer, Norsett, Wanner II, section
+/// IV.2). Just above the limit amplitudes grow by 2e-4 a step, so the step falls to it slowly.
 TEST(AdaptiveSteps, of_an_undamped_chain_settle_at_the_stability_limit) {
   constexpr int elements = 20;
   constexpr double end = 100;
@@ -138,7 +147,8 @@ TEST(AdaptiveSteps, of_an_undamped_chain_settle_at_the_stability_limit) {
   const double k = chain.bodies[0].axis[0].k_normal, m = chain.bodies[0].mass;
   const double highest = 2 * std::sqrt(k / m) * std::sin(M_PI * (elements - 1) / (2 * elements));
   const double limit = mode_step_limit(*find_method("dopri5"), highest, 0);
-  const std::size_t first = run.tries.size() / 2, last = run.tries.size() - 2; // which are cut to end in time
+  const std::size_t first = run.tries.size() / 2,
+                    last = run.tries.size() - 2; // the last steps are cut to end in time
   for (std::size_t n = first; n < last; ++n) {
     ASSERT_TRUE(run.tries[n].is_accepted) << n;
     ASSERT_NEAR(run.tries[n].dt / run.tries[n - 1].dt, 1, 0.1) << n;
@@ -175,7 +185,7 @@ TEST(StepControl, cuts_grows_and_rejects_as_it_says) {
   StepControl control({1e-3, 0}, 1, 0.1);
   EXPECT_EQ(control.step_within(10), 0.1);
   EXPECT_EQ(control.step_within(0.1), 0.1);
-  EXPECT_EQ(control.step_within(0.15), 0.075); // leaves no small rest
+  EXPECT_EQ(control.step_within(0.15), 0.075); // leaves no small remainder
   EXPECT_EQ(control.step_within(0.05), 0.05);
   EXPECT_FALSE(control.accept(maxima(32e-3), 0.1)); // 32 = 2^5
   EXPECT_NEAR(control.dt(), 0.1 * 0.9 / 2, 1e-12);

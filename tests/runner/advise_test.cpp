@@ -1,8 +1,9 @@
-/// Advice: the search for steps, references by halving, and whether what is advised is as accurate as it says.
-#include "experiments/runner/advise/advise.hpp"
-#include "experiments/runner/advise/step_search.hpp"
-#include "experiments/runner/precision/accuracy.hpp"
-#include "experiments/runner/precision/solution.hpp"
+/// Advice: the search for steps, references by halving, and whether the advised run is as accurate
+/// as stated.
+#include "experiments/run/advise/advise.hpp"
+#include "experiments/run/advise/step_search.hpp"
+#include "experiments/run/state/accuracy.hpp"
+#include "experiments/run/state/solution.hpp"
 #include "solver/error.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -62,7 +63,9 @@ TEST(StepSearch, StopsWhereStepsCostMoreThanIsOfInterest) {
 TEST(StepSearch, GoesPastStepsOfWhichRunsFail) {
   StepTask task = task_of(2, 1, 1e-2);
   const auto error = task.error;
-  task.error = [error](long steps) { return steps < 35 ? std::numeric_limits<double>::infinity() : error(steps); };
+  task.error = [error](long steps) {
+    return steps < 35 ? std::numeric_limits<double>::infinity() : error(steps);
+  };
   const StepResult result = fewest_steps(task);
   EXPECT_EQ(result.verdict, StepResult::Verdict::meets);
   EXPECT_LE(result.steps, 112);
@@ -76,7 +79,8 @@ struct Known {
 };
 Known known(const std::string& name, const std::vector<Override>& set, double end) {
   Known of{load_scene(name, set), {end, 5}, {}};
-  of.solution = find_solution(of.scene.problem, *find_method("rk4"), {"rk4", 1e-11, 1e6}, of.times, {});
+  of.solution =
+      find_solution(of.scene.problem, *find_method("rk4"), {"rk4", 1e-11, 1e6}, of.times, {});
   return of;
 }
 
@@ -97,14 +101,17 @@ void expect_right(const Known& of, Quantity quantity, double tolerance) {
   EXPECT_GE(error, advice.error_estimate - 2 * advice.reference.error - 1e-11);
   ASSERT_TRUE(advice.paper.error);
   const Observation paper = bench.run(advice.paper.configuration);
-  EXPECT_NEAR(*advice.paper.error, bench.error(expected, paper.observed), advice.reference.error + 1e-11);
+  EXPECT_NEAR(*advice.paper.error, bench.error(expected, paper.observed),
+              advice.reference.error + 1e-11);
 }
 
 TEST(Advice, ErrorsAreWithinTheToleranceAndAsEstimated) {
   const Known scenes[] = {known("two_elements", {}, 0.1), known("chain", {{"n", "8"}}, 5e-4),
-                          known("cantilever_beam", {{"n", "6"}}, 0.05), known("plate_paper", {{"n", "4"}}, 1e-4)};
+                          known("cantilever_beam", {{"n", "6"}}, 0.05),
+                          known("plate_paper", {{"n", "4"}}, 1e-4)};
   for (const Known& of : scenes)
-    for (const double tolerance : {1e-2, 1e-5, 1e-8}) expect_right(of, Quantity::displacement, tolerance);
+    for (const double tolerance : {1e-2, 1e-5, 1e-8})
+      expect_right(of, Quantity::displacement, tolerance);
 }
 
 TEST(Advice, HoldsStressAndEnergyToATolerance) {
@@ -136,7 +143,8 @@ TEST(ObservedError, OfDisplacementsIsThatOfAccuracy) {
   const Known chain = known("chain", {{"n", "8"}}, 5e-4);
   std::vector<std::vector<double>> other = chain.solution.states;
   other[2][3 * field_count + ux] *= 1.001;
-  const Observed expected = observed_of(chain.scene.problem, Quantity::displacement, chain.solution.states);
+  const Observed expected =
+      observed_of(chain.scene.problem, Quantity::displacement, chain.solution.states);
   EXPECT_EQ(observed_error(chain.scene.problem, Quantity::displacement, expected,
                            observed_of(chain.scene.problem, Quantity::displacement, other)),
             accuracy_of(chain.scene.problem, chain.solution.states, other).max);

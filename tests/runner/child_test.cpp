@@ -1,4 +1,4 @@
-#include "experiments/runner/child.hpp"
+#include "experiments/base/child.hpp"
 #include "solver/error.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,9 @@ TEST(Child, ExitCodeAndFirstLineOfErrorAreTheReason) {
   EXPECT_EQ(shell("echo why >&2; echo more >&2; exit 3").failure(20), "exit code 3: why");
 }
 
-TEST(Child, ASignalIsTheReason) { EXPECT_NE(shell("kill -SEGV $$").failure(20).find("signal 11"), std::string::npos); }
+TEST(Child, ASignalIsTheReason) {
+  EXPECT_NE(shell("kill -SEGV $$").failure(20).find("signal 11"), std::string::npos);
+}
 
 TEST(Child, ATimeLimitEndsIt) {
   const ChildResult result = shell("exec sleep 30", 0.2);
@@ -34,7 +36,9 @@ TEST(Child, ATimeLimitHoldsForAChildThatClosedItsOutputs) {
   EXPECT_TRUE(shell("exec >/dev/null 2>&1; exec sleep 30", 0.3).timed_out);
 }
 
-TEST(Child, MuchOutputDoesNotBlockIt) { EXPECT_EQ(shell("head -c 3000000 /dev/zero").output.size(), 3'000'000u); }
+TEST(Child, MuchOutputDoesNotBlockIt) {
+  EXPECT_EQ(shell("head -c 3000000 /dev/zero").output.size(), 3'000'000u);
+}
 
 TEST(Child, AProgramThatDoesNotExistIsAnInputError) {
   EXPECT_THROW(run_child("/does/not/exist", {"x"}, 1), InputError);

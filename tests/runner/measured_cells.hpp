@@ -1,7 +1,7 @@
 #pragma once
-/// Cells and their records as an experiment would have written them, for tests of what is derived from them.
-#include "experiments/runner/samples.hpp"
-#include "experiments/runner/study.hpp"
+/// Cells and records as an experiment would have written them, for tests of derived tables.
+#include "experiments/measure/cell.hpp"
+#include "experiments/measure/samples.hpp"
 
 #include <fmt/format.h>
 #include <string>

@@ -1,17 +1,20 @@
-/// Microbenchmarks: what is timed is right, what is counted is what runs, and a run that was cut off goes on.
-#include "experiments/microbenchmarks/executed_mix.hpp"
-#include "experiments/microbenchmarks/kernel_work.hpp"
-#include "experiments/microbenchmarks/micro_run.hpp"
-#include "experiments/microbenchmarks/micro_tables.hpp"
-#include "experiments/microbenchmarks/own_ceilings.hpp"
-#include "kernels/stage_row/cost.hpp"
+/// Microbenchmarks: what is timed is correct, what is counted is what runs, and an interrupted run
+/// can go on.
+#include "experiments/measure/ceilings/executed_mix.hpp"
+#include "experiments/measure/ceilings/own_ceilings.hpp"
+#include "experiments/measure/kernels/kernel_error.hpp"
+#include "experiments/measure/kernels/kernel_work.hpp"
+#include "experiments/measure/kernels/micro_run.hpp"
+#include "experiments/studies/kernels/micro_tables.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "tests/runner/own_directory.hpp"
-#include "variants/loader.hpp"
+#include "variants/loading/loader.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <set>
 
 namespace dss {
@@ -31,7 +34,8 @@ TEST_F(Microbenchmarks, EveryKernelAndRowOfEveryVariantAgreesWithLongDouble) {
   for (const Plugin* plugin : plugins_with_kernels())
     for (const CompiledKernel& kernel : plugin->kernels())
       EXPECT_LE(kernel_error(kernel), kernel_case(*plugin, kernel, "L1", 1).tolerance())
-          << plugin->name << ' ' << kernel.name << ' ' << name(kernel.model) << ' ' << name(kernel.precision);
+          << plugin->name << ' ' << kernel.name << ' ' << name(kernel.model) << ' '
+          << name(kernel.precision);
 }
 
 TEST_F(Microbenchmarks, AKernelWithOneWrongLaneIsCaught) {
@@ -44,40 +48,99 @@ TEST_F(Microbenchmarks, AKernelWithOneWrongLaneIsCaught) {
   EXPECT_GT(kernel_error(wrong), 1e-10);
 }
 
-TEST_F(Microbenchmarks, WhatRowsExecuteAreTheFlopsThatTheyDeclare) {
+/// Per pack of two doubles: three sums, two products, one load that feeds a product, one store, one
+/// move to the stack. Written as instructions, so that no compiler can change their number.
+void run_known_instructions(int, const void* in, void* out, std::size_t elements, std::size_t) {
+  const double* from = static_cast<const double*>(in);
+  double* to = static_cast<double*>(out);
+  for (std::size_t e = 0; e + 2 <= elements; e += 2)
+    asm volatile("movapd (%0), %%xmm0\n\t"
+                 "addpd %%xmm0, %%xmm0\n\t"
+                 "addpd %%xmm0, %%xmm0\n\t"
+                 "subpd %%xmm0, %%xmm0\n\t"
+                 "mulpd (%0), %%xmm0\n\t"
+                 "mulpd %%xmm0, %%xmm0\n\t"
+                 "movapd %%xmm0, (%1)\n\t"
+                 :
+                 : "r"(from + e), "r"(to + e)
+                 : "xmm0", "memory");
+}
+
+TEST_F(Microbenchmarks, AMixHasTheInstructionsThatWereWritten) {
+  const CompiledKernel known{
+      "known", Model::axial, Precision::f64, 1, 1, 5, 2, run_known_instructions, 0, true};
+  InstructionMix mix;
+  try {
+    mix = executed_mix(known);
+  } catch (const InputError& error) {
+    GTEST_SKIP() << error.what();
+  }
+  EXPECT_EQ(mix.fma, 0);
+  EXPECT_EQ(mix.sums, 3);
+  EXPECT_EQ(mix.products, 2);
+  EXPECT_EQ(mix.shuffles, 0);
+  EXPECT_EQ(mix.loads - mix.stack_loads, 2);
+  EXPECT_EQ(mix.stores - mix.stack_stores, 1);
+}
+
+/// The compiler chooses how many instructions a row takes. This test only asserts that all kinds
+/// are found. A counting number type counts the declared flops of rows
+/// (tests/equivalence/kernel_case_test.cpp).
+TEST_F(Microbenchmarks, RowsOfEveryVariantHaveAMix) {
 #ifdef DSS_SANITIZED
   GTEST_SKIP() << "sanitized code executes more";
 #endif
   for (const Plugin* plugin : plugins_with_kernels())
     for (const CompiledKernel& kernel : plugin->kernels()) {
-      if (!kernel.is_row || kernel.precision != Precision::f64 ||
-          (kernel.model != Model::spatial && kernel.model != Model::planar))
-        continue;
+      if (!kernel.is_row || kernel.model != Model::planar) continue;
       InstructionMix mix;
       try {
         mix = executed_mix(kernel);
       } catch (const InputError& error) {
         GTEST_SKIP() << error.what();
       }
-      EXPECT_NEAR(2 * mix.fma + mix.sums + mix.products, kernel.flops, 0.02 * kernel.flops)
-          << plugin->name << ' ' << kernel.name << ' ' << name(kernel.model) << ' ' << name(kernel.precision);
+      SCOPED_TRACE(testing::Message()
+                   << plugin->name << ' ' << kernel.name << ' ' << name(kernel.precision));
+      EXPECT_GT(mix.fma + mix.sums + mix.products, 0);
       EXPECT_GT(mix.loads, mix.stack_loads);
-      EXPECT_GE(mix.stores - mix.stack_stores, kernel.outputs);
+      EXPECT_GT(mix.stores, mix.stack_stores);
+      if (!plugin->has_fma) {
+        EXPECT_EQ(mix.fma, 0);
+      }
     }
 }
 
-TEST_F(Microbenchmarks, CeilingsOfOurOwnAreOfTheRightOrder) {
-  const double scalar = own_peak_flops("scalar", "f64", 1);
-  EXPECT_GT(scalar, 1e8);
-  EXPECT_LT(scalar, 1e12);
+TEST_F(Microbenchmarks, AStepThatAModelCannotMakeIsSkippedWithTheReason) {
+  const MicroSet set{{"rk4_step"}, {"*"}, {"f64"}, {"scalar"}, {"*"}, {1}, {10}};
+  std::map<Model, std::string> skipped;
+  for (const MicroCase& one : micro_cases(set)) skipped[one.model] = one.skipped;
+  EXPECT_NE(skipped[Model::axial], "");
+  EXPECT_NE(skipped[Model::bending].find("load"), std::string::npos) << skipped[Model::bending];
+  for (const Model model :
+       {Model::membrane, Model::planar, Model::linear, Model::small, Model::spatial})
+    EXPECT_EQ(skipped[model], "") << name(model);
+}
+
+TEST_F(Microbenchmarks, StepsOfEveryModelThatCanMakeThemAreThoseOfTheReference) {
+  const MicroSet set{{"rk4_step"}, {"*"}, {"*"}, {"scalar"}, {"*"}, {1}, {10}};
+  for (const MicroCase& one : micro_cases(set))
+    if (one.skipped.empty()) {
+      EXPECT_LE(one.error(), one.tolerance()) << one.cell();
+    }
+}
+
+TEST_F(Microbenchmarks, CeilingsOfOurOwnAreNumbers) {
+  const auto is_number = [](double value) { return std::isfinite(value) && value > 0; };
+  EXPECT_PRED1(is_number, own_peak_flops("scalar", "f64", 1));
   for (const char* stream : {"load", "copy", "triad"})
-    EXPECT_GT(own_bandwidth("scalar", stream, 1 << 14, 1), 1e8) << stream;
+    EXPECT_PRED1(is_number, own_bandwidth("scalar", stream, 1 << 14, 1)) << stream;
 }
 
 std::set<std::string> recorded(const std::string& path) {
   std::set<std::string> cells;
   for (const Record& record : read_csv(path).rows)
-    EXPECT_TRUE(cells.insert(text_in(record, "cell") + ' ' + text_in(record, "repetition")).second) << "twice";
+    EXPECT_TRUE(cells.insert(text_in(record, "cell") + ' ' + text_in(record, "repetition")).second)
+        << "twice";
   return cells;
 }
 
@@ -85,7 +148,8 @@ TEST_F(Microbenchmarks, ARunThatWasCutOffGoesOnToTheSameSetOfRecords) {
   const MicroSet set{{"rotation", "stage_row"}, {"planar"}, {"f64"}, {"scalar"}, {"L1"}, {1}, {}};
   const auto run = [&](const std::string& path, bool resume) {
     RecordFile records(path, micro_columns(), resume);
-    run_micro_cases("test", micro_cases(set), {3, 1e-5}, records, [](double, double, const std::string&) {});
+    run_micro_cases("test", micro_cases(set), {3, 1e-5}, records,
+                    [](double, double, const std::string&) {});
   };
   run(file("whole.csv"), false);
   const std::string text = read_text(file("whole.csv"));
@@ -96,9 +160,10 @@ TEST_F(Microbenchmarks, ARunThatWasCutOffGoesOnToTheSameSetOfRecords) {
 }
 
 TEST_F(Microbenchmarks, ARoofIsTheSmallerOfPeakAndBandwidth) {
-  const std::vector<Ceiling> ceilings{{true, "peak", "scalar", "f64", "", 0, 1, 10e9, "own", "", ""},
-                                      {false, "load", "scalar", "", "L1", 0, 1, 40e9, "own", "", ""},
-                                      {false, "triad", "scalar", "", "L1", 0, 1, 20e9, "own", "", ""}};
+  const std::vector<Ceiling> ceilings{
+      {true, "peak", "scalar", "f64", "", 0, 1, 10e9, "own", "", ""},
+      {false, "load", "scalar", "", "L1", 0, 1, 40e9, "own", "", ""},
+      {false, "triad", "scalar", "", "L1", 0, 1, 20e9, "own", "", ""}};
   Record record{{"cell", "a"},
                 {"isa", "x86-64-v2"},
                 {"precision", "f64"},

@@ -1,7 +1,7 @@
-/// --model auto: what it chooses, and what becomes of a run that its choice does not hold.
-#include "experiments/runner/model/model_choice.hpp"
-#include "experiments/runner/oracle_state.hpp"
-#include "experiments/runner/run.hpp"
+/// --model auto: what it chooses, and what happens to a run that exceeds its bound.
+#include "experiments/run/model/model_choice.hpp"
+#include "experiments/run/state/oracle_state.hpp"
+#include "experiments/run/timed/run.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "tests/runner/own_directory.hpp"
@@ -13,9 +13,12 @@
 namespace dss {
 namespace {
 
-std::string ladder_scene(const char* name) { return std::string(DSS_SOURCE_DIR "/experiments/ladder/") + name; }
+std::string ladder_scene(const char* name) {
+  return std::string(DSS_SOURCE_DIR "/experiments/scenes/ladder/") + name;
+}
 
-ModelChoice choice_for(const std::string& scene, double tolerance, const std::string& why_no_watch = {}) {
+ModelChoice choice_for(const std::string& scene, double tolerance,
+                       const std::string& why_no_watch = {}) {
   return choose_model(load_scene(scene).problem, tolerance, why_no_watch);
 }
 
@@ -27,7 +30,8 @@ TEST(ModelChoice, IsTheSmallestModelThatIsProven) {
   ASSERT_EQ(plate.smaller.size(), 3u); // axial, bending and membrane, each with its reason
   for (const auto& [model, reason] : plate.smaller) EXPECT_NE(reason, "") << name(model);
   EXPECT_EQ(choice_for("block", 1e-9).chosen, Model::spatial);
-  EXPECT_EQ(choice_for(DSS_SOURCE_DIR "/experiments/failures/free_flight.json", 1e-9).chosen, Model::linear);
+  EXPECT_EQ(choice_for(DSS_SOURCE_DIR "/experiments/scenes/failures/free_flight.json", 1e-9).chosen,
+            Model::linear);
 }
 
 TEST(ModelChoice, TakesSmallRotationsOnTrialOnlyWhereABoundCanBeMetAndWatched) {
@@ -35,16 +39,19 @@ TEST(ModelChoice, TakesSmallRotationsOnTrialOnlyWhereABoundCanBeMetAndWatched) {
   const ModelChoice watched = choice_for(strip, 1e-3);
   EXPECT_EQ(watched.chosen, Model::bending);
   EXPECT_TRUE(watched.is_bounded);
-  const ModelChoice exact = choice_for(strip, 1e-9), unwatched = choice_for(strip, 1e-3, "its steps are adaptive");
+  const ModelChoice exact = choice_for(strip, 1e-9),
+                    unwatched = choice_for(strip, 1e-3, "its steps are adaptive");
   EXPECT_EQ(exact.chosen, Model::spatial);
-  EXPECT_NE(exact.smaller.back().second.find("only proof helps"), std::string::npos) << exact.smaller.back().second;
+  EXPECT_NE(exact.smaller.back().second.find("only proof helps"), std::string::npos)
+      << exact.smaller.back().second;
   EXPECT_EQ(unwatched.chosen, Model::spatial);
   EXPECT_NE(unwatched.smaller.back().second.find("its steps are adaptive"), std::string::npos);
   EXPECT_EQ(choice_for(ladder_scene("eccentric.json"), 1e-2).chosen, Model::linear);
-  EXPECT_EQ(choice_for(DSS_SOURCE_DIR "/experiments/failures/rigid_turn.json", 1e-2).chosen, Model::spatial);
+  EXPECT_EQ(choice_for(DSS_SOURCE_DIR "/experiments/scenes/failures/rigid_turn.json", 1e-2).chosen,
+            Model::spatial);
 }
 
-/// Runs by the oracle's variant, checked against the spatial oracle in long double.
+/// Runs of the variant reference, checked against the spatial oracle in long double.
 class AutoRun : public test::OwnDirectory {
 protected:
   AutoRun() {
@@ -57,8 +64,9 @@ protected:
     request.overrides = set;
     request.steps = steps;
     const Problem problem = load_scene(scene, set).problem;
-    write_oracle_state(file("truth"), compute_oracle_state(problem, *find_method("rk4"), Rotation::quaternion,
-                                                           problem.dt, steps, "truth"));
+    write_oracle_state(file("truth"),
+                       compute_oracle_state(problem, *find_method("rk4"), Rotation::quaternion,
+                                            problem.dt, steps, "truth"));
     request.check_state = file("truth");
     return run_scene(request);
   }
@@ -88,11 +96,11 @@ TEST_F(AutoRun, IsPromotedWhenAScenesLoadDrivesItOverTheBoundWhileItRunsAndMeets
   ASSERT_FALSE(result.model_report.promotions.empty());
   const Promotion& first = result.model_report.promotions.front();
   EXPECT_EQ(first.from, Model::bending);
-  EXPECT_GT(first.step, 1000); // the load jumps half way
+  EXPECT_GT(first.step, 1000); // the load jumps at half of the run
   EXPECT_GT(first.resumed_step, 1000);
   EXPECT_LE(first.resumed_step, first.step);
   EXPECT_LE(result.check.error, 1e-3);
-  request.model = "bending"; // alone it is far off
+  request.model = "bending"; // bending alone is far off
   const RunResult alone = run(ladder_scene("roll_up.json"), {{"n", "8"}}, 2500);
   EXPECT_EQ(alone.status, "wrong");
   EXPECT_GT(alone.check.error, 0.1);
@@ -111,10 +119,12 @@ TEST_F(AutoRun, StopsInsteadIfAskedToAndLeavesNoFiles) {
   request.frames = 50;
   const RunResult result = run(ladder_scene("roll_up.json"), {{"n", "8"}}, 2500);
   EXPECT_EQ(result.status, "bound");
-  EXPECT_NE(result.reason.find("the error of model bending may be"), std::string::npos) << result.reason;
+  EXPECT_NE(result.reason.find("the error of model bending may be"), std::string::npos)
+      << result.reason;
   EXPECT_LT(result.steps, 2500);
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) files += entry.path().extension() == ".vtu";
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    files += entry.path().extension() == ".vtu";
   EXPECT_EQ(files, 0u);
 }
 
@@ -131,7 +141,7 @@ TEST_F(AutoRun, BeginsAnewIfTheEndIsSmallAgainstWhatWentBefore) {
   std::ifstream stream(ladder_scene("strip.json"));
   nlohmann::json scene = nlohmann::json::parse(stream);
   scene["loads"][0]["signal"] = {
-      {"table", {{0, 0}, {0.02, 1}, {0.04, 0}}}}; // a pulse, after which everything dies away
+      {"table", {{0, 0}, {0.02, 1}, {0.04, 0}}}}; // a pulse, after which all motion dies away
   scene["stabilization"] = {{"d", 3}};
   std::ofstream(file("pulse.json")) << scene;
   const std::vector<Override> set = {{"n", "4"}, {"width", "1"}, {"force", "1e-3"}};
@@ -149,7 +159,8 @@ TEST_F(AutoRun, LooksWhereASignalChangesItsCourseHoweverLongAllWasStill) {
   nlohmann::json scene = nlohmann::json::parse(stream);
   scene["loads"][0]["signal"] = {{"table", {{0, 0}, {0.2, 0}, {0.201, 1}, {0.203, 1}, {0.204, 0}}}};
   std::ofstream(file("late.json")) << scene;
-  const RunResult result = run(file("late.json"), {{"n", "4"}, {"width", "1"}, {"force", "100"}}, 2000);
+  const RunResult result =
+      run(file("late.json"), {{"n", "4"}, {"width", "1"}, {"force", "100"}}, 2000);
   ASSERT_FALSE(result.model_report.promotions.empty());
   EXPECT_GT(result.model_report.promotions[0].step, 1000); // 0.2 s
   EXPECT_LE(result.model_report.promotions[0].step, 1016) << "looks were 160 steps apart before";

@@ -35,19 +35,23 @@ TEST_F(Output, StateCsvHasOneRowAnElementAndTheWholeQuaternion) {
   state[ux] = 0.1;
   state[qs] = -0.25;
   write_state_csv(file("s.csv"), problem, state,
-                  std::vector<ElementStress>(problem.lattice.element_count, ElementStress{0, 0, 0, 0, 0, 0, 5}));
+                  std::vector<ElementStress>(problem.lattice.element_count,
+                                             ElementStress{0, 0, 0, 0, 0, 0, 5}));
   const std::string text = read_text(file("s.csv"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 17);
   EXPECT_TRUE(text.starts_with("element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm\n"));
   const std::string first = text.substr(text.find('\n') + 1, 200);
-  EXPECT_NE(first.find(",0.10000000000000001,0,0,0.75,0,0,0,0,0,0,0,0,0,5\n"), std::string::npos) << first;
+  EXPECT_NE(first.find(",0.10000000000000001,0,0,0.75,0,0,0,0,0,0,0,0,0,5\n"), std::string::npos)
+      << first;
 }
 
 TEST_F(Output, ASeriesNamesItsFilesAndTimes) {
   const std::vector<Frame> frames = {{"a_0000.vtu", 0}, {"a_0001.vtu", 0.5}};
   write_pvd(file("a.pvd"), frames);
   const std::string text = read_text(file("a.pvd"));
-  EXPECT_NE(text.find("<DataSet timestep=\"0.5\" part=\"0\" file=\"a_0001.vtu\"/>"), std::string::npos) << text;
+  EXPECT_NE(text.find("<DataSet timestep=\"0.5\" part=\"0\" file=\"a_0001.vtu\"/>"),
+            std::string::npos)
+      << text;
 }
 
 } // namespace

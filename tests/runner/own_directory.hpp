@@ -6,11 +6,12 @@
 
 namespace dss::test {
 
-/// A test with a directory of its own, removed with it.
+/// A test with a directory of its own, which it removes at the end.
 class OwnDirectory : public ::testing::Test {
 protected:
   OwnDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "dssbench-test-XXXXXX").string();
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "dssbench-test-XXXXXX").string();
     directory = ::mkdtemp(pattern.data());
   }
   ~OwnDirectory() override { std::filesystem::remove_all(directory); }

@@ -1,4 +1,4 @@
-#include "experiments/runner/parallel.hpp"
+#include "experiments/base/parallel.hpp"
 
 #include <atomic>
 #include <gtest/gtest.h>

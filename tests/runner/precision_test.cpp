@@ -1,9 +1,9 @@
 /// Solutions, errors against them, and the tables of work against precision.
-#include "experiments/runner/precision/accuracy.hpp"
-#include "experiments/runner/precision/precision_table.hpp"
-#include "experiments/runner/precision/refinement.hpp"
-#include "experiments/runner/precision/run_states.hpp"
-#include "experiments/runner/precision/solution.hpp"
+#include "experiments/run/state/accuracy.hpp"
+#include "experiments/run/state/refinement.hpp"
+#include "experiments/run/state/run_states.hpp"
+#include "experiments/run/state/solution.hpp"
+#include "experiments/studies/work_precision/precision_table.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "solver/model/energy.hpp"
@@ -28,7 +28,7 @@ TEST(SavedTimes, StepsAreWholeAndNoneIsLongerThanAskedFor) {
   EXPECT_THROW(times.whole_steps_between(1), InputError);
 }
 
-/// The scene two_elements, of which there is a closed form.
+/// The scene two_elements, which has a closed form.
 class Pair : public test::OwnDirectory {
 protected:
   Scene scene = load_scene("two_elements", {});
@@ -62,7 +62,8 @@ TEST_F(Pair, ASolutionIsAsCloseToTheClosedFormAsItSays) {
 }
 
 TEST_F(Pair, ASolutionStopsAtItsMostStepsAndSaysHowFarItCame) {
-  const Solution solution = find_solution(scene.problem, *find_method("rk4"), {"rk4", 1e-16, 500}, times, {});
+  const Solution solution =
+      find_solution(scene.problem, *find_method("rk4"), {"rk4", 1e-16, 500}, times, {});
   EXPECT_LE(times.end / solution.dt, 500 * 1.001);
   EXPECT_GT(solution.error, 1e-16);
 }
@@ -143,7 +144,8 @@ TEST_F(Pair, AStepThatMissesSavedTimesIsRefused) {
 
 TEST(Accuracy, IsRelativeToTheLargestNumberAtAnySavedTime) {
   const Problem problem = load_scene("two_elements", {}).problem;
-  std::vector<std::vector<double>> expected(2, std::vector<double>(2 * field_count, 0.0)), actual = expected;
+  std::vector<std::vector<double>> expected(2, std::vector<double>(2 * field_count, 0.0)),
+      actual = expected;
   expected[0][ux] = actual[0][ux] = 4;
   expected[1][ux] = 1;
   actual[1][ux] = 1.2;
@@ -164,14 +166,17 @@ TEST(Energy, IsConservedWhereNothingDampsOrLoads) {
   tied.stabilization.d = 1;
   EXPECT_FALSE(conserves_energy(tied));
   EXPECT_FALSE(conserves_energy(
-      load_scene("plate_paper", {{"n", "4"}, {"bodies/0/constants/d", "0"}, {"bodies/0/constants/dt", "0"}}).problem));
+      load_scene("plate_paper",
+                 {{"n", "4"}, {"bodies/0/constants/d", "0"}, {"bodies/0/constants/dt", "0"}})
+          .problem));
 }
 
 TEST(Extrapolation, FindsTheOrderAndTheLimitOfAPowerLaw) {
   std::array<History, 3> grids;
   for (int level = 0; level < 3; ++level) {
     const double h = std::pow(0.5, level);
-    grids[std::size_t(level)] = {{1 + 0.1 * std::pow(h, 1.5), 0, 0}, {4 - 0.2 * std::pow(h, 1.5), 0, 0}};
+    grids[std::size_t(level)] = {{1 + 0.1 * std::pow(h, 1.5), 0, 0},
+                                 {4 - 0.2 * std::pow(h, 1.5), 0, 0}};
   }
   const Extrapolation limit = extrapolate(grids, 2);
   EXPECT_TRUE(limit.converges);
@@ -182,22 +187,23 @@ TEST(Extrapolation, FindsTheOrderAndTheLimitOfAPowerLaw) {
   EXPECT_FALSE(extrapolate(grids, 2).converges);
 }
 
-/// A study of points that were measured, each with an error and a time.
+/// A study of measured points, each with an error and a time.
 class Points : public ::testing::Test {
 protected:
   Points() {
     study.name = "points";
     study.scale.name = "host";
-    study.precision =
-        PrecisionRules{{}, {1e-2, 1e-6}, {{"plate_paper", "plate", {"rk4", "f32", 0}, {"rk4", "f64", 4e-6}}}};
+    study.rules = PrecisionRules{
+        {}, {1e-2, 1e-6}, {{"plate_paper", "plate", {"rk4", "f32", 0}, {"rk4", "f64", 4e-6}}}};
   }
-  /// Of a variant whose name is its own, so that bits are not compared.
-  void add(const std::string& variant, const std::string& precision, long steps, double error, double wall_s) {
+  /// The variant has a name of its own, so that bits are not compared.
+  void add(const std::string& variant, const std::string& precision, long steps, double error,
+           double wall_s) {
     Cell point = cell(variant, 1, steps);
-    point.times = {1e-3, 5};
     point.dt = 1e-3 / double(steps);
     point.precision = precision;
     study.cells.push_back(point);
+    study.accuracy[point.key()] = {{1e-3, 5}, 0};
     for (long repetition = 0; repetition < 6; ++repetition) {
       Record record = row(point, repetition, wall_s * (1 + 1e-3 * double(repetition)));
       record["error_max"] = number_text(error);
@@ -207,17 +213,16 @@ protected:
   }
   void add_refused(long steps, double step_limit) {
     Cell point = cell("fast", 1, steps);
-    point.times = {1e-3, 5};
     point.dt = 1e-3 / double(steps);
-    point.step_limit = step_limit;
     study.cells.push_back(point);
+    study.accuracy[point.key()] = {{1e-3, 5}, step_limit};
     Record record = row(point, 0, 1);
     record.erase("wall_s");
     record["status"] = "refused";
     record["reason"] = "above the limit";
     records.push_back(record);
   }
-  Study study;
+  PrecisionStudy study;
   std::vector<Record> records;
 };
 
@@ -237,10 +242,12 @@ TEST_F(Points, TheFrontHasWhatNothingBeatsInBothAndFailedPointsStay) {
     below.push_back(text_in(point, "below_reference"));
   }
   EXPECT_EQ(front, (std::vector<std::string>{"yes", "yes", "no", "yes", "", "", ""}));
-  EXPECT_EQ(status, (std::vector<std::string>{"ok", "ok", "ok", "ok", "inaccurate", "refused", "failed"}));
+  EXPECT_EQ(status,
+            (std::vector<std::string>{"ok", "ok", "ok", "ok", "inaccurate", "refused", "failed"}));
   EXPECT_EQ(below, (std::vector<std::string>{"no", "no", "no", "yes", "no", "", ""}));
   EXPECT_EQ(text_in(table.rows[5], "reason"), "above the limit");
-  EXPECT_EQ(text_in(table.rows[6], "reason"), "refused below its stability limit 1 s: above the limit");
+  EXPECT_EQ(text_in(table.rows[6], "reason"),
+            "refused below its stability limit 1 s: above the limit");
   EXPECT_EQ(number_in(table.rows[0], "evaluations"), 4.0 * 100 * 100);
 }
 

@@ -1,4 +1,4 @@
-#include "experiments/runner/records.hpp"
+#include "experiments/base/records.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "tests/runner/own_directory.hpp"
@@ -27,7 +27,8 @@ TEST_F(Records, NumbersComeBackToTheLastBit) {
 TEST_F(Records, CommasQuotesAndLineBreaksStayInOneValueOfOneLine) {
   const std::string line = csv_line({"a", "b"}, {{"a", "x, \"y\"\nz"}, {"b", "2"}});
   EXPECT_EQ(line, "\"x, \"\"y\"\" z\",2\n");
-  EXPECT_EQ(split_csv(line.substr(0, line.size() - 1), "here"), (std::vector<std::string>{"x, \"y\" z", "2"}));
+  EXPECT_EQ(split_csv(line.substr(0, line.size() - 1), "here"),
+            (std::vector<std::string>{"x, \"y\" z", "2"}));
 }
 
 TEST_F(Records, RowsAreInTheFileWhenAppendReturns) {

@@ -1,6 +1,7 @@
-#include "experiments/runner/compare.hpp"
-#include "experiments/runner/scaling.hpp"
-#include "experiments/runner/tables.hpp"
+#include "experiments/measure/cell_bases.hpp"
+#include "experiments/measure/compare.hpp"
+#include "experiments/studies/speedup/scaling.hpp"
+#include "experiments/studies/speedup/speedup_table.hpp"
 #include "tests/runner/measured_cells.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,8 @@
 namespace dss {
 namespace {
 
-/// avx2 on 1, 2 and 4 ranks of a machine with 2 cores, beside its base and as many threads; times drift together.
+/// avx2 on 1, 2 and 4 ranks of a machine with 2 cores, beside its base and one process of as many
+/// threads. All times drift together.
 class Scaling : public ::testing::Test {
 protected:
   enum Place { scalar, one, two_threads, deep, shared, four, weak };
@@ -34,18 +36,21 @@ protected:
       }
   }
   Record derived(Place place) const { return derive_table(study, records).rows.at(place); }
-  double number(Place place, const std::string& column) const { return number_in(derived(place), column); }
+  double number(Place place, const std::string& column) const {
+    return number_in(derived(place), column);
+  }
   Record& record(Place place, long repetition) {
     return records.at(std::size_t(repetition) * study.cells.size() + place);
   }
-  Study study;
+  SpeedupStudy study;
   std::vector<Record> records;
 };
 
 TEST(KarpFlatt, IsTheSerialFractionOfAmdahlsLaw) {
   EXPECT_NEAR(karp_flatt(1.8, 2), 1.0 / 9, 1e-15); // (1/1.8 - 1/2) / (1/2)
   EXPECT_NEAR(karp_flatt(4, 4), 0, 1e-15);
-  for (const double serial : {0.05, 0.3}) EXPECT_NEAR(karp_flatt(1 / (serial + (1 - serial) / 6), 6), serial, 1e-14);
+  for (const double serial : {0.05, 0.3})
+    EXPECT_NEAR(karp_flatt(1 / (serial + (1 - serial) / 6), 6), serial, 1e-14);
 }
 
 TEST_F(Scaling, CellsThatDifferInRanksAloneAreComparedByPairs) {
@@ -60,7 +65,8 @@ TEST_F(Scaling, CellsThatDifferInRanksAloneAreComparedByPairs) {
 
 TEST_F(Scaling, OneRankHasNoScaling) {
   for (const Place place : {scalar, one, two_threads})
-    for (const char* column : {"speedup_vs_1_rank", "parallel_efficiency", "karp_flatt", "weak_efficiency"})
+    for (const char* column :
+         {"speedup_vs_1_rank", "parallel_efficiency", "karp_flatt", "weak_efficiency"})
       EXPECT_EQ(text_in(derived(place), column), "") << column;
 }
 
@@ -68,7 +74,8 @@ TEST_F(Scaling, MoreRanksThanCoresAreShownWithoutASpeedUp) {
   const Record crowded = derived(four);
   EXPECT_EQ(text_in(crowded, "status"), "oversubscribed");
   EXPECT_NE(text_in(crowded, "measured_wall_s"), "");
-  for (const char* column : {"speedup_vs_scalar", "speedup_vs_1_rank", "parallel_efficiency", "karp_flatt"})
+  for (const char* column :
+       {"speedup_vs_scalar", "speedup_vs_1_rank", "parallel_efficiency", "karp_flatt"})
     EXPECT_EQ(text_in(crowded, column), "") << column;
   const Record two_each = [&] { // threads count for each rank
     study.cells[deep].threads = 2;
@@ -79,8 +86,11 @@ TEST_F(Scaling, MoreRanksThanCoresAreShownWithoutASpeedUp) {
 }
 
 TEST_F(Scaling, NoClaimIsMadeOfMoreRanksThanCoresWhenRunsAreCompared) {
-  EXPECT_EQ(compare_records(records, records, default_resolution).at(four).verdict, "no claim: oversubscribed");
-  EXPECT_TRUE(compare_records(records, records, default_resolution).at(deep).verdict.starts_with("same within "));
+  EXPECT_EQ(compare_records(records, records, default_resolution).at(four).verdict,
+            "no claim: oversubscribed");
+  EXPECT_TRUE(compare_records(records, records, default_resolution)
+                  .at(deep)
+                  .verdict.starts_with("same within "));
 }
 
 TEST_F(Scaling, AFailedRankCostsTheCellItsScaling) {
@@ -98,7 +108,8 @@ TEST_F(Scaling, WeakEfficiencyIsElementStepsOfARankAgainstThoseOfOneRankAlone) {
   EXPECT_NEAR(number(weak, "weak_efficiency"), 0.98 * 3.6 / 4, 1e-14);
   EXPECT_NEAR(number(weak, "weak_efficiency_high"), 0.98 * 3.6 / 4, 1e-14);
   EXPECT_EQ(text_in(derived(weak), "weak_base_set"), "n=10");
-  EXPECT_EQ(text_in(derived(weak), "speedup_vs_1_rank"), ""); // of the larger problem there is no cell on 1 rank
+  EXPECT_EQ(text_in(derived(weak), "speedup_vs_1_rank"),
+            ""); // the larger problem has no cell on 1 rank
   EXPECT_EQ(text_in(derived(deep), "weak_efficiency"), "");
 }
 
@@ -110,13 +121,14 @@ TEST_F(Scaling, BitsMustNotDependOnRanksOrHalos) {
     EXPECT_EQ(text_in(derived(place), "speedup_vs_1_rank"), "");
   }
   EXPECT_EQ(text_in(derived(scalar), "status"), "ok");
-  EXPECT_EQ(text_in(derived(weak), "status"), "ok"); // another problem
+  EXPECT_EQ(text_in(derived(weak), "status"), "ok"); // because its problem is another one
 }
 
 TEST_F(Scaling, BasesOfAnyScalingGoOnWithTheirPartners) {
   EXPECT_TRUE(is_scaling_base(study, study.cells[one]));
   EXPECT_TRUE(is_scaling_base(study, study.cells[two_threads]));
-  for (const Place place : {scalar, deep, four, weak}) EXPECT_FALSE(is_scaling_base(study, study.cells[place]));
+  for (const Place place : {scalar, deep, four, weak})
+    EXPECT_FALSE(is_scaling_base(study, study.cells[place]));
 }
 
 TEST_F(Scaling, TheTableForPeopleShowsRanksAndWhatTheyExchange) {
@@ -129,7 +141,8 @@ TEST_F(Scaling, TheTableForPeopleShowsRanksAndWhatTheyExchange) {
   EXPECT_EQ(text_in(table.rows.at(deep), "halo_used"), "deep or shared");
   EXPECT_DOUBLE_EQ(number_in(table.rows.at(deep), "communication_share"), 0.25);
   const std::string text = table_text(study, table);
-  for (const char* words : {"Over ranks", "avx2, 2 ranks x 1 thread, halo deep", "1.80 [1.80, 1.80]", "25.0 %"})
+  for (const char* words :
+       {"Over ranks", "avx2, 2 ranks x 1 thread, halo deep", "1.80 [1.80, 1.80]", "25.0 %"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 

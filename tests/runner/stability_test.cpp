@@ -1,8 +1,8 @@
-/// Step limits measured by runs of variants, and the energy that methods take from a mode.
-#include "experiments/runner/stability_energy.hpp"
-#include "experiments/runner/stability_limit.hpp"
+/// Step limits measured by runs, and the energy that methods take from a mode.
+#include "experiments/run/stability/stability_energy.hpp"
+#include "experiments/run/stability/stability_limit.hpp"
 #include "tests/fixtures/problems.hpp"
-#include "variants/loader.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double budget = 2e5; ///< element-steps of a run: the reference is slow
 constexpr double omega = 100;  ///< of the one mode [rad/s]
 
-/// Two elements of which one can only move away from the other.
+/// Two elements, of which one can only move away from the other.
 Problem one_mode(double zeta) {
   Problem problem = fixture::make_pair(LinkLaw::paper);
   Body& body = problem.bodies[0];
@@ -31,11 +31,12 @@ Problem one_mode(double zeta) {
   return problem;
 }
 
-/// The table of RK4's limits against the damping ratio (DESIGN.md and the issue that asked for it).
-const std::map<double, double> rk4_limits = {{0, 2.828},   {0.01, 2.849}, {0.1, 2.951}, {0.5, 2.622},
-                                             {1.0, 2.785}, {1.5, 1.064},  {2.0, 0.746}, {10.0, 0.1396}};
+/// RK4's limits against the damping ratio.
+const std::map<double, double> rk4_limits = {{0, 2.828},   {0.01, 2.849}, {0.1, 2.951},
+                                             {0.5, 2.622}, {1.0, 2.785},  {1.5, 1.064},
+                                             {2.0, 0.746}, {10.0, 0.1396}};
 
-/// Where a method grows more slowly than this at 1 % above its limit, runs of seconds do not show it.
+/// At 1 % above its limit, a growth slower than this is not seen in runs of seconds.
 bool is_seen_quickly(const Method& method, double zeta) {
   const double limit = mode_step_limit(method, omega, 2 * zeta * omega);
   return limit > 0 && spectral_radius(method, 1.01 * limit, omega, 2 * zeta * omega) > 1 + 1e-3;
@@ -64,13 +65,15 @@ TEST_P(Limits, of_every_method_are_measured_as_predicted_to_one_percent) {
     for (const auto& [zeta, unused] : rk4_limits) {
       if (!is_seen_quickly(method, zeta)) continue;
       const Problem problem = one_mode(zeta);
-      const LimitComparison row = compare_limit(plugin, problem, method, stable_step(problem, method, true), budget);
+      const LimitComparison row =
+          compare_limit(plugin, problem, method, stable_step(problem, method, true), budget);
       EXPECT_NEAR(row.ratio(), 1, 0.01) << method.name << " zeta = " << zeta;
       EXPECT_EQ(row.status, "ok") << method.name << " zeta = " << zeta << ": " << row.reason;
     }
 }
 
-TEST_P(Limits, of_a_body_whose_damping_shares_no_modes_with_its_stiffness_are_measured_as_predicted) {
+TEST_P(Limits,
+       of_a_body_whose_damping_shares_no_modes_with_its_stiffness_are_measured_as_predicted) {
   const Problem block = fixture::make_block(3, 2, 1, LinkLaw::material, 20);
   for (const Method& method : methods()) {
     const StabilityLimit predicted = stable_step(block, method, true);
@@ -89,10 +92,12 @@ TEST_P(Limits, that_are_predicted_wrongly_fail) {
       predicted.dt *= error;
       const LimitComparison row = compare_limit(plugin, problem, method, predicted);
       EXPECT_EQ(row.status, "failed") << method.name << ' ' << error;
-      EXPECT_NEAR(row.ratio() * error, 1, 0.005) << "the measurement must not follow the prediction";
-      // A bound may be too small, but not too large.
+      EXPECT_NEAR(row.ratio() * error, 1, 0.005)
+          << "the measurement must not follow the prediction";
+      // A bound may be too small, but never too large.
       predicted.is_exact = false;
-      EXPECT_EQ(compare_limit(plugin, problem, method, predicted).status, error < 1 ? "bound" : "failed");
+      EXPECT_EQ(compare_limit(plugin, problem, method, predicted).status,
+                error < 1 ? "bound" : "failed");
     }
 }
 
@@ -111,14 +116,15 @@ TEST_P(Limits, leave_the_energy_that_theory_leaves) {
     ASSERT_GE(range.size(), 7u);
     for (const double h_omega : range) {
       const EnergyPoint point = energy_change(plugin, problem, method, omega, h_omega);
-      EXPECT_TRUE(point.is_as_predicted())
-          << method.name << ' ' << h_omega << ": " << point.measured << ", in theory " << point.theory;
+      EXPECT_TRUE(point.is_as_predicted()) << method.name << ' ' << h_omega << ": "
+                                           << point.measured << ", in theory " << point.theory;
     }
   }
 }
 
 TEST_P(Limits, of_rk4_do_not_say_that_it_is_accurate_there) {
-  const EnergyPoint most = energy_change(plugin, one_mode(0), *find_method("rk4"), omega, std::sqrt(6.0));
+  const EnergyPoint most =
+      energy_change(plugin, one_mode(0), *find_method("rk4"), omega, std::sqrt(6.0));
   EXPECT_NEAR(most.theory, -0.75, 1e-12);
   EXPECT_NEAR(most.measured, -0.75, 1e-9);
 }

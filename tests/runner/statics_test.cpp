@@ -1,5 +1,5 @@
-#include "experiments/runner/statics/settle.hpp"
-#include "experiments/runner/statics/statics_study.hpp"
+#include "experiments/run/statics/settle.hpp"
+#include "experiments/studies/statics/statics_study.hpp"
 #include "solver/error.hpp"
 
 #include <gtest/gtest.h>
@@ -37,8 +37,9 @@ TEST(StaticRun, relaxation_ends_in_newtons_state_at_finite_loads) {
     const AnalysisResult newton = solved(run, "newton");
     for (const std::string masses : {"scaled", "scene"}) {
       const AnalysisResult relaxed = solved(run, "relaxation", 1, masses);
-      EXPECT_LT(displacement_difference(relaxed.state, newton.state), 1e-8) << run.scene << " " << masses;
-      EXPECT_LT(relaxed.residual, 2e-10); // as the oracle finds it
+      EXPECT_LT(displacement_difference(relaxed.state, newton.state), 1e-8)
+          << run.scene << " " << masses;
+      EXPECT_LT(relaxed.residual, 2e-10); // as computed by the oracle
       EXPECT_NEAR(relaxed.energy_j, newton.energy_j, 1e-8 * newton.energy_j);
     }
   }
@@ -49,7 +50,8 @@ TEST(StaticRun, three_solutions_agree_where_loads_are_small) {
     const double loads = run.scene == "plate_paper" ? 1e-3 : 1e-9;
     const std::vector<double> newton = solved(run, "newton", loads).state;
     for (const std::string solver : {"direct", "cg", "relaxation"})
-      EXPECT_LT(displacement_difference(solved(run, solver, loads).state, newton), 1e-8) << run.scene << " " << solver;
+      EXPECT_LT(displacement_difference(solved(run, solver, loads).state, newton), 1e-8)
+          << run.scene << " " << solver;
   }
 }
 
@@ -57,7 +59,8 @@ TEST(StaticRun, damped_run_settles_to_newtons_state) {
   for (const RunRequest& run : {beam, plate}) {
     const AnalysisResult settled = settle(run, {});
     EXPECT_EQ(settled.status, "ok") << settled.reason;
-    EXPECT_LT(displacement_difference(settled.state, solved(run, "newton").state), 1e-8) << run.scene;
+    EXPECT_LT(displacement_difference(settled.state, solved(run, "newton").state), 1e-8)
+        << run.scene;
   }
 }
 
@@ -76,9 +79,10 @@ TEST(StaticRun, relaxation_runs_in_every_model_and_precision) {
 }
 
 TEST(StaticRun, loads_are_those_of_the_end_of_the_run) {
-  // The force grows to its value in 0.05 s.
+  // The force reaches its value in 0.05 s.
   const auto after = [](const char* steps) {
-    return solved(of("cantilever_beam", {{"n", "8"}, {"run.dt", "1e-4"}, {"run.steps", steps}}), "direct");
+    return solved(of("cantilever_beam", {{"n", "8"}, {"run.dt", "1e-4"}, {"run.steps", steps}}),
+                  "direct");
   };
   EXPECT_NEAR(after("250").max_displacement_m, after("1000").max_displacement_m / 2, 1e-12);
 }
@@ -94,11 +98,12 @@ TEST(StaticRun, relaxation_that_runs_out_of_steps_says_how_far_it_came) {
 }
 
 TEST(StaticRun, a_model_that_lacks_loaded_degrees_of_freedom_is_refused) {
-  RunRequest run = beam; // loaded across
+  RunRequest run = beam; // loaded across its axis
   run.model = "axial";
   EXPECT_THROW(solve_static(run, {}), InputError);
   run.model = "bending";
-  EXPECT_NEAR(solve_static(run, {}).max_displacement_m, solved(beam, "direct").max_displacement_m, 1e-12);
+  EXPECT_NEAR(solve_static(run, {}).max_displacement_m, solved(beam, "direct").max_displacement_m,
+              1e-12);
 }
 
 TEST(StaticsStudy, its_rows_hold_every_way_against_newtons) {
@@ -109,7 +114,8 @@ TEST(StaticsStudy, its_rows_hold_every_way_against_newtons) {
   int linear = 0;
   for (const Record& row : table.rows) {
     linear += text_in(row, "status") == "linear";
-    EXPECT_NE(text_in(row, "status"), "failed") << text_in(row, "solver") << ": " << text_in(row, "reason");
+    EXPECT_NE(text_in(row, "status"), "failed")
+        << text_in(row, "solver") << ": " << text_in(row, "reason");
   }
   EXPECT_EQ(linear, 3);
   study.bar = 1e-20;

@@ -1,4 +1,4 @@
-#include "experiments/runner/statistics.hpp"
+#include "experiments/base/statistics.hpp"
 
 #include <gtest/gtest.h>
 #include <numeric>
@@ -28,7 +28,8 @@ TEST(Statistics, FiveSamplesGiveNoIntervalAndSixGiveTheirExtremes) {
   EXPECT_EQ(six.interval->high, 6);
 }
 
-/// Ranks of the 95 % interval of a median from tables of the sign test (Conover, Practical Nonparametric Statistics).
+/// Ranks of the 95 % interval of a median, from tables of the sign test (Conover, Practical
+/// Nonparametric Statistics).
 TEST(Statistics, IntervalRanksAreThoseOfTheSignTest) {
   const std::pair<int, int> lower_ranks[] = {{6, 1},  {8, 1},  {9, 2},  {11, 2}, {12, 3},
                                              {15, 4}, {20, 6}, {25, 8}, {30, 10}};

@@ -1,6 +1,6 @@
 /// Studies with the keys `device` and `hybrid`.
-#include "experiments/runner/balance_study.hpp"
-#include "experiments/runner/study.hpp"
+#include "experiments/studies/balance/balance_study.hpp"
+#include "experiments/studies/speedup/speedup_study.hpp"
 #include "solver/error.hpp"
 #include "tests/runner/own_directory.hpp"
 
@@ -29,10 +29,10 @@ protected:
     std::ofstream(directory / "devices.json") << study;
     return (directory / "devices.json").string();
   }
-  /// The block's cells; those of a base come first.
+  /// The cells of the block. Those of a base come first.
   std::vector<Cell> cells(const json& block, int cores = 4) {
     study["cells"] = {{{"scene", "plate_paper"}, {"variants", {"scalar"}}}, block};
-    Study loaded = load_study(written(), "smoke", cores);
+    SpeedupStudy loaded = read_speedup(open_study(written(), "smoke"), cores);
     loaded.cells.erase(loaded.cells.begin());
     return loaded.cells;
   }
@@ -49,9 +49,10 @@ protected:
 };
 
 TEST_F(StudyOfDevices, ADeviceThatIsNotThereMakesItsCellsUnavailable) {
-  for (const json& block : {json{{"scene", "plate_paper"}, {"variants", {"opencl"}}, {"device", "no such device"}},
-                            json{{"scene", "plate_paper"}, {"hybrid", "scalar,opencl@[9:9]"}},
-                            json{{"scene", "plate_paper"}, {"hybrid", "auto"}, {"device", "no such device"}}}) {
+  for (const json& block :
+       {json{{"scene", "plate_paper"}, {"variants", {"opencl"}}, {"device", "no such device"}},
+        json{{"scene", "plate_paper"}, {"hybrid", "scalar,opencl@[9:9]"}},
+        json{{"scene", "plate_paper"}, {"hybrid", "auto"}, {"device", "no such device"}}}) {
     const std::vector<Cell> found = cells(block);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_TRUE(found[0].is_unavailable) << block;
@@ -61,8 +62,8 @@ TEST_F(StudyOfDevices, ADeviceThatIsNotThereMakesItsCellsUnavailable) {
 }
 
 TEST_F(StudyOfDevices, AHybridHasTheThreadsOfItsMembersOnTheCpu) {
-  const auto found =
-      cells({{"scene", "plate_paper"}, {"hybrid", {"scalar:cores,scalar:1", "scalar:rest,opencl@[9:9]:2"}}});
+  const auto found = cells({{"scene", "plate_paper"},
+                            {"hybrid", {"scalar:cores,scalar:1", "scalar:rest,opencl@[9:9]:2"}}});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].hybrid, "scalar:4,scalar:1");
   EXPECT_EQ(found[0].variant, "hybrid");
@@ -73,7 +74,8 @@ TEST_F(StudyOfDevices, AHybridHasTheThreadsOfItsMembersOnTheCpu) {
 }
 
 TEST_F(StudyOfDevices, AnAutomaticHybridHasThoseOfTheBlock) {
-  const auto found = cells({{"scene", "plate_paper"}, {"hybrid", "auto"}, {"threads", {1, "cores"}}});
+  const auto found =
+      cells({{"scene", "plate_paper"}, {"hybrid", "auto"}, {"threads", {1, "cores"}}});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[1].threads, 4);
   EXPECT_EQ(found[1].label(), "hybrid auto, 4 threads");
@@ -85,8 +87,10 @@ TEST_F(StudyOfDevices, WrongKeysAreRefusedWithTheirPlace) {
     more.update(plate);
     return more;
   };
-  expect_refused(with({{"variants", {"scalar"}}, {"device", "cpu"}}), {"/cells/1/variants", "scalar", "opencl"});
-  expect_refused(with({{"variants", {"scalar"}}, {"hybrid", "auto"}}), {"/cells/1/variants", "hybrid"});
+  expect_refused(with({{"variants", {"scalar"}}, {"device", "cpu"}}),
+                 {"/cells/1/variants", "scalar", "opencl"});
+  expect_refused(with({{"variants", {"scalar"}}, {"hybrid", "auto"}}),
+                 {"/cells/1/variants", "hybrid"});
   expect_refused(with({{"hybrid", "scaler,opencl"}}), {"/cells/1/hybrid", "\"scalar\""});
   expect_refused(with({{"hybrid", "scalar:0"}}), {"/cells/1/hybrid", "scalar:0"});
   expect_refused(with({{"hybrid", "scalar"}, {"threads", {2}}}), {"/cells/1/threads", "members"});
@@ -100,7 +104,7 @@ TEST_F(StudyOfDevices, StepsOfAVariantMayBeOfOneSetAlone) {
                               {"full_steps", 1000},
                               {"steps_for", {{"reference", 8}, {"reference n=12", 6}}}};
   const auto found = cells({{"scene", "plate_paper"}, {"variants", {"reference"}}});
-  ASSERT_EQ(found.size(), 3u); // with that of n=12 of the base
+  ASSERT_EQ(found.size(), 3u); // including that of n=12 of the base
   EXPECT_EQ(found[0].steps, 10);
   EXPECT_EQ(found[1].steps, 8);
   EXPECT_EQ(found[2].steps, 6);
@@ -116,18 +120,17 @@ TEST_F(StudyOfDevices, ABalanceIsAModelWithAStatusOfItsOwn) {
              {"speed_ratios", {1, 50}},
              {"n", {50, 100}},
              {"links", {{{"label", "L"}, {"latency_us", 10}, {"gb_per_s", 12}}}}}}};
-  const auto balance = load_balance(written(), "smoke");
-  ASSERT_TRUE(balance);
-  const Table table = balance_table(*balance);
+  const Table table = balance_table(read_balance(open_study(written(), "smoke")));
   ASSERT_EQ(table.rows.size(), 2u * 2 * 2);
   for (const Record& row : table.rows) {
     EXPECT_EQ(text_in(row, "status"), "modelled");
     EXPECT_EQ(text_in(row, "measured_wall_s"), "");
-    EXPECT_EQ(text_in(row, "modelled_joining_pays"), number_in(row, "modelled_of_fast") > 1 ? "yes" : "no");
+    EXPECT_EQ(text_in(row, "modelled_joining_pays"),
+              number_in(row, "modelled_of_fast") > 1 ? "yes" : "no");
   }
   EXPECT_LT(number_in(table.rows[1], "modelled_equal_split_of_fast"), 0.1); // n = 50, 1:50
   study["balance"]["n"] = {1};
-  EXPECT_THROW(load_balance(written(), "smoke"), InputError);
+  EXPECT_THROW(read_balance(open_study(written(), "smoke")), InputError);
 }
 
 } // namespace

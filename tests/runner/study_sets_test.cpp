@@ -1,4 +1,4 @@
-#include "experiments/runner/study_sets.hpp"
+#include "experiments/measure/study_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,9 @@ std::string refusal(const json& overrides) {
 }
 
 TEST(Combinations, AreAllOfThemInTheOrderOfKeys) {
-  const json study = {{"set", {{"E", 1e7}, {"n", {4, 8}}, {"run.integrator", {"rk4", "midpoint"}}, {"is_held", true}}}};
+  const json study = {
+      {"set",
+       {{"E", 1e7}, {"n", {4, 8}}, {"run.integrator", {"rk4", "midpoint"}}, {"is_held", true}}}};
   EXPECT_EQ(texts(combinations(JsonPlace(study, "study.json"), "set")),
             (std::vector<std::string>{"E=10000000.0;is_held=true;n=4;run.integrator=rk4;",
                                       "E=10000000.0;is_held=true;n=4;run.integrator=midpoint;",
@@ -36,16 +38,17 @@ TEST(Combinations, AreAllOfThemInTheOrderOfKeys) {
 
 TEST(Combinations, WithoutTheKeyAreOneSetOfNothing) {
   const json study = json::object();
-  EXPECT_EQ(texts(combinations(JsonPlace(study, "study.json"), "set")), std::vector<std::string>{""});
+  EXPECT_EQ(texts(combinations(JsonPlace(study, "study.json"), "set")),
+            std::vector<std::string>{""});
 }
 
 TEST(OneSet, RefusesWhatIsNoneWithItsPlace) {
   EXPECT_EQ(refusal({{"n", 4}}), "accepted");
-  for (const auto& [overrides, part] :
-       std::vector<std::pair<json, std::string>>{{{{"n", {4, 8}}}, "study.json: /set: has several values"},
-                                                 {{{"n", json::array()}}, "study.json: /set/n: is empty"},
-                                                 {{{"n", {{"m", 1}}}}, "study.json: /set/n: {\"m\":1} is not a number"},
-                                                 {json(3), "study.json: /set: is not an object of overrides"}})
+  for (const auto& [overrides, part] : std::vector<std::pair<json, std::string>>{
+           {{{"n", {4, 8}}}, "study.json: /set: has several values"},
+           {{{"n", json::array()}}, "study.json: /set/n: is empty"},
+           {{{"n", {{"m", 1}}}}, "study.json: /set/n: {\"m\":1} is not a number"},
+           {json(3), "study.json: /set: is not an object of overrides"}})
     EXPECT_TRUE(refusal(overrides).starts_with(part)) << refusal(overrides);
 }
 

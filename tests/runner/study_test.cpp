@@ -1,8 +1,8 @@
-#include "experiments/runner/cell_record.hpp"
-#include "experiments/runner/study.hpp"
+#include "experiments/measure/cell_record.hpp"
+#include "experiments/studies/speedup/speedup_study.hpp"
 #include "solver/error.hpp"
 #include "tests/runner/own_directory.hpp"
-#include "variants/loader.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Studies in a directory of their own, of a variant that can compute parts.
+/// Studies in a directory of their own, with a variant that can compute parts.
 class StudyOfRanks : public test::OwnDirectory {
 protected:
   StudyOfRanks() {
@@ -30,10 +30,10 @@ protected:
              {"scales", {{"smoke", {{"set", {{"n", 10}}}, {"steps", 10}}}}}};
   }
 
-  Study load(const std::vector<json>& blocks, int cores = 2) {
+  SpeedupStudy load(const std::vector<json>& blocks, int cores = 2) {
     study["cells"] = blocks;
     std::ofstream(directory / "ranks.json") << study;
-    return load_study((directory / "ranks.json").string(), "smoke", cores);
+    return read_speedup(open_study((directory / "ranks.json").string(), "smoke"), cores);
   }
   json with(const json& changes) const {
     json changed = block;
@@ -58,31 +58,33 @@ bool contains(const std::vector<std::string>& line, const std::string& word) {
 }
 
 TEST_F(StudyOfRanks, WithoutTheKeysEveryCellIsOneProcess) {
-  const Study loaded = load({block});
+  const SpeedupStudy loaded = load({block});
   ASSERT_EQ(loaded.cells.size(), 1u);
   EXPECT_EQ(loaded.cells[0].ranks, 1);
   EXPECT_EQ(loaded.cells[0].key(), "plate_paper n=10 " + variant + " t1 spatial f64 rk4 10 steps");
   EXPECT_EQ(loaded.cells[0].label(), variant + ", 1 thread");
-  EXPECT_FALSE(contains(run_arguments(loaded, loaded.cells[0], "o.state"), "--ranks"));
+  EXPECT_FALSE(contains(run_arguments(loaded, loaded.cells[0], {}), "--ranks"));
 }
 
 TEST_F(StudyOfRanks, HalosAndDecompositionsMultiplyCellsOnSeveralRanksAlone) {
-  const Study loaded = load(
-      {with({{"ranks", {1, 2, "cores", 4}}, {"halos", {"deep", "auto"}}, {"decompositions", {"strips", "blocks"}}})});
+  const SpeedupStudy loaded = load({with({{"ranks", {1, 2, "cores", 4}},
+                                          {"halos", {"deep", "auto"}},
+                                          {"decompositions", {"strips", "blocks"}}})});
   ASSERT_EQ(loaded.cells.size(), 1u + 2 * 2 * 2);
   const Cell& last = loaded.cells.back();
-  EXPECT_EQ(last.key(), "plate_paper n=10 " + variant + " r4 blocks auto t1 spatial f64 rk4 10 steps");
+  EXPECT_EQ(last.key(),
+            "plate_paper n=10 " + variant + " r4 blocks auto t1 spatial f64 rk4 10 steps");
   EXPECT_EQ(last.label(), variant + ", 4 ranks x 1 thread, halo auto, blocks");
   EXPECT_EQ(last.problem_key(), loaded.cells[0].problem_key());
   EXPECT_TRUE(last.is_oversubscribed(2));
   EXPECT_FALSE(loaded.cells[1].is_oversubscribed(2));
-  const std::vector<std::string> line = run_arguments(loaded, last, "o.state");
+  const std::vector<std::string> line = run_arguments(loaded, last, {});
   for (const char* word : {"--ranks", "4", "--halo", "auto", "--decomposition", "blocks"})
     EXPECT_TRUE(contains(line, word)) << word;
 }
 
 TEST_F(StudyOfRanks, CoresAreThoseOfTheMachine) {
-  const Study loaded = load({with({{"ranks", "1..cores"}})}, 3);
+  const SpeedupStudy loaded = load({with({{"ranks", "1..cores"}})}, 3);
   ASSERT_EQ(loaded.cells.size(), 3u);
   EXPECT_EQ(loaded.cells[2].ranks, 3);
 }
@@ -94,15 +96,16 @@ TEST_F(StudyOfRanks, WrongKeysAreRefusedWithTheirPlace) {
   expect_refused({{"halos", {"depe"}}}, {"/cells/0/halos", "\"deep\"", "shared"});
   expect_refused({{"decompositions", {"strip"}}}, {"/cells/0/decompositions", "\"strips\""});
   expect_refused({{"halo", "deep"}}, {"/cells/0", "\"halos\""});
-  expect_refused({{"ranks", {2}}, {"variants", {variant, "reference"}}}, {"/cells/0/ranks", "reference", "1 rank"});
+  expect_refused({{"ranks", {2}}, {"variants", {variant, "reference"}}},
+                 {"/cells/0/ranks", "reference", "1 rank"});
 }
 
 TEST_F(StudyOfRanks, AWeakScalingGrowsItsProblemWithTheRanks) {
   const json strong = with({{"ranks", {1, 2}}, {"halos", {"deep"}}});
   const json weak = with({{"ranks", {1, 2, 4, 6}}, {"weak", {{"parameter", "n"}, {"power", 2}}}});
   for (const auto& blocks : {std::vector{strong, weak}, std::vector{weak, strong}}) {
-    const Study loaded = load(blocks);
-    ASSERT_EQ(loaded.cells.size(), 5u); // the cell on 1 rank is one of both
+    const SpeedupStudy loaded = load(blocks);
+    ASSERT_EQ(loaded.cells.size(), 5u); // the cell on 1 rank belongs to both
     std::vector<std::string> sets;
     for (const Cell& cell : loaded.cells)
       if (!cell.weak_base_set.empty()) {
@@ -119,16 +122,22 @@ TEST_F(StudyOfRanks, AWeakScalingThatCannotGrowIsRefused) {
   expect_refused({{"ranks", {1, 2}}, {"weak", {{"parameter", "m"}, {"power", 2}}}},
                  {"/cells/0/weak/parameter", "\"m\""});
   expect_refused({{"ranks", {1, 2}}, {"weak", {{"parameter", "n"}}}}, {"/cells/0/weak", "power"});
-  expect_refused({{"ranks", {1, 2}}, {"weak", {{"parameter", "n"}, {"power", 0}}}}, {"/cells/0/weak/power", "0"});
-  expect_refused({{"ranks", {1, 2}}, {"set", {{"run.dt", 1e-7}}}, {"weak", {{"parameter", "run.dt"}, {"power", 1}}}},
+  expect_refused({{"ranks", {1, 2}}, {"weak", {{"parameter", "n"}, {"power", 0}}}},
+                 {"/cells/0/weak/power", "0"});
+  expect_refused({{"ranks", {1, 2}},
+                  {"set", {{"run.dt", 1e-7}}},
+                  {"weak", {{"parameter", "run.dt"}, {"power", 1}}}},
                  {"/cells/0/weak/parameter", "run.dt=1e-07"});
 }
 
 TEST_F(StudyOfRanks, ATwinRunsOnOneRank) {
   study["twin"] = variant;
-  const Study loaded =
-      load({with({{"ranks", {1, 2, 4}}, {"weak", {{"parameter", "n"}, {"power", 2}}}}), with({{"ranks", {2}}})});
-  EXPECT_EQ(std::count_if(loaded.cells.begin(), loaded.cells.end(), [](const Cell& cell) { return cell.is_twin; }), 1);
+  const SpeedupStudy loaded =
+      load({with({{"ranks", {1, 2, 4}}, {"weak", {{"parameter", "n"}, {"power", 2}}}}),
+            with({{"ranks", {2}}})});
+  EXPECT_EQ(std::count_if(loaded.cells.begin(), loaded.cells.end(),
+                          [](const Cell& cell) { return cell.is_twin; }),
+            1);
   EXPECT_EQ(loaded.cells.back().ranks, 1);
 }
 

@@ -1,6 +1,6 @@
-#include "experiments/runner/compare.hpp"
-#include "experiments/runner/samples.hpp"
-#include "experiments/runner/tables.hpp"
+#include "experiments/measure/compare.hpp"
+#include "experiments/measure/samples.hpp"
+#include "experiments/studies/speedup/speedup_table.hpp"
 #include "tests/runner/measured_cells.hpp"
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 namespace dss {
 namespace {
 
-/// Two variants and a twin, six repetitions: the base takes 10 s and drifts, the other a quarter of the base's time in
-/// each repetition.
+/// Two variants and a twin, six repetitions. The base takes 10 s and drifts. The other takes a
+/// quarter of the base's time in each repetition.
 class Tables : public ::testing::Test {
 protected:
   Tables() {
@@ -18,7 +18,8 @@ protected:
     study.title = "A study";
     study.bases = {"scalar"};
     study.scale.name = "host";
-    study.cells = {cell("scalar", 1), cell("avx2", 1), cell("avx2", 4), cell("scalar", 1, 100, true)};
+    study.cells = {cell("scalar", 1), cell("avx2", 1), cell("avx2", 4),
+                   cell("scalar", 1, 100, true)};
     for (long r = 0; r < 6; ++r) {
       const double drift = 1 + 0.1 * double(r);
       records.push_back(row(study.cells[0], r, 10 * drift));
@@ -28,7 +29,7 @@ protected:
     }
   }
   Record derived(std::size_t place) const { return derive_table(study, records).rows.at(place); }
-  Study study;
+  SpeedupStudy study;
   std::vector<Record> records;
 };
 
@@ -36,7 +37,7 @@ TEST_F(Tables, SpeedUpsComparePairsOfTheSameRepetitionSoThatDriftCancels) {
   EXPECT_DOUBLE_EQ(number_in(derived(1), "speedup_vs_scalar"), 4);
   EXPECT_DOUBLE_EQ(number_in(derived(1), "speedup_vs_scalar_low"), 4);
   EXPECT_DOUBLE_EQ(number_in(derived(1), "speedup_vs_scalar_high"), 4);
-  EXPECT_EQ(derived(1)["converged"], "no"); // the drift is in the times
+  EXPECT_EQ(derived(1)["converged"], "no"); // because the times drift
 }
 
 TEST_F(Tables, MoreThreadsThanCoresAreShownWithoutASpeedUp) {
@@ -45,7 +46,9 @@ TEST_F(Tables, MoreThreadsThanCoresAreShownWithoutASpeedUp) {
   EXPECT_DOUBLE_EQ(number_in(derived(2), "measured_wall_s"), 1.25);
 }
 
-TEST_F(Tables, TheTwinGivesTheResolution) { EXPECT_NEAR(number_in(derived(0), "resolution"), 0.03, 0.002); }
+TEST_F(Tables, TheTwinGivesTheResolution) {
+  EXPECT_NEAR(number_in(derived(0), "resolution"), 0.03, 0.002);
+}
 
 TEST_F(Tables, AWrongRepetitionKeepsItsTimeAndCostsTheSpeedUp) {
   records[1]["check"] = "failed";
@@ -65,7 +68,8 @@ TEST_F(Tables, UnequalBitsOfVariantsWithFmaCostAllOfThemTheSpeedUp) {
 
 TEST_F(Tables, FewerStepsAreExtrapolatedInColumnsOfTheirOwn) {
   study.cells.push_back(cell("avx512", 1, 10));
-  for (long r = 0; r < 6; ++r) records.push_back(row(study.cells[4], r, 0.1 * (1 + 0.1 * double(r))));
+  for (long r = 0; r < 6; ++r)
+    records.push_back(row(study.cells[4], r, 0.1 * (1 + 0.1 * double(r))));
   EXPECT_DOUBLE_EQ(number_in(derived(4), "extrapolated_wall_s"), 1.25);
   EXPECT_DOUBLE_EQ(number_in(derived(4), "measured_wall_s"), 0.125);
   EXPECT_EQ(derived(4)["speedup_vs_scalar"], "");
@@ -89,7 +93,8 @@ TEST_F(Tables, OfARetriedRepetitionTheLastAttemptCounts) {
 TEST_F(Tables, ARunThatGotSlowerIsSlowerAndAnEqualOneIsTheSame) {
   std::vector<Record> slower = records;
   for (Record& record : slower)
-    if (record["cell"] == study.cells[1].key()) record["wall_s"] = number_text(2 * number_in(record, "wall_s"));
+    if (record["cell"] == study.cells[1].key())
+      record["wall_s"] = number_text(2 * number_in(record, "wall_s"));
   const auto verdict = [&](const std::vector<Record>& before, const std::vector<Record>& after) {
     return compare_records(before, after, default_resolution).at(1).verdict;
   };
@@ -109,7 +114,9 @@ TEST_F(Tables, ATimeOfAWrongStateIsNoClaimOnEitherSide) {
   const Comparison in_old = compare_records(wrong, records, default_resolution).at(1);
   EXPECT_EQ(in_old.verdict, "no claim: wrong");
   EXPECT_FALSE(in_old.is_new_wrong);
-  EXPECT_TRUE(compare_records(records, wrong, default_resolution).at(0).verdict.starts_with("same within "));
+  EXPECT_TRUE(compare_records(records, wrong, default_resolution)
+                  .at(0)
+                  .verdict.starts_with("same within "));
 }
 
 TEST_F(Tables, AnUncheckedTimeIsNoClaim) {
@@ -124,7 +131,8 @@ TEST_F(Tables, ShortRepetitionsAreCountedAndShown) {
   EXPECT_EQ(derived(1)["short"], "0");
   records[1]["wall_s"] = "0.09";
   EXPECT_EQ(derived(1)["short"], "1");
-  EXPECT_NE(table_text(study, derive_table(study, records)).find("short samples"), std::string::npos);
+  EXPECT_NE(table_text(study, derive_table(study, records)).find("short samples"),
+            std::string::npos);
 }
 
 TEST_F(Tables, FewRepetitionsGiveNoVerdict) {

@@ -1,8 +1,8 @@
-#include "experiments/runner/state_access.hpp"
-#include "experiments/runner/verify.hpp"
+#include "experiments/run/state/state_access.hpp"
+#include "experiments/run/verify/verify.hpp"
 #include "solver/error.hpp"
 #include "tests/fixtures/problems.hpp"
-#include "variants/loader.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,14 @@ TEST(Verify, RandomStatesAreUnitRotationsAndRespectClamps) {
   double largest_rotation = 0;
   for (std::size_t e = 0; e < state.size(); e += field_count) {
     const double w = 1 + state[e + qs];
-    EXPECT_NEAR(w * w + state[e + qx] * state[e + qx] + state[e + qy] * state[e + qy] + state[e + qz] * state[e + qz],
+    EXPECT_NEAR(w * w + state[e + qx] * state[e + qx] + state[e + qy] * state[e + qy] +
+                    state[e + qz] * state[e + qz],
                 1, 1e-14);
     largest_rotation = std::max(largest_rotation, 2 * std::acos(std::abs(w)));
   }
   EXPECT_GT(largest_rotation, 1);
-  for (int field = vx; field < qs; ++field) EXPECT_EQ(state[std::size_t(field)], 0) << "element 0 is clamped";
+  for (int field = vx; field < qs; ++field)
+    EXPECT_EQ(state[std::size_t(field)], 0) << "element 0 is clamped";
 }
 
 TEST(StateDigest, TakesZerosOfEitherSignAndFlushedNumbersForEqual) {
@@ -57,7 +59,8 @@ TEST(VerifyScene, WithoutDevicesLeavesOutVariantsOnThemAndGivesHybridsNone) {
     }
   const Scene scene = load_scene("two_bodies", {});
   for (const VerifyRow& row : verify_scene(scene, 2, plugins, no_device)) {
-    EXPECT_NE(row.verdict, VerifyRow::Verdict::failed) << row.variant << " " << row.check << ": " << row.reason;
+    EXPECT_NE(row.verdict, VerifyRow::Verdict::failed)
+        << row.variant << " " << row.check << ": " << row.reason;
     EXPECT_NE(row.variant, "opencl");
   }
   if (std::string_view(plugins.back()->name) != "hybrid") return;
@@ -65,7 +68,7 @@ TEST(VerifyScene, WithoutDevicesLeavesOutVariantsOnThemAndGivesHybridsNone) {
   const Method& rk4 = *find_method("rk4");
   dss::Setup setup{problem, rk4, Model::spatial, Precision::f64, problem.dt, 2};
   setup.device = no_device;
-  for (const HybridInfo::Entry& member : plugins.back()->create(setup)->hybrid_info().members)
+  for (const HybridInfo::Entry& member : hybrid_info(*plugins.back()->create(setup)).members)
     EXPECT_FALSE(member.member.starts_with("opencl")) << member.member;
 }
 

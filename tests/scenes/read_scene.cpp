@@ -1,4 +1,5 @@
-/// Reads scenes as every command does and prints one line each: "ok NAME ELEMENTS LINKS" or "refused MESSAGE".
+/// Reads scenes as every command does. Prints one line each: "ok NAME ELEMENTS LINKS" or "refused
+/// MESSAGE".
 #include "solver/error.hpp"
 #include "solver/scene/scene.hpp"
 

@@ -2,10 +2,12 @@
 
 usage: reader_and_schema_test.py READ_SCENE SCHEMA SCENES BAD_SCENES
 
-Three checks: every shipped scene passes both; every case of bad_scenes.json is refused by the reader with the words it
-names, on one line, and by the schema where a schema can; and of the scenes that come from spoiling each place of a valid
-one (a key renamed, a value of another type, a key removed), the reader accepts none that the schema refuses, and neither
-accepts a key or a type that nobody knows.
+Three checks:
+* Every shipped scene passes both.
+* The reader refuses every case of bad_scenes.json, in one line with the words that the case names.
+  The schema refuses it, too, where a schema can.
+* Each place of a valid scene is spoiled: a key renamed, a type changed, a key removed. The reader
+  accepts nothing that the schema refuses. Neither accepts an unknown key or type.
 """
 import copy
 import json
@@ -21,9 +23,8 @@ except ImportError:
     sys.exit(77)
 
 
-
 def has_free_keys(pointer):
-    """Keys of these objects are the scene's own, and an override is any scalar."""
+    """Whether a scene chooses the keys of this object. An override is any scalar."""
     return pointer == "/parameters" or pointer.endswith("/set")
 
 
@@ -45,15 +46,16 @@ def changed(scene, pointer, value=None, remove=False, rename=None):
 
 
 def places(value, pointer=""):
-    """Pointer and value of everything inside, parents first."""
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    """Yields pointer and value of everything inside, parents first."""
+    items = (value.items() if isinstance(value, dict) else
+             enumerate(value) if isinstance(value, list) else ())
     for key, item in items:
         yield f"{pointer}/{key}", item
         yield from places(item, f"{pointer}/{key}")
 
 
 def spoiled(base):
-    """(what was done, scene, whether both must refuse it)"""
+    """Yields (what was done, scene, whether both must refuse it)."""
     for pointer, value in places(base):
         parent, _, key = pointer.rpartition("/")
         is_member = not key.isdigit()
@@ -70,7 +72,7 @@ def spoiled(base):
 
 
 def read_all(program, folder, scenes):
-    """What the reader says of each scene: one line."""
+    """The reader's answer to each scene, one line each."""
     paths = []
     for number, scene in enumerate(scenes):
         paths.append(str(folder / f"scene_{number}.json"))
@@ -78,7 +80,10 @@ def read_all(program, folder, scenes):
     run = subprocess.run([program, *paths], capture_output=True, text=True, check=False)
     lines = run.stdout.splitlines()
     if run.returncode != 0 or len(lines) != len(scenes):
-        sys.exit(f"the reader ended with {run.returncode} after {len(lines)} lines for {len(scenes)} scenes: {run.stderr}")
+        sys.exit(
+            f"the reader ended with {run.returncode} after {len(lines)} lines "
+            f"for {len(scenes)} scenes: {run.stderr}"
+        )
     return lines
 
 
@@ -99,7 +104,8 @@ def main(program, schema_path, scenes_path, bad_path):
         folder = pathlib.Path(name)
         good = {"base": bad["base"], **shipped}
         expect(len(shipped) >= 9, f"only {len(shipped)} shipped scenes found")
-        for (title, scene), line in zip(good.items(), read_all(program, folder, list(good.values()))):
+        for (title, scene), line in zip(good.items(), read_all(program, folder, list(
+                good.values()))):
             expect(line.startswith("ok "), f"{title}: {line}")
             expect(validator.is_valid(scene), f"{title}: the schema refuses it")
 
@@ -111,7 +117,9 @@ def main(program, schema_path, scenes_path, bad_path):
             scenes.append(changed(scene, case["at"], case.get("put"), case.get("remove", False)))
         for case, scene, line in zip(bad["cases"], scenes, read_all(program, folder, scenes)):
             expect(line.startswith("refused ") and case["says"] in line, f"{case}: {line}")
-            expect(validator.is_valid(scene) == (case["schema"] == "accepts"), f"{case}: the schema does not agree")
+            expect(
+                validator.is_valid(scene) == (case["schema"] == "accepts"),
+                f"{case}: the schema does not agree")
 
         count = 0
         for title, base in good.items():
@@ -120,12 +128,16 @@ def main(program, schema_path, scenes_path, bad_path):
             lines = read_all(program, folder, [scene for _, scene, _ in variants])
             for (done, scene, must_refuse), line in zip(variants, lines):
                 is_read, is_valid = line.startswith("ok "), validator.is_valid(scene)
-                expect(is_valid or not is_read, f"{title} with {done}: read, but the schema refuses it")
+                expect(is_valid or not is_read,
+                       f"{title} with {done}: read, but the schema refuses it")
                 expect(not (must_refuse and is_read), f"{title} with {done}: read")
                 expect(not (must_refuse and is_valid), f"{title} with {done}: valid by the schema")
     for failure in failures:
         print("FAILED", failure)
-    print(f"{len(good)} good scenes, {len(bad['cases'])} bad cases, {count} spoiled scenes, {len(failures)} failures")
+    print(
+        f"{len(good)} good scenes, {len(bad['cases'])} bad cases, {count} spoiled scenes, "
+        f"{len(failures)} failures"
+    )
     return 1 if failures else 0
 
 

@@ -1,5 +1,6 @@
-/// What two executors of unlike speed reach together: the model, by cases that can be computed by hand.
-#include "variants/balance_model.hpp"
+/// The model of what two executors of different speed reach together, on cases that can be computed
+/// by hand.
+#include "variants/cost/balance_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@ namespace {
 constexpr double speed = 1e6;
 constexpr double redundant_rows = 1.5; // (3 + 2 + 1) rows of stages, of 4 stages a row
 
-/// Neither latency nor bandwidth.
+/// A connection without cost.
 ModelledPlate plate(int rows, double ratio) { return {rows, 4, speed * ratio, speed, {}}; }
 
 TEST(BalanceModel, of_equals_without_transfers_loses_the_halo_that_both_compute_again) {
@@ -38,7 +39,8 @@ TEST(BalanceModel, of_an_equal_split_waits_for_the_slow_one) {
 TEST(BalanceModel, of_transfers_in_the_open_pays_latency_and_bytes_each_step) {
   ModelledPlate slow_link = plate(100, 1);
   slow_link.link = {2e-4, 1e-9, 0, 0};
-  EXPECT_NEAR(modelled_step_s(slow_link, 50), (50 + redundant_rows) * 100 / speed + 2e-4 + 4 * 100 * 104 * 1e-9, 1e-12);
+  EXPECT_NEAR(modelled_step_s(slow_link, 50),
+              (50 + redundant_rows) * 100 / speed + 2e-4 + 4 * 100 * 104 * 1e-9, 1e-12);
 }
 
 TEST(BalanceModel, of_overlapped_transfers_hides_what_is_shorter_than_the_rest_of_the_step) {

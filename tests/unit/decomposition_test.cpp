@@ -27,14 +27,18 @@ std::string refusal(const std::function<void()>& attempt) {
   return "";
 }
 
-bool contains(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+bool contains(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
 
-/// Sum of the costs of each part's elements.
-std::vector<double> costs(const Problem& problem, const Decomposition& decomposition, const Weights& weights = {}) {
+/// The cost of each part: the sum over its elements.
+std::vector<double> costs(const Problem& problem, const Decomposition& decomposition,
+                          const Weights& weights = {}) {
   std::vector<double> sum(std::size_t(decomposition.parts), 0);
   const std::vector<int> owner = owners(problem, decomposition);
   problem.lattice.for_each_element([&](std::size_t element, const Row& row, int) {
-    sum[std::size_t(owner[element])] += weights.body_cost.empty() ? 1 : weights.body_cost[std::size_t(row.body)];
+    sum[std::size_t(owner[element])] +=
+        weights.body_cost.empty() ? 1 : weights.body_cost[std::size_t(row.body)];
   });
   return sum;
 }
@@ -69,13 +73,15 @@ TEST(decomposition, shares_are_ascending_and_merged) {
 TEST(decomposition, the_same_arguments_give_the_same_parts) {
   for (const Problem& problem : divisible_problems())
     for (const Decomposition& decomposition : decompositions_of(problem))
-      EXPECT_EQ(decompose(problem, decomposition.method, decomposition.parts).shares, decomposition.shares);
+      EXPECT_EQ(decompose(problem, decomposition.method, decomposition.parts).shares,
+                decomposition.shares);
 }
 
 TEST(decomposition, as_many_parts_as_elements_give_one_element_each) {
   for (const Problem& problem : divisible_problems()) {
     const int parts = int(problem.lattice.element_count);
-    EXPECT_EQ(costs(problem, decompose(problem, "blocks", parts)), std::vector<double>(std::size_t(parts), 1))
+    EXPECT_EQ(costs(problem, decompose(problem, "blocks", parts)),
+              std::vector<double>(std::size_t(parts), 1))
         << problem.name;
   }
 }
@@ -94,7 +100,8 @@ TEST(decomposition, blocks_of_a_plate_are_squares) {
   const Decomposition blocks = decompose(problem, "blocks", 4);
   EXPECT_EQ(costs(problem, blocks), std::vector<double>(4, 36));
   EXPECT_EQ(cut_links(problem, blocks), 24U);
-  for (const Share& share : blocks.shares) EXPECT_EQ(share.segment.x_end - share.segment.x_begin, 6);
+  for (const Share& share : blocks.shares)
+    EXPECT_EQ(share.segment.x_end - share.segment.x_begin, 6);
 }
 
 TEST(decomposition, blocks_of_a_cube_cut_all_three_axes) {
@@ -118,7 +125,7 @@ TEST(decomposition, costs_follow_the_speeds) {
   for (const std::string_view method : decomposition_methods()) {
     if (!why_no_decomposition(method).empty()) continue;
     const std::vector<double> cost = costs(problem, decompose(problem, method, 3, weights));
-    EXPECT_NEAR(cost[0], 400, 40) << method; // a row, or 10 %
+    EXPECT_NEAR(cost[0], 400, 40) << method; // one row, or 10 %
     EXPECT_NEAR(cost[1], 400, 40) << method;
     EXPECT_NEAR(cost[2], 800, 40) << method;
   }
@@ -133,8 +140,10 @@ TEST(decomposition, costs_follow_the_bodies) {
   const Weights weights{{}, {1, 3}};
   for (const std::string_view method : decomposition_methods()) {
     if (!why_no_decomposition(method).empty()) continue;
-    const std::vector<double> cost = costs(problem, decompose(problem, method, 4, weights), weights);
-    EXPECT_NEAR(*std::max_element(cost.begin(), cost.end()), 100, 30) << method; // a row of the dear body
+    const std::vector<double> cost =
+        costs(problem, decompose(problem, method, 4, weights), weights);
+    EXPECT_NEAR(*std::max_element(cost.begin(), cost.end()), 100, 30)
+        << method; // a row of the more expensive body
   }
 }
 
@@ -163,7 +172,8 @@ TEST(decomposition, cut_links_are_those_between_owners) {
     for (const Decomposition& decomposition : decompositions_of(problem)) {
       const std::vector<int> owner = owners(problem, decomposition);
       std::size_t expected = 0;
-      problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int) { expected += owner[i] != owner[j]; });
+      problem.lattice.for_each_link(
+          [&](std::size_t i, std::size_t j, int) { expected += owner[i] != owner[j]; });
       for (const ExtraLink& link : problem.extra_links) expected += owner[link.i] != owner[link.j];
       EXPECT_EQ(cut_links(problem, decomposition), expected) << described(problem, decomposition);
     }

@@ -1,14 +1,14 @@
-/// Which device the text of --device means, on machines that tests do not have.
+/// Which device the text of --device selects, on machines that tests do not have.
 #include "solver/error.hpp"
-#include "variants/device.hpp"
+#include "variants/api/device.hpp"
 
 #include <gtest/gtest.h>
 
 namespace dss::test {
 namespace {
 
-DeviceEntry entry(const std::string& id, const std::string& kind, const std::string& name, const std::string& platform,
-                  const std::string& unusable = "") {
+DeviceEntry entry(const std::string& id, const std::string& kind, const std::string& name,
+                  const std::string& platform, const std::string& unusable = "") {
   DeviceEntry device;
   device.id = id;
   device.kind = kind;
@@ -59,15 +59,19 @@ TEST(DeviceChoice, takes_a_number_a_kind_or_a_part_of_a_name_in_any_case) {
 }
 
 TEST(DeviceChoice, says_why_the_one_that_is_meant_cannot_be_used) {
-  EXPECT_EQ(refusal(machine(), "1:0"), "--device 1:0: device 1:0 (Old GPU) cannot be used: it has OpenCL 1.1, not 1.2");
-  EXPECT_EQ(refusal(machine(), "old"), "--device old: device 1:0 (Old GPU) cannot be used: it has OpenCL 1.1, not 1.2");
+  EXPECT_EQ(refusal(machine(), "1:0"),
+            "--device 1:0: device 1:0 (Old GPU) cannot be used: it has OpenCL 1.1, not 1.2");
+  EXPECT_EQ(refusal(machine(), "old"),
+            "--device old: device 1:0 (Old GPU) cannot be used: it has OpenCL 1.1, not 1.2");
 }
 
 TEST(DeviceChoice, names_the_known_ones_and_the_nearest) {
   const std::string text = refusal(machine(), "New GPUs");
-  for (const char* words : {"--device New GPUs: no such device", "did you mean \"New GPU\"", "0:0", "2:0", "Board"})
+  for (const char* words :
+       {"--device New GPUs: no such device", "did you mean \"New GPU\"", "0:0", "2:0", "Board"})
     EXPECT_NE(text.find(words), std::string::npos) << text;
-  EXPECT_NE(refusal({machine().front()}, "gpu").find("no such device; known"), std::string::npos); // no hint at the cpu
+  EXPECT_NE(refusal({machine().front()}, "gpu").find("no such device; known"),
+            std::string::npos); // does not mention the cpu
   EXPECT_EQ(refusal({}, "gpu").find("--device gpu: no OpenCL device here"), 0u);
 }
 

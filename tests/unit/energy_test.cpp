@@ -25,7 +25,8 @@ TEST(TotalEnergy, of_a_stretched_moving_pair_is_that_of_a_spring_and_two_masses)
   state[field_count + ux] = 0.01;
   state[vy] = 3;
   state[field_count + wz] = 2;
-  const double expected = body.axis[0].k_normal * 1e-4 / 2 + body.mass * 9 / 2 + body.inertia[2] * 4 / 2;
+  const double expected =
+      body.axis[0].k_normal * 1e-4 / 2 + body.mass * 9 / 2 + body.inertia[2] * 4 / 2;
   EXPECT_NEAR(total_energy(pair, state), expected, 1e-14 * expected);
 }
 
@@ -37,13 +38,14 @@ TEST(TotalEnergy, of_stabilizing_springs_is_the_work_that_they_take_up) {
   state[uz] = 0.3;
   state[qs] = std::cos(turn / 2) - 1;
   state[qy] = std::sin(turn / 2);
-  // The moment is 2 k_rot sin(turn / 2), whose integral is 4 k_rot (1 - cos(turn / 2)).
+  // The moment is 2 k_rot sin(turn / 2). Its integral is 4 k_rot (1 - cos(turn / 2)).
   const double expected = 50 * 0.09 / 2 + 4 * 7 * (1 - std::cos(turn / 2));
   EXPECT_NEAR(total_energy(lone, state), expected, 1e-14 * expected);
 }
 
-/// dE/dt from the oracle's own rates, by central differences along them.
-double power(const Problem& problem, const std::vector<double>& state, const std::vector<double>& rates) {
+/// dE/dt by central differences along the oracle's rates.
+double power(const Problem& problem, const std::vector<double>& state,
+             const std::vector<double>& rates) {
   const auto at = [&](double t) {
     std::vector<double> moved = state;
     for (std::size_t n = 0; n < moved.size(); ++n) moved[n] += t * rates[n];

@@ -12,7 +12,8 @@ namespace dss {
 namespace {
 
 VoxelGrid full(int nx, int ny, int nz) {
-  return {nx, ny, nz, std::vector<std::uint8_t>(std::size_t(nx) * std::size_t(ny) * std::size_t(nz), 1)};
+  return {nx, ny, nz,
+          std::vector<std::uint8_t>(std::size_t(nx) * std::size_t(ny) * std::size_t(nz), 1)};
 }
 
 VoxelGrid scattered(int nx, int ny, int nz, unsigned seed) {
@@ -24,7 +25,7 @@ VoxelGrid scattered(int nx, int ny, int nz, unsigned seed) {
 
 using Link = std::tuple<std::size_t, std::size_t, int>;
 
-/// Links found without rows: from a table of the cells.
+/// Links found from a table of the cells, without rows.
 std::set<Link> links_by_search(const VoxelGrid& grid, std::size_t first_element) {
   std::map<std::array<int, 3>, std::size_t> elements;
   std::size_t cell = 0, element = first_element;
@@ -37,7 +38,8 @@ std::set<Link> links_by_search(const VoxelGrid& grid, std::size_t first_element)
     for (int axis = 0; axis < 3; ++axis) {
       auto next = place;
       ++next[std::size_t(axis)];
-      if (const auto j = elements.find(next); j != elements.end()) links.insert({i, j->second, axis});
+      if (const auto j = elements.find(next); j != elements.end())
+        links.insert({i, j->second, axis});
     }
   return links;
 }

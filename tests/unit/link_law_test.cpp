@@ -1,4 +1,5 @@
-/// Both link laws of the oracle against what they must obey, for pairs with large gaps and rotations.
+/// Both link laws of the oracle against the rules that they must obey, for pairs with large gaps
+/// and rotations.
 #include "solver/reference/link_law.hpp"
 #include "tests/fixtures/problems.hpp"
 
@@ -19,7 +20,7 @@ struct Case {
   int axis;
 };
 
-/// Names a case in the report of a failure.
+/// The name of a case in the report of a failure.
 void PrintTo(const Case& c, std::ostream* out) {
   *out << (c.law == LinkLaw::paper ? "paper" : "material") << " along axis " << c.axis;
 }
@@ -44,9 +45,10 @@ protected:
     }
     return link;
   }
-  /// A pair of elements anywhere; the elements' rest distance is the sum of the arms.
+  /// A pair of elements anywhere. The rest distance of the elements is the sum of the arms.
   static std::vector<Motion<Real>> random_pair(unsigned seed) {
-    const std::vector<double> state = fixture::random_state(fixture::make_pair(GetParam().law), seed, 0.05);
+    const std::vector<double> state =
+        fixture::random_state(fixture::make_pair(GetParam().law), seed, 0.05);
     std::vector<Motion<Real>> pair;
     for (const std::size_t e : {0u, 1u}) {
       const std::vector<Real> fields(state.begin() + std::ptrdiff_t(e * field_count),
@@ -61,7 +63,7 @@ protected:
     m.v = V(f[vx], f[vy], f[vz]);
     m.w = V(f[wx], f[wy], f[wz]);
     m.q = {f[qs], V(f[qx], f[qy], f[qz])};
-    // Of unit length in Real, not only in double.
+    // Unit length in Real, not only in double.
     const Real norm = std::sqrt(m.q.q0() * m.q.q0() + m.q.v.squaredNorm());
     m.q = {m.q.q0() / norm - 1, m.q.v / norm};
     m.turned = turn(m.q);
@@ -76,7 +78,8 @@ class MaterialLink : public EveryLink {};
 Motion<Real> turned_by(Motion<Real> m, int axis, Real angle) {
   const Real ds = std::cos(angle / 2) - 1;
   const V dv = V::Unit(axis) * std::sin(angle / 2);
-  m.q = {m.q.s + ds + ds * m.q.s - dv.dot(m.q.v), m.q.v + ds * m.q.v + m.q.q0() * dv + dv.cross(m.q.v)};
+  m.q = {m.q.s + ds + ds * m.q.s - dv.dot(m.q.v),
+         m.q.v + ds * m.q.v + m.q.q0() * dv + dv.cross(m.q.v)};
   m.turned = turn(m.q);
   return m;
 }
@@ -130,7 +133,8 @@ TEST_P(PaperLink, damping_does_exchange_a_net_moment_across_an_open_gap) {
   const auto properties = link(false, true);
   const Reaction<Real> r = reaction(pair[0], pair[1], properties);
   const V distance = properties.arm_i + properties.arm_j + pair[1].u - pair[0].u;
-  const V expected = -gap(pair[0], pair[1], properties).cross(r.force); // a_i + a_j = distance - gap
+  const V expected =
+      -gap(pair[0], pair[1], properties).cross(r.force); // a_i + a_j = distance - gap
   const V net = r.moment_i + r.moment_j - distance.cross(r.force);
   EXPECT_LE((net - expected).norm(), 1e-17L * r.moment_i.norm());
   EXPECT_GT(net.norm(), 1e-3L * r.moment_i.norm());
@@ -140,7 +144,8 @@ TEST_P(MaterialLink, damping_does_no_positive_work) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     const auto pair = random_pair(seed);
     const Reaction<Real> r = reaction(pair[0], pair[1], link(false, true));
-    const Real power = r.force.dot(pair[0].v - pair[1].v) + r.moment_i.dot(pair[0].w) + r.moment_j.dot(pair[1].w);
+    const Real power =
+        r.force.dot(pair[0].v - pair[1].v) + r.moment_i.dot(pair[0].w) + r.moment_j.dot(pair[1].w);
     EXPECT_LT(power, 0);
   }
 }
@@ -200,12 +205,16 @@ std::string axis_name(const testing::TestParamInfo<Case>& info) {
 }
 
 constexpr Case paper_x{LinkLaw::paper, 0}, paper_y{LinkLaw::paper, 1}, paper_z{LinkLaw::paper, 2};
-constexpr Case material_x{LinkLaw::material, 0}, material_y{LinkLaw::material, 1}, material_z{LinkLaw::material, 2};
+constexpr Case material_x{LinkLaw::material, 0}, material_y{LinkLaw::material, 1},
+    material_z{LinkLaw::material, 2};
 
-INSTANTIATE_TEST_SUITE_P(all, EveryLink, testing::Values(paper_x, paper_y, paper_z, material_x, material_y, material_z),
+INSTANTIATE_TEST_SUITE_P(all, EveryLink,
+                         testing::Values(paper_x, paper_y, paper_z, material_x, material_y,
+                                         material_z),
                          axis_name);
 INSTANTIATE_TEST_SUITE_P(all, PaperLink, testing::Values(paper_x, paper_y, paper_z), axis_name);
-INSTANTIATE_TEST_SUITE_P(all, MaterialLink, testing::Values(material_x, material_y, material_z), axis_name);
+INSTANTIATE_TEST_SUITE_P(all, MaterialLink, testing::Values(material_x, material_y, material_z),
+                         axis_name);
 
 } // namespace
 } // namespace dss::reference

@@ -1,6 +1,6 @@
 /// Members of a hybrid as text.
 #include "solver/error.hpp"
-#include "variants/member.hpp"
+#include "variants/api/member.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,8 @@ namespace dss::test {
 namespace {
 
 TEST(Members, are_read_with_device_threads_and_weight) {
-  const std::vector<Member> members = parse_members("avx512:3=1,opencl@cpu:2=9.5,opencl@[0:1]:4=1e-1,avx2=2");
+  const std::vector<Member> members =
+      parse_members("avx512:3=1,opencl@cpu:2=9.5,opencl@[0:1]:4=1e-1,avx2=2");
   ASSERT_EQ(members.size(), 4u);
   EXPECT_EQ(members[0].variant, "avx512");
   EXPECT_EQ(members[0].device, "");
@@ -26,7 +27,8 @@ TEST(Members, without_weights_are_weighted_as_measured) {
 }
 
 TEST(Members, have_names_that_are_read_back) {
-  for (const char* text : {"avx512:2", "opencl@gpu:1", "opencl@[0:1]:1", "opencl@[NVIDIA, Inc.=1]:7", "opencl@[0]:1"})
+  for (const char* text :
+       {"avx512:2", "opencl@gpu:1", "opencl@[0:1]:1", "opencl@[NVIDIA, Inc.=1]:7", "opencl@[0]:1"})
     EXPECT_EQ(name(parse_members(text).front()), text);
   EXPECT_EQ(name(parse_members("opencl@NVIDIA H100").front()), "opencl@NVIDIA H100:1");
 }
@@ -40,7 +42,8 @@ TEST(Members, that_are_wrong_are_refused_in_one_line_that_names_them) {
     }
     return "";
   };
-  EXPECT_NE(refusal("avx2,opencl@0:1").find("member \"opencl@0:1\": device 0 is a number; write a device in brackets"),
+  EXPECT_NE(refusal("avx2,opencl@0:1")
+                .find("member \"opencl@0:1\": device 0 is a number; write a device in brackets"),
             std::string::npos);
   EXPECT_NE(refusal("").find("has no variant"), std::string::npos);
   EXPECT_NE(refusal("avx2,").find("has no variant"), std::string::npos);

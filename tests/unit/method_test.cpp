@@ -13,7 +13,7 @@
 namespace dss {
 namespace {
 
-/// The Butcher table that a Runge-Kutta method's increment form amounts to; row `stages` holds the weights.
+/// The Butcher table of a Runge-Kutta method in increment form. Row `stages` holds the weights.
 using Table = std::vector<std::vector<double>>;
 
 Table butcher_table(const Method& method) {
@@ -32,8 +32,8 @@ TEST(Methods, are_found_by_their_own_unique_name_and_unknown_names_are_not) {
     EXPECT_TRUE(names.insert(method.name).second) << method.name;
     EXPECT_EQ(find_method(method.name), &method);
   }
-  for (const char* name :
-       {"rk4", "velocity_verlet", "smoothed_verlet", "midpoint", "symplectic_euler", "dopri5", "rkc2"})
+  for (const char* name : {"rk4", "velocity_verlet", "smoothed_verlet", "midpoint",
+                           "symplectic_euler", "dopri5", "rkc2"})
     EXPECT_EQ(names.count(name), 1u) << name;
   EXPECT_EQ(find_method("smoothed_verlet")->real_limit, 1.75); // of smoothing 3/4
   EXPECT_EQ(find_method("rk5"), nullptr);
@@ -52,7 +52,7 @@ TEST(Methods, evaluate_each_stage_at_the_time_that_its_state_stands_for) {
   }
 }
 
-/// A rooted tree, by the subtrees of its root (Hairer, Norsett, Wanner I, section II.2).
+/// A rooted tree: the list of the subtrees of its root (Hairer, Norsett, Wanner I, section II.2).
 struct Tree {
   std::vector<Tree> children;
   int order() const {
@@ -65,7 +65,7 @@ struct Tree {
     for (const Tree& child : children) product *= child.density();
     return product;
   }
-  /// Elementary weight of stage i: the product over the subtrees of sum_j a_ij times theirs.
+  /// Elementary weight of stage i: the product over the subtrees of sum_j a_ij times their weight.
   double weight(const Table& a, std::size_t i) const {
     double product = 1;
     for (const Tree& child : children) {
@@ -78,7 +78,8 @@ struct Tree {
   }
 };
 
-/// All trees of an order: its root's subtrees in descending place of `all`, the smaller trees by order.
+/// All trees of an order. `smaller` has the trees of lower orders, sorted by order. Each tree takes
+/// its subtrees from there, the last ones first.
 std::vector<Tree> trees_of(int order) {
   std::vector<Tree> smaller;
   for (int n = 1; n < order; ++n)
@@ -108,26 +109,30 @@ TEST(Methods, of_the_runge_kutta_family_meet_the_order_conditions_of_their_order
     const Table w = butcher_table(method);
     const auto error = [&](const Tree& tree) {
       double sum = 0;
-      for (std::size_t i = 0; i < std::size_t(method.stages); ++i) sum += w.back()[i] * tree.weight(w, i);
+      for (std::size_t i = 0; i < std::size_t(method.stages); ++i)
+        sum += w.back()[i] * tree.weight(w, i);
       return std::abs(sum - 1 / tree.density());
     };
     for (int order = 1; order <= method.order; ++order)
-      for (const Tree& tree : trees_of(order)) EXPECT_LT(error(tree), 1e-14) << method.name << " order " << order;
+      for (const Tree& tree : trees_of(order))
+        EXPECT_LT(error(tree), 1e-14) << method.name << " order " << order;
     double next = 0;
     for (const Tree& tree : trees_of(method.order + 1)) next = std::max(next, error(tree));
     EXPECT_GT(next, 1e-6) << method.name;
   }
 }
 
-TEST(Dopri5, with_an_error_stage_takes_the_same_step_and_estimates_the_error_by_a_method_of_fourth_order) {
+TEST(Dopri5,
+     with_an_error_stage_takes_the_same_step_and_estimates_the_error_by_a_method_of_fourth_order) {
   const Table plain = butcher_table(*find_method("dopri5")), w = butcher_table(dopri5_adaptive());
   ASSERT_EQ(w.size(), 8u);
   for (std::size_t s = 0; s < plain.size(); ++s)
     for (std::size_t j = 0; j < 6; ++j) EXPECT_EQ(w[s][j], plain[s][j]) << s << ' ' << j;
   EXPECT_NEAR(dopri5_adaptive().node.back(), 1, 1e-14);
-  const auto error = [&](const Tree& tree) { // of the step less the estimate
+  const auto error = [&](const Tree& tree) { // of the step minus the estimate
     double sum = 0;
-    for (std::size_t i = 0; i < 7; ++i) sum += ((i < 6 ? plain.back()[i] : 0) - w.back()[i]) * tree.weight(w, i);
+    for (std::size_t i = 0; i < 7; ++i)
+      sum += ((i < 6 ? plain.back()[i] : 0) - w.back()[i]) * tree.weight(w, i);
     return std::abs(sum - 1 / tree.density());
   };
   for (int order = 1; order <= 4; ++order)
@@ -140,16 +145,18 @@ TEST(Dopri5, with_an_error_stage_takes_the_same_step_and_estimates_the_error_by_
 TEST(Rkc2, has_a_limit_that_grows_with_the_square_of_its_stages) {
   for (int stages = 2; stages <= 20; ++stages) {
     const Method method = rkc2(stages);
-    EXPECT_NEAR(mode_step_limit(method, 0, 1), method.real_limit, 1e-6 * method.real_limit) << stages;
+    EXPECT_NEAR(mode_step_limit(method, 0, 1), method.real_limit, 1e-6 * method.real_limit)
+        << stages;
     EXPECT_GE(method.real_limit, 0.65 * (stages * stages - 1)) << stages;
     EXPECT_EQ(method.stages, stages);
   }
 }
 
-/// One step on an undamped mode with h omega = 0.5 as a matrix of (x, v / omega), by the oracle.
+/// One step of the oracle on an undamped mode with h omega = 0.5, as a matrix of (x, v / omega).
 std::array<std::array<double, 2>, 2> step_on_a_mode(const Method& method) {
   const Problem pair = fixture::make_pair(LinkLaw::paper, 0);
-  const double omega = std::sqrt(2 * pair.bodies[0].axis[0].k_normal / pair.bodies[0].mass), size = 1e-6;
+  const double omega = std::sqrt(2 * pair.bodies[0].axis[0].k_normal / pair.bodies[0].mass),
+               size = 1e-6;
   std::array<std::array<double, 2>, 2> matrix{};
   for (const std::size_t column : {0u, 1u}) {
     std::vector<double> state(2 * field_count, 0);
@@ -171,10 +178,14 @@ TEST(Methods, are_symplectic_and_keep_an_energy_bounded_where_they_say_so_and_no
   for (const Method* method : all_methods()) {
     const auto [position, velocity] = step_on_a_mode(*method);
     const double determinant = position[0] * velocity[1] - position[1] * velocity[0];
-    const double half_trace = (position[0] + velocity[1]) / 2, rest = half_trace * half_trace - determinant;
-    const double radius = rest < 0 ? std::sqrt(determinant) : std::abs(half_trace) + std::sqrt(rest);
-    EXPECT_EQ(std::abs(determinant - 1) < rounding, method->is_symplectic) << method->name << " " << determinant;
-    EXPECT_EQ(std::abs(radius - 1) < rounding, method->keeps_energy_bounded) << method->name << " " << radius;
+    const double half_trace = (position[0] + velocity[1]) / 2,
+                 rest = half_trace * half_trace - determinant;
+    const double radius =
+        rest < 0 ? std::sqrt(determinant) : std::abs(half_trace) + std::sqrt(rest);
+    EXPECT_EQ(std::abs(determinant - 1) < rounding, method->is_symplectic)
+        << method->name << " " << determinant;
+    EXPECT_EQ(std::abs(radius - 1) < rounding, method->keeps_energy_bounded)
+        << method->name << " " << radius;
   }
 }
 

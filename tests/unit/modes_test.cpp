@@ -1,4 +1,5 @@
-/// Exact step limits of small problems: against step matrices built from the oracle, for methods shipped and not.
+/// Exact step limits of small problems, against step matrices built from the oracle. Methods are
+/// shipped ones and others.
 #include "solver/numerics/stability.hpp"
 #include "tests/fixtures/linear_motion.hpp"
 #include "tests/fixtures/methods.hpp"
@@ -15,7 +16,7 @@ using fixture::rk4;
 using fixture::smoothed;
 using fixture::verlet;
 
-/// Methods that the limits must hold for, whatever is shipped.
+/// Methods for which the limits must hold, shipped or not.
 Method explicit_midpoint() {
   Method method = rk4;
   method.name = "midpoint of the test", method.stages = 2, method.order = 2;
@@ -25,12 +26,14 @@ Method explicit_midpoint() {
 }
 Method symplectic_euler() {
   Method method = verlet;
-  method.name = "symplectic Euler of the test", method.family = Method::Family::symplectic_euler, method.order = 1;
+  method.name = "symplectic Euler of the test", method.family = Method::Family::symplectic_euler,
+  method.order = 1;
   method.imaginary_limit = 2, method.real_limit = 2;
   return method;
 }
 
-/// Damping that shares no eigenvectors with the stiffness: each link has another ratio of the two.
+/// Damping that shares no eigenvectors with the stiffness: the ratio of the two differs from link
+/// to link.
 Problem unevenly_damped() {
   Problem problem = fixture::make_block(3, 2, 2, LinkLaw::material);
   problem.name = "unevenly damped";
@@ -53,21 +56,23 @@ std::vector<Problem> small_problems() {
           fixture::make_damped_joint()};
 }
 
-/// Spectral radius of a step on the problem linearised by differences of the oracle.
+/// Spectral radius of a step on the problem, linearised by differences of the oracle.
 double radius(const Problem& problem, const Method& method, double h) {
-  return fixture::spectral_radius(
-      fixture::step_matrix(fixture::linearised(problem, true), fixture::linearised(problem, false), method, h));
+  return fixture::spectral_radius(fixture::step_matrix(
+      fixture::linearised(problem, true), fixture::linearised(problem, false), method, h));
 }
 
 TEST(ExactLimit, is_where_an_eigenvalue_of_the_whole_step_matrix_leaves_the_unit_circle) {
   for (const Problem& problem : small_problems()) {
-    if (problem.lattice.element_count > 16) continue; // step matrices of more take seconds
+    if (problem.lattice.element_count > 16) continue; // larger step matrices take seconds
     for (const Method& method : {rk4, verlet, smoothed, symplectic_euler()}) {
       const auto exact = Modes(problem).step_limit(method);
       ASSERT_TRUE(exact) << problem.name;
-      // Differences and the double roots of rigid motions leave some 1e-5 of noise on radii.
-      EXPECT_LE(radius(problem, method, 0.998 * exact->dt), 1 + 1e-4) << problem.name << ' ' << method.name;
-      EXPECT_GE(radius(problem, method, 1.002 * exact->dt), 1 + 2e-4) << problem.name << ' ' << method.name;
+      // Differences, and the double roots of rigid motions, leave some 1e-5 of noise on radii.
+      EXPECT_LE(radius(problem, method, 0.998 * exact->dt), 1 + 1e-4)
+          << problem.name << ' ' << method.name;
+      EXPECT_GE(radius(problem, method, 1.002 * exact->dt), 1 + 2e-4)
+          << problem.name << ' ' << method.name;
     }
   }
 }
@@ -75,20 +80,24 @@ TEST(ExactLimit, is_where_an_eigenvalue_of_the_whole_step_matrix_leaves_the_unit
 TEST(ExactLimit, is_never_below_the_bound_and_its_mode_has_the_same_limit) {
   for (const Problem& problem : small_problems())
     for (const Method& method : methods()) {
-      const StabilityLimit bound = stable_step(problem, method), exact = stable_step(problem, method, true);
+      const StabilityLimit bound = stable_step(problem, method),
+                           exact = stable_step(problem, method, true);
       EXPECT_TRUE(exact.is_exact && !bound.is_exact) << problem.name;
       EXPECT_GE(exact.dt, bound.dt * (1 - 1e-9)) << problem.name << ' ' << method.name;
       const double of_mode = mode_step_limit(method, exact.mode.omega, exact.mode.rate);
-      EXPECT_NEAR(of_mode, exact.dt, 1e-6 * exact.dt) << problem.name << ' ' << method.name; // both 0, or nearly equal
+      EXPECT_NEAR(of_mode, exact.dt, 1e-6 * exact.dt)
+          << problem.name << ' ' << method.name; // either both are 0, or they are nearly equal
     }
 }
 
 TEST(ExactLimit, of_a_chain_is_that_of_its_highest_mode) {
-  // Clamped at one end, free at the other: omega_k = 2 sqrt(k/m) sin((2k - 1) pi / (2 (2N + 1))), k = 1 .. N.
+  // Clamped at one end, free at the other: omega_k = 2 sqrt(k/m) sin((2k - 1) pi / (2 (2N + 1))), k
+  // = 1 .. N.
   Problem chain = fixture::make_block(8, 1, 1, LinkLaw::material, 0);
   for (AxisConstants& c : chain.bodies[0].axis) c.k_shear = 1, c.k_rot = {1e-3, 1e-3, 1e-3};
   chain.clamps = {{0, dof_all}};
-  const double n = 7, omega = 2 * std::sqrt(chain.bodies[0].axis[0].k_normal / chain.bodies[0].mass) *
+  const double n = 7, omega = 2 *
+                              std::sqrt(chain.bodies[0].axis[0].k_normal / chain.bodies[0].mass) *
                               std::sin((2 * n - 1) * M_PI / (2 * (2 * n + 1)));
   const StabilityLimit limit = stable_step(chain, rk4, true);
   EXPECT_NEAR(limit.mode.omega / omega, 1, 1e-12);
@@ -105,7 +114,8 @@ TEST(ExactLimit, of_problems_beyond_dense_matrices_is_not_claimed) {
 TEST(StepLimit, of_leapfrog_and_symplectic_euler_is_the_line_between_their_limits_on_the_axes) {
   for (const Method& method : {verlet, smoothed, symplectic_euler()})
     for (const double zeta : {0.0, 0.03, 0.4, 1.0, 3.0, 30.0}) {
-      const double h = mode_step_limit(method, 1, 2 * zeta), i = method.imaginary_limit, r = method.real_limit;
+      const double h = mode_step_limit(method, 1, 2 * zeta), i = method.imaginary_limit,
+                   r = method.real_limit;
       EXPECT_NEAR(h * h / (i * i) + 2 * zeta * h / r, 1, 1e-6) << method.name << " zeta = " << zeta;
     }
 }
@@ -119,11 +129,13 @@ TEST(StepLimit, is_zero_for_a_method_that_lets_undamped_modes_grow_and_no_more_w
       stable_step(fixture::make_block(3, 2, 1, LinkLaw::material, 0), explicit_midpoint(), true);
   EXPECT_EQ(undamped.dt, 0);
   EXPECT_NE(undamped.how.find("however small the step"), std::string::npos) << undamped.how;
-  EXPECT_GT(stable_step(fixture::make_block(3, 2, 1, LinkLaw::material, 1), explicit_midpoint(), true).dt, 0);
+  EXPECT_GT(
+      stable_step(fixture::make_block(3, 2, 1, LinkLaw::material, 1), explicit_midpoint(), true).dt,
+      0);
 }
 
 TEST(StepLimit, of_a_damped_plate_bounds_such_a_method_away_from_zero_without_its_modes) {
-  // Every spring has a damper beside it, so no mode is undamped; the bound knows.
+  // Every spring has a damper beside it, so no mode is undamped. The bound uses this.
   EXPECT_GT(stable_step(fixture::make_plate(20), explicit_midpoint()).dt, 1e-7);
 }
 

@@ -1,4 +1,5 @@
-/// The implicit midpoint rule in the oracle, and that it is what its entry in the table of methods says.
+/// The implicit midpoint rule in the oracle has the properties that its entry in the table of
+/// methods declares.
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/colouring.hpp"
@@ -22,8 +23,8 @@ using fixture::rest;
 using fixture::rk4;
 
 template <class T>
-std::vector<double> after(const Problem& problem, const Method& method, const std::vector<double>& start, double dt,
-                          long steps) {
+std::vector<double> after(const Problem& problem, const Method& method,
+                          const std::vector<double>& start, double dt, long steps) {
   Oracle<T> oracle(problem, method, dt);
   oracle.write(start);
   EXPECT_FALSE(oracle.advance(steps)) << problem.name << ", dt = " << dt;
@@ -32,29 +33,35 @@ std::vector<double> after(const Problem& problem, const Method& method, const st
   return state;
 }
 
-double distance(const std::vector<double>& a, const std::vector<double>& b, int first_field, int end_field) {
+double distance(const std::vector<double>& a, const std::vector<double>& b, int first_field,
+                int end_field) {
   double sum = 0;
   for (std::size_t n = 0; n < a.size(); ++n)
-    if (int(n % field_count) >= first_field && int(n % field_count) < end_field) sum += (a[n] - b[n]) * (a[n] - b[n]);
+    if (int(n % field_count) >= first_field && int(n % field_count) < end_field)
+      sum += (a[n] - b[n]) * (a[n] - b[n]);
   return std::sqrt(sum);
 }
 
-/// Order from three runs with steps dt, dt / 2, dt / 4: each kind of field must show it.
-void expect_second_order(const Problem& problem, const std::vector<double>& start, double dt, long steps) {
+/// Order from three runs with steps dt, dt / 2, dt / 4. Each kind of field must show it.
+void expect_second_order(const Problem& problem, const std::vector<double>& start, double dt,
+                         long steps) {
   const auto coarse = after<long double>(problem, midpoint, start, dt, steps);
   const auto middle = after<long double>(problem, midpoint, start, dt / 2, 2 * steps);
   const auto fine = after<long double>(problem, midpoint, start, dt / 4, 4 * steps);
   const std::vector<std::pair<int, int>> kinds = {{ux, vx}, {vx, qs}, {qs, wx}, {wx, field_count}};
   for (const auto& [first, end] : kinds)
-    EXPECT_NEAR(std::log2(distance(coarse, middle, first, end) / distance(middle, fine, first, end)), 2, 0.1)
+    EXPECT_NEAR(
+        std::log2(distance(coarse, middle, first, end) / distance(middle, fine, first, end)), 2,
+        0.1)
         << problem.name << ", fields " << first << " to " << end;
 }
 
-/// Every term, and signals without kinks in time, which would spoil any order.
+/// Every term, with signals that have no kinks in time: kinks would hide the order.
 Problem make_smooth_everything() {
   Problem problem = fixture::make_everything();
   for (Load& load : problem.loads)
-    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table) load.signal.kind = {};
+    if (load.signal.kind == Signal::Kind::ramp || load.signal.kind == Signal::Kind::table)
+      load.signal.kind = {};
   return problem;
 }
 
@@ -83,7 +90,7 @@ TEST(ImplicitMidpoint, declares_that_no_step_is_too_long) {
     EXPECT_EQ(stable_step(fixture::make_everything(), midpoint, sharp).dt, infinity);
 }
 
-/// Two elements that swing against each other along their link.
+/// Two elements that oscillate against each other along their link.
 struct UndampedPair {
   Problem problem = fixture::make_pair(LinkLaw::paper, 0);
   double omega = std::sqrt(2 * problem.bodies[0].axis[0].k_normal / problem.bodies[0].mass);
@@ -99,8 +106,9 @@ TEST(ImplicitMidpoint, turns_a_mode_by_its_own_frequency_whatever_the_step) {
   for (const double h_omega : {0.1, 2.0, 50.0}) {
     const double dt = h_omega / pair.omega;
     const auto state = after<double>(pair.problem, midpoint, pair.start, dt, 100);
-    // tan(phase / 2) = h omega / 2 of a step, amplitude as at the start
-    EXPECT_NEAR(state[field_count + ux] / 1e-6, std::cos(200 * std::atan(h_omega / 2)), 1e-11) << h_omega;
+    // tan(phase / 2) = h omega / 2 for a step; the amplitude stays as at the start
+    EXPECT_NEAR(state[field_count + ux] / 1e-6, std::cos(200 * std::atan(h_omega / 2)), 1e-11)
+        << h_omega;
   }
 }
 
@@ -117,7 +125,8 @@ TEST(ImplicitMidpoint, keeps_the_energy_of_an_undamped_linear_pair_over_100000_s
     ASSERT_LT(std::abs(error), 1e-12) << "after " << 1000 * (n + 1) << " steps";
     (n < samples / 2 ? early : late) += error / (samples / 2);
   }
-  EXPECT_LT(std::abs(late - early), 5e-13) << "what rounding adds up to over 50000 steps, and no more";
+  EXPECT_LT(std::abs(late - early), 5e-13)
+      << "what rounding adds up to over 50000 steps, and no more";
 }
 
 TEST(ImplicitMidpoint, keeps_quaternions_of_length_one_and_the_energy_of_a_tumbling_box_bounded) {
@@ -127,11 +136,12 @@ TEST(ImplicitMidpoint, keeps_quaternions_of_length_one_and_the_energy_of_a_tumbl
   Oracle<double> oracle(box, midpoint, 1e-2);
   oracle.write(start);
   const double energy = oracle.energy();
-  double early = 0, late = 0; // largest deviations in the first and in the last half
+  double early = 0, late = 0; // largest deviations in the first and the last half
   for (int n = 0; n < 100; ++n) {
     ASSERT_FALSE(oracle.advance(100));
     const std::vector<double>& y = oracle.state();
-    const double length = std::sqrt((1 + y[qs]) * (1 + y[qs]) + y[qx] * y[qx] + y[qy] * y[qy] + y[qz] * y[qz]);
+    const double length =
+        std::sqrt((1 + y[qs]) * (1 + y[qs]) + y[qx] * y[qx] + y[qy] * y[qy] + y[qz] * y[qz]);
     ASSERT_NEAR(length, 1, 1e-13);
     double& largest = n < 50 ? early : late;
     largest = std::max(largest, std::abs(double(oracle.energy()) / energy - 1));
@@ -154,10 +164,11 @@ TEST(ImplicitMidpoint, is_stable_far_above_the_limits_of_explicit_methods) {
   EXPECT_LT(largest, 1e-6) << "the plate's displacement under its load";
 }
 
-/// A chain held at one end whose middle link is a million times stiffer than the others.
+/// A chain that is held at one end. Its middle link is a million times stiffer than the others.
 Problem make_chain_with_stiff_inclusion() {
   Problem chain = fixture::make_block(2, 1, 1, LinkLaw::paper, 0);
-  for (int n = 0; n < 2; ++n) fixture::add_block(chain, fixture::soft_body(LinkLaw::paper, 0), 2, 1, 1);
+  for (int n = 0; n < 2; ++n)
+    fixture::add_block(chain, fixture::soft_body(LinkLaw::paper, 0), 2, 1, 1);
   AxisConstants inclusion = chain.bodies[0].axis[0], link = inclusion;
   inclusion.k_normal = inclusion.k_shear = 1e6 * link.k_normal;
   chain.extra_links = {{1, 2, 0, LinkLaw::paper, inclusion}, {3, 4, 0, LinkLaw::paper, link}};
@@ -165,15 +176,18 @@ Problem make_chain_with_stiff_inclusion() {
   return chain;
 }
 
-TEST(ImplicitMidpoint, follows_the_slow_motion_beside_a_stiff_inclusion_with_a_step_far_above_the_limit) {
+TEST(ImplicitMidpoint,
+     follows_the_slow_motion_beside_a_stiff_inclusion_with_a_step_far_above_the_limit) {
   const Problem chain = make_chain_with_stiff_inclusion();
-  std::vector<double> start = rest(chain); // pulled, the inclusion unstrained
-  for (std::size_t e = 1; e < 6; ++e) start[e * field_count + ux] = 1e-3 * double(e < 3 ? 1 : e - 1);
+  std::vector<double> start = rest(chain); // pulled, without strain in the stiff link
+  for (std::size_t e = 1; e < 6; ++e)
+    start[e * field_count + ux] = 1e-3 * double(e < 3 ? 1 : e - 1);
   const double dt = 5e-4, limit = stable_step(chain, rk4, true).dt;
   EXPECT_GT(dt, 20 * limit);
   const auto exact = after<double>(chain, rk4, start, 1e-5, 10'000);
   const auto error = [&](double of_step) {
-    const auto large_steps = after<double>(chain, midpoint, start, of_step, std::lround(0.1 / of_step));
+    const auto large_steps =
+        after<double>(chain, midpoint, start, of_step, std::lround(0.1 / of_step));
     return distance(large_steps, exact, ux, vx) / distance(exact, rest(chain), ux, vx);
   };
   EXPECT_LT(error(dt), 5e-3);
@@ -193,7 +207,7 @@ TEST(ImplicitMidpoint, gives_the_same_bits_whether_a_run_is_split_or_not_and_aft
   const std::vector<double> start = fixture::random_state(problem, 2, 1e-3, 0.3, 0.1);
   const auto whole = after<double>(problem, midpoint, start, problem.dt, 10);
   Oracle<double> oracle(problem, midpoint, problem.dt);
-  ASSERT_FALSE(oracle.advance(3)); // of another run, which the write ends
+  ASSERT_FALSE(oracle.advance(3)); // starts another run, which the write ends
   oracle.write(start);
   ASSERT_FALSE(oracle.advance(4));
   ASSERT_FALSE(oracle.advance(6));
@@ -208,8 +222,9 @@ TEST(ImplicitMidpoint, takes_signals_at_the_middle_of_each_step) {
   const std::size_t width = signal_count(problem);
   const std::vector<double> rows = signal_rows(problem, midpoint, problem.dt, 0, 12);
   ASSERT_EQ(rows.size(), 13 * width);
-  ASSERT_FALSE(given.advance(
-      12, [&](long step, int stage) { return std::span(rows).subspan(std::size_t(step + stage) * width, width); }));
+  ASSERT_FALSE(given.advance(12, [&](long step, int stage) {
+    return std::span(rows).subspan(std::size_t(step + stage) * width, width);
+  }));
   std::vector<double> state = rest(problem);
   given.read(state);
   EXPECT_EQ(state, after<double>(problem, midpoint, rest(problem), problem.dt, 12));
@@ -238,7 +253,8 @@ TEST(ImplicitMidpoint, needs_few_factorisations) {
   EXPECT_LE(rule.factorisations(), 3) << "the plate hardly leaves its linear range";
 }
 
-TEST(ImplicitMidpoint, names_the_step_and_the_element_whose_equations_have_no_solution_and_keeps_the_state_before) {
+TEST(ImplicitMidpoint,
+     names_the_step_and_the_element_whose_equations_have_no_solution_and_keeps_the_state_before) {
   const Problem pair = fixture::make_pair(LinkLaw::paper);
   Oracle<double> oracle(pair, midpoint, pair.dt);
   std::vector<double> state = rest(pair);
@@ -247,8 +263,10 @@ TEST(ImplicitMidpoint, names_the_step_and_the_element_whose_equations_have_no_so
   ASSERT_FALSE(oracle.advance(3));
   std::vector<double> before(state.size()), behind(state.size());
   oracle.read(before);
-  const std::vector<double> signals(3, 0), infinite = {0, 0, std::numeric_limits<double>::infinity()};
-  const auto breakdown = oracle.advance(5, [&](long step, int) { return std::span(step < 2 ? signals : infinite); });
+  const std::vector<double> signals(3, 0),
+      infinite = {0, 0, std::numeric_limits<double>::infinity()};
+  const auto breakdown =
+      oracle.advance(5, [&](long step, int) { return std::span(step < 2 ? signals : infinite); });
   ASSERT_TRUE(breakdown);
   EXPECT_EQ(breakdown->step, 2);
   EXPECT_EQ(breakdown->element, 0u);
@@ -259,9 +277,10 @@ TEST(ImplicitMidpoint, names_the_step_and_the_element_whose_equations_have_no_so
   EXPECT_NE(behind, before) << "two steps went well";
 }
 
-TEST(Colouring, puts_no_two_elements_with_a_common_neighbour_into_one_group_and_every_element_into_one) {
-  for (const Problem& problem :
-       {fixture::make_everything(), fixture::make_plate(8), fixture::make_sponge(5, 4, 3, LinkLaw::paper, 3)}) {
+TEST(Colouring,
+     puts_no_two_elements_with_a_common_neighbour_into_one_group_and_every_element_into_one) {
+  for (const Problem& problem : {fixture::make_everything(), fixture::make_plate(8),
+                                 fixture::make_sponge(5, 4, 3, LinkLaw::paper, 3)}) {
     const auto near = reference::neighbourhoods(problem);
     std::size_t links = 0;
     for (const auto& of_element : near) links += of_element.size() - 1;
@@ -271,7 +290,8 @@ TEST(Colouring, puts_no_two_elements_with_a_common_neighbour_into_one_group_and_
       std::set<std::size_t> touched;
       for (const std::size_t e : group) {
         grouped.insert(e);
-        for (const std::size_t other : near[e]) EXPECT_TRUE(touched.insert(other).second) << problem.name << ' ' << e;
+        for (const std::size_t other : near[e])
+          EXPECT_TRUE(touched.insert(other).second) << problem.name << ' ' << e;
       }
     }
     EXPECT_EQ(grouped.size(), near.size());

@@ -1,4 +1,4 @@
-/// Orientations as the paper's angles and as small rotation vectors, against quaternions.
+/// Orientations as the paper's angles, and as small rotation vectors, against quaternions.
 #include "solver/model/energy.hpp"
 #include "solver/reference/oracle.hpp"
 #include "solver/reference/rotation_vector.hpp"
@@ -22,9 +22,9 @@ using State = std::vector<double>;
 using fixture::rk4;
 const Vector some_angles(0.7, -1.1, 2.3), some_spin(1.5, -0.4, 0.9);
 
-/// The end of a run; nothing if it broke down.
-std::optional<State> after(const Problem& problem, const Method& method, Rotation rotation, const State& start,
-                           double dt, long steps) {
+/// The end of a run. Empty if it broke down.
+std::optional<State> after(const Problem& problem, const Method& method, Rotation rotation,
+                           const State& start, double dt, long steps) {
   Oracle<double> oracle(problem, method, dt, rotation);
   oracle.write(start);
   if (oracle.advance(steps)) return std::nullopt;
@@ -39,7 +39,7 @@ double difference(const State& a, const State& b) {
   return largest;
 }
 
-/// The same with q and -q taken for the same orientation, as they are: angles forget which one it was.
+/// The same, with q and -q as the same orientation: angles cannot tell them apart.
 double turned_difference(State a, const State& b) {
   for (std::size_t at = 0; at < a.size(); at += field_count) {
     double product = (1 + a[at + qs]) * (1 + b[at + qs]);
@@ -53,12 +53,14 @@ double turned_difference(State a, const State& b) {
 
 TEST(TaitBryan, is_the_matrix_of_the_papers_equation_2) {
   const double phi = some_angles.x(), theta = some_angles.y(), psi = some_angles.z();
-  const double cf = std::cos(phi), sf = std::sin(phi), ct = std::cos(theta), st = std::sin(theta), cp = std::cos(psi),
-               sp = std::sin(psi);
-  reference::Matrix<double> paper; // with the misprint of its last row, first column, put right: X Y Z is a rotation
-  paper << ct * cp, -ct * sp, st, cf * sp + sf * st * cp, cf * cp - sf * st * sp, -sf * ct, sf * sp - cf * st * cp,
-      sf * cp + cf * st * sp, cf * ct;
-  const reference::Matrix<double> turned = reference::turn(reference::orientation_of_angles(some_angles));
+  const double cf = std::cos(phi), sf = std::sin(phi), ct = std::cos(theta), st = std::sin(theta),
+               cp = std::cos(psi), sp = std::sin(psi);
+  reference::Matrix<double>
+      paper; // with its misprint corrected (last row, first column): X Y Z is a rotation
+  paper << ct * cp, -ct * sp, st, cf * sp + sf * st * cp, cf * cp - sf * st * sp, -sf * ct,
+      sf * sp - cf * st * cp, sf * cp + cf * st * sp, cf * ct;
+  const reference::Matrix<double> turned =
+      reference::turn(reference::orientation_of_angles(some_angles));
   EXPECT_LE((turned + reference::Matrix<double>::Identity() - paper).norm(), 1e-15);
 }
 
@@ -69,11 +71,12 @@ TEST(TaitBryan, angles_are_those_that_the_orientation_was_made_of) {
   EXPECT_LE((reference::angles_of(reference::orientation_of_angles(tiny)) - tiny).norm(), 1e-23);
 }
 
-/// d/dt of an orientation along rates of its coordinates, by central differences.
+/// d/dt of an orientation along the rates of its coordinates, by central differences.
 template <class Of>
 Orientation<double> slope(Of&& orientation_of, const Vector& at, const Vector& rates) {
   const double h = 1e-5;
-  const auto ahead = orientation_of(Vector(at + h * rates)), behind = orientation_of(Vector(at - h * rates));
+  const auto ahead = orientation_of(Vector(at + h * rates)),
+             behind = orientation_of(Vector(at - h * rates));
   return {(ahead.s - behind.s) / (2 * h), (ahead.v - behind.v) / (2 * h)};
 }
 double difference(const Orientation<double>& a, const Orientation<double>& b) {
@@ -81,9 +84,11 @@ double difference(const Orientation<double>& a, const Orientation<double>& b) {
 }
 
 TEST(TaitBryan, rates_turn_the_orientation_by_the_angular_velocity) {
-  const auto turned =
-      slope(reference::orientation_of_angles<double>, some_angles, reference::angle_rates(some_angles, some_spin));
-  EXPECT_LE(difference(turned, reference::rate(reference::orientation_of_angles(some_angles), some_spin)), 1e-9);
+  const auto turned = slope(reference::orientation_of_angles<double>, some_angles,
+                            reference::angle_rates(some_angles, some_spin));
+  EXPECT_LE(
+      difference(turned, reference::rate(reference::orientation_of_angles(some_angles), some_spin)),
+      1e-9);
 }
 
 TEST(RotationVector, is_that_which_its_quaternion_was_made_of_and_has_its_rate) {
@@ -124,8 +129,9 @@ TEST_P(EveryRotation, gives_rates_that_are_the_slopes_of_what_is_read) {
 }
 
 TEST_P(EveryRotation, has_the_energy_that_total_energy_finds_in_what_is_read_and_keeps_it) {
-  // One kind of rotation is as good as another for an undamped body; linear equations have an energy of their own.
-  if (GetParam() == Rotation::small) GTEST_SKIP() << "products are kept of which the energy has only some";
+  // All kinds of rotation suit an undamped body. Linear equations have an energy of their own.
+  if (GetParam() == Rotation::small)
+    GTEST_SKIP() << "products are kept of which the energy has only some";
   Problem problem = fixture::make_tumbling_box();
   problem.stabilization = {50, 0, 2, 0};
   const State start = fixture::random_state(problem, 8, 1e-3, 0.3, 0.1);
@@ -145,7 +151,7 @@ TEST_P(EveryRotation, has_the_order_of_each_method) {
   const State start = fixture::random_state(problem, 3, 1e-3, 0.3, 0.3);
   for (const Method* each : all_methods()) {
     const Method& method = *each;
-    // Where its own error shows: neither in that of higher order nor in rounding.
+    // Steps at which its own error shows, neither that of higher order nor rounding.
     const double dt = method.order == 4 ? 1.6e-3 : method.order == 1 ? 5e-5 : 4e-4;
     const auto at = [&](int refinement) {
       const long steps = std::lround(0.04 / dt) * refinement;
@@ -153,7 +159,9 @@ TEST_P(EveryRotation, has_the_order_of_each_method) {
     };
     const State coarse = at(1), middle = at(2), fine = at(4);
     ASSERT_FALSE(coarse.empty() || middle.empty() || fine.empty()) << method.name;
-    EXPECT_NEAR(std::log2(difference(coarse, middle) / difference(middle, fine)), method.order, 0.15) << method.name;
+    EXPECT_NEAR(std::log2(difference(coarse, middle) / difference(middle, fine)), method.order,
+                0.15)
+        << method.name;
   }
 }
 
@@ -169,7 +177,8 @@ struct LoneBox {
     return state;
   }
   State after_rk4(Rotation rotation, const State& start, double t) const {
-    return after(problem, rk4, rotation, start, 2.5e-4, std::lround(t / 2.5e-4)).value_or(State(start.size(), 1e9));
+    return after(problem, rk4, rotation, start, 2.5e-4, std::lround(t / 2.5e-4))
+        .value_or(State(start.size(), 1e9));
   }
 };
 
@@ -178,7 +187,8 @@ double middle_angle(const State& state) {
   return std::abs(reference::angles_of(reference::motion_of(state.data()).q).y()) * 180 / M_PI;
 }
 
-TEST(TaitBryan, taken_anew_equals_quaternions_while_a_box_tumbles_past_90_degrees_and_raw_does_not) {
+TEST(TaitBryan,
+     taken_anew_equals_quaternions_while_a_box_tumbles_past_90_degrees_and_raw_does_not) {
   const LoneBox box;
   const State start = box.spinning({3, 5, -4});
   int passes = 0;
@@ -197,12 +207,14 @@ TEST(TaitBryan, taken_anew_equals_quaternions_while_a_box_tumbles_past_90_degree
 
 TEST(TaitBryan, taken_anew_goes_exactly_through_90_degrees_and_raw_goes_astray) {
   const LoneBox box;
-  // A motion is reversed by its angular velocity: from theta = 90 degrees back by a second, and forth from there.
+  // Reversing the angular velocity reverses a motion: from theta = 90 degrees back by a second,
+  // then forward from there.
   State singular = box.spinning({-1, -3, -2});
   singular[qs] = std::sqrt(0.5) - 1;
   singular[qy] = std::sqrt(0.5);
   State start = box.after_rk4(Rotation::quaternion, singular, 1);
-  for (const std::size_t f : {std::size_t(wx), std::size_t(wy), std::size_t(wz)}) start[f] = -start[f];
+  for (const std::size_t f : {std::size_t(wx), std::size_t(wy), std::size_t(wz)})
+    start[f] = -start[f];
   EXPECT_NEAR(middle_angle(box.after_rk4(Rotation::quaternion, start, 1)), 90, 1e-4);
   const State end = box.after_rk4(Rotation::quaternion, start, 2);
   EXPECT_LE(turned_difference(box.after_rk4(Rotation::tait_bryan, start, 2), end), 1e-9);
@@ -218,7 +230,8 @@ TEST(TaitBryan, taken_anew_equals_quaternions_on_links_between_turning_elements)
   EXPECT_LE(turned_difference(*angles, *end), 1e-7);
 }
 
-/// A free block whose elements are displaced, turn and spin in proportion to `size`; rotations up to that [rad].
+/// A free block. Its elements are displaced, turn and spin in proportion to `size`, with rotations
+/// up to `size` [rad].
 double linearisation_error(double size) {
   const Problem block = fixture::make_block(2, 2, 2, LinkLaw::material, 0);
   const State start = fixture::random_state(block, 4, 0.05 * size, size, size);
@@ -265,7 +278,8 @@ TEST(Linearised, by_the_implicit_midpoint_rule_keeps_the_energy_to_rounding) {
   oracle.write(start);
   const double energy = oracle.energy();
   ASSERT_FALSE(oracle.advance(5000));
-  EXPECT_NEAR(oracle.energy() / energy, 1, 1e-11) << "rounding grows with the distance that the block drifts";
+  EXPECT_NEAR(oracle.energy() / energy, 1, 1e-11)
+      << "rounding grows with the distance that the block drifts";
 }
 
 } // namespace

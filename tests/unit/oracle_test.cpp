@@ -18,7 +18,8 @@ using fixture::rest;
 using fixture::rk4;
 using fixture::verlet;
 
-std::vector<double> rates_of(const Problem& problem, const std::vector<double>& state, double t = 0) {
+std::vector<double> rates_of(const Problem& problem, const std::vector<double>& state,
+                             double t = 0) {
   Oracle<double> oracle(problem, rk4, problem.dt);
   oracle.write(state);
   std::vector<double> rates(state.size());
@@ -45,10 +46,12 @@ TEST(Oracle, leaves_an_unloaded_problem_at_rest_to_the_last_bit) {
 
 TEST(Oracle, exerts_no_net_force_and_no_net_moment_on_a_free_block) {
   for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material}) {
-    // The paper's damping does exchange a moment across open gaps, so its net is taken without.
+    // The paper's damping exchanges a moment across open gaps. The net moment is therefore taken
+    // without damping.
     Problem block = fixture::make_block(4, 3, 3, law, law == LinkLaw::material ? 1 : 0);
     block.bodies[0].inertia.fill(0.02); // no gyroscopic term: moment = inertia * rate of w
-    const std::vector<double> state = fixture::random_state(block, 5), rates = rates_of(block, state);
+    const std::vector<double> state = fixture::random_state(block, 5),
+                              rates = rates_of(block, state);
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
     double force_sum = 0, moment_sum = 0;
     block.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
@@ -104,7 +107,8 @@ Eigen::Vector3d angular_momentum(const Problem& lone, const std::vector<double>&
   const auto motion = reference::motion_of(state.data());
   const Vec3& inertia = lone.bodies[0].inertia;
   const Eigen::Vector3d body_spin = motion.rotation().transpose() * motion.w;
-  return motion.rotation() * Eigen::Vector3d(inertia[0], inertia[1], inertia[2]).cwiseProduct(body_spin);
+  return motion.rotation() *
+         Eigen::Vector3d(inertia[0], inertia[1], inertia[2]).cwiseProduct(body_spin);
 }
 
 TEST(Oracle, keeps_angular_momentum_and_energy_of_a_tumbling_box) {
@@ -120,11 +124,13 @@ TEST(Oracle, keeps_angular_momentum_and_energy_of_a_tumbling_box) {
     const double energy = oracle.energy();
     const Eigen::Vector3d before = angular_momentum(lone, state);
     ASSERT_FALSE(oracle.advance(200));
-    EXPECT_GT(std::abs(read_all(oracle, lone)[wx] - 3), 0.1) << "the box must tumble, not spin about one axis";
+    EXPECT_GT(std::abs(read_all(oracle, lone)[wx] - 3), 0.1)
+        << "the box must tumble, not spin about one axis";
     ASSERT_FALSE(oracle.advance(1800));
     const std::vector<double> after = read_all(oracle, lone);
     EXPECT_NEAR(oracle.energy() / energy, 1, tolerance) << method->name;
-    EXPECT_LE((angular_momentum(lone, after) - before).norm(), tolerance * before.norm()) << method->name;
+    EXPECT_LE((angular_momentum(lone, after) - before).norm(), tolerance * before.norm())
+        << method->name;
   }
 }
 

@@ -11,14 +11,16 @@ namespace {
 
 using fixture::global_numbers;
 
-/// Numbers in the whole of a part's local numbers.
-std::vector<std::size_t> mapped(const std::vector<std::size_t>& local, const std::vector<std::size_t>& global) {
+/// For local numbers of a part: the numbers in the whole.
+std::vector<std::size_t> mapped(const std::vector<std::size_t>& local,
+                                const std::vector<std::size_t>& global) {
   std::vector<std::size_t> numbers;
   for (const std::size_t e : local) numbers.push_back(global.at(e));
   return numbers;
 }
 
-std::vector<std::size_t> kept(const std::vector<std::size_t>& elements, const std::vector<std::size_t>& global) {
+std::vector<std::size_t> kept(const std::vector<std::size_t>& elements,
+                              const std::vector<std::size_t>& global) {
   std::vector<std::size_t> numbers;
   for (const std::size_t e : elements)
     if (std::binary_search(global.begin(), global.end(), e)) numbers.push_back(e);
@@ -28,7 +30,7 @@ std::vector<std::size_t> kept(const std::vector<std::size_t>& elements, const st
 TEST(part, has_the_terms_on_its_elements_and_all_else_as_the_whole) {
   Problem problem = fixture::make_everything();
   InitialMotion motion;
-  motion.elements = {30, 2, 7, 1}; // in no order
+  motion.elements = {30, 2, 7, 1}; // not sorted
   motion.velocity = {1, 2, 3};
   motion.centre = {0.1, 0.2, 0.3};
   motion.is_rigid = true;
@@ -52,7 +54,8 @@ TEST(part, has_the_terms_on_its_elements_and_all_else_as_the_whole) {
       }
       ASSERT_EQ(here.initial_motions.size(), 2U);
       for (std::size_t m = 0; m < 2; ++m) {
-        EXPECT_EQ(mapped(here.initial_motions[m].elements, global), kept(problem.initial_motions[m].elements, global));
+        EXPECT_EQ(mapped(here.initial_motions[m].elements, global),
+                  kept(problem.initial_motions[m].elements, global));
         EXPECT_EQ(here.initial_motions[m].velocity, motion.velocity);
         EXPECT_EQ(here.initial_motions[m].centre, motion.centre);
         EXPECT_TRUE(here.initial_motions[m].is_rigid);
@@ -73,7 +76,8 @@ TEST(part, knows_of_damped_links_that_are_elsewhere) {
   const Decomposition decomposition = decompose(problem, "strips", 4);
   for (int index = 0; index < 4; ++index)
     EXPECT_TRUE(make_part(problem, decomposition, index, 0).problem.has_damped_links_elsewhere);
-  for (ExtraLink& link : problem.extra_links) link.constants = fixture::soft_body(LinkLaw::paper, 0).axis[0];
+  for (ExtraLink& link : problem.extra_links)
+    link.constants = fixture::soft_body(LinkLaw::paper, 0).axis[0];
   for (int index = 0; index < 4; ++index)
     EXPECT_FALSE(make_part(problem, decomposition, index, 0).problem.has_damped_links_elsewhere);
 }

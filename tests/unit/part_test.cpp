@@ -32,10 +32,11 @@ void for_each_case(Visit&& visit) {
     }
 }
 
-/// Layers by search over cells: the distance of each element from those that a part owns.
-std::map<std::size_t, int> layers_by_search(const Problem& problem, const std::vector<int>& owner, int part,
-                                            int depth) {
-  std::map<Place, std::optional<std::size_t>> cells; // of all rows, with the elements in them
+/// Layers by a search over cells: the distance of each element from those of a part.
+std::map<std::size_t, int> layers_by_search(const Problem& problem, const std::vector<int>& owner,
+                                            int part, int depth) {
+  std::map<Place, std::optional<std::size_t>>
+      cells; // all cells of all rows, with the elements in them
   for (const Row& row : problem.lattice.rows)
     for (int x = row.x_begin; x < row.x_end; ++x) cells[{row.body, row.z, row.y, x}] = std::nullopt;
   const std::vector<Place> place = places(problem.lattice);
@@ -85,7 +86,8 @@ TEST(part, halo_layers_are_those_of_a_search_over_cells) {
         }
         EXPECT_EQ(part.index, index);
         EXPECT_EQ(part.depth, depth);
-        EXPECT_EQ(part.own_elements, std::size_t(std::count(part.layer.begin(), part.layer.end(), 0)));
+        EXPECT_EQ(part.own_elements,
+                  std::size_t(std::count(part.layer.begin(), part.layer.end(), 0)));
       }
   });
 }
@@ -110,7 +112,8 @@ TEST(part, own_elements_of_all_parts_are_the_problem) {
           const dss::Run& before = part.runs[r - 1];
           ASSERT_GE(run.local, before.local + before.count);
           ASSERT_GE(run.global, before.global + before.count);
-          ASSERT_TRUE(run.local > before.local + before.count || run.global > before.global + before.count);
+          ASSERT_TRUE(run.local > before.local + before.count ||
+                      run.global > before.global + before.count);
         }
         EXPECT_EQ(count, part.own_elements);
       }
@@ -128,22 +131,29 @@ TEST(part, rows_are_the_originals_cut_to_the_cells_that_are_here) {
         ASSERT_EQ(part.global_row.size(), lattice.rows.size());
         ASSERT_TRUE(std::is_sorted(part.global_row.begin(), part.global_row.end()));
         std::size_t element = 0, cell = 0;
-        const auto original_of = [&](int r) { return r < 0 ? -1 : part.global_row[std::size_t(r)]; };
+        const auto original_of = [&](int r) {
+          return r < 0 ? -1 : part.global_row[std::size_t(r)];
+        };
         for (std::size_t r = 0; r < lattice.rows.size(); ++r) {
           const Row& row = lattice.rows[r];
           const Row& original = problem.lattice.rows[std::size_t(part.global_row[r])];
-          ASSERT_EQ(std::tie(row.body, row.y, row.z), std::tie(original.body, original.y, original.z));
+          ASSERT_EQ(std::tie(row.body, row.y, row.z),
+                    std::tie(original.body, original.y, original.z));
           ASSERT_EQ(row.first_element, element);
           ASSERT_EQ(row.first_cell, cell);
-          ASSERT_TRUE(lattice.is_present(row, row.x_begin) && lattice.is_present(row, row.x_end - 1));
+          ASSERT_TRUE(lattice.is_present(row, row.x_begin) &&
+                      lattice.is_present(row, row.x_end - 1));
           for (int x = row.x_begin; x < row.x_end; ++x) element += lattice.is_present(row, x);
           cell += std::size_t(row.x_end - row.x_begin);
           const auto is_right = [&](int here, int there) {
-            const bool is_here = std::binary_search(part.global_row.begin(), part.global_row.end(), there);
+            const bool is_here =
+                std::binary_search(part.global_row.begin(), part.global_row.end(), there);
             return original_of(here) == (is_here ? there : -1);
           };
-          EXPECT_TRUE(is_right(row.lower_y, original.lower_y) && is_right(row.upper_y, original.upper_y));
-          EXPECT_TRUE(is_right(row.lower_z, original.lower_z) && is_right(row.upper_z, original.upper_z));
+          EXPECT_TRUE(is_right(row.lower_y, original.lower_y) &&
+                      is_right(row.upper_y, original.upper_y));
+          EXPECT_TRUE(is_right(row.lower_z, original.lower_z) &&
+                      is_right(row.upper_z, original.upper_z));
         }
         EXPECT_EQ(lattice.element_count, element);
         EXPECT_EQ(lattice.present.size(), cell);
@@ -168,7 +178,8 @@ TEST(part, links_are_the_originals_between_elements_that_are_here) {
       std::vector<std::array<std::size_t, 2>> extra, extra_here;
       for (const ExtraLink& link : problem.extra_links)
         if (here.contains(link.i) && here.contains(link.j)) extra.push_back({link.i, link.j});
-      for (const ExtraLink& link : part.problem.extra_links) extra_here.push_back({global[link.i], global[link.j]});
+      for (const ExtraLink& link : part.problem.extra_links)
+        extra_here.push_back({global[link.i], global[link.j]});
       EXPECT_EQ(extra_here, extra);
     }
   });
@@ -198,7 +209,8 @@ TEST(part, what_one_part_sends_another_receives) {
           sent[{index, neighbour.part}] = globals(neighbour.send);
           received[{neighbour.part, index}] = globals(neighbour.receive);
           for (const std::size_t e : neighbour.send) ASSERT_EQ(part.layer.at(e), 0);
-          for (const std::size_t e : received[{neighbour.part, index}]) ASSERT_EQ(owner[e], neighbour.part);
+          for (const std::size_t e : received[{neighbour.part, index}])
+            ASSERT_EQ(owner[e], neighbour.part);
         }
         EXPECT_EQ(halo, part.layer.size() - part.own_elements);
       }

@@ -11,7 +11,8 @@ namespace dss {
 namespace {
 
 TEST(torsion_constant, of_rectangles_agrees_with_the_published_table) {
-  // Timoshenko and Goodier, section 109: J / (b c^3) for b/c = 1, 2, 10 (four digits), and 1/3 for a thin strip.
+  // Timoshenko and Goodier, section 109: J / (b c^3) for b/c = 1, 2, 10 (four digits), and 1/3 for
+  // a thin strip.
   EXPECT_NEAR(torsion_constant(1, 1), 0.1406, 5e-5);
   EXPECT_NEAR(torsion_constant(2, 1) / 2, 0.229, 5e-4);
   EXPECT_NEAR(torsion_constant(10, 1) / 10, 0.312, 5e-4);
@@ -22,7 +23,8 @@ TEST(torsion_constant, of_rectangles_agrees_with_the_published_table) {
 TEST(torsion_constant, equals_the_plain_series) {
   for (const double ratio : {1.0, 1.3, 2.0, 5.0}) {
     double sum = 0;
-    for (int n = 1; n < 2001; n += 2) sum += std::tanh(n * std::numbers::pi * ratio / 2) / std::pow(n, 5);
+    for (int n = 1; n < 2001; n += 2)
+      sum += std::tanh(n * std::numbers::pi * ratio / 2) / std::pow(n, 5);
     const double series = ratio * (1.0 / 3 - 64 / std::pow(std::numbers::pi, 5) / ratio * sum);
     EXPECT_NEAR(torsion_constant(ratio, 1) / series, 1, 1e-12);
   }
@@ -31,11 +33,11 @@ TEST(torsion_constant, equals_the_plain_series) {
 TEST(material_link, has_the_stiffness_of_a_bar_of_its_section) {
   const Material material = {{200, 200, 200}, {80, 80, 80}, 0.1};
   const Vec3 edge = {0.5, 0.2, 0.3}, inertia = {2, 3, 4};
-  const double mass = 5, length = 0.2, area = 0.5 * 0.3; // a link along y: faces of z x x
+  const double mass = 5, length = 0.2, area = 0.5 * 0.3; // a link along y has faces z x x
   const AxisConstants link = material_link(material, 1, edge, mass, inertia);
   EXPECT_DOUBLE_EQ(link.k_normal, 200 * area / length);
   EXPECT_DOUBLE_EQ(link.k_shear, 80 * area / length);
-  EXPECT_DOUBLE_EQ(link.k_rot[0], 200 * 0.5 * 0.3 * 0.3 * 0.3 / 12 / length); // about x: z^2 counts
+  EXPECT_DOUBLE_EQ(link.k_rot[0], 200 * 0.5 * 0.3 * 0.3 * 0.3 / 12 / length); // about x, z^2 counts
   EXPECT_DOUBLE_EQ(link.k_rot[1], 80 * torsion_constant(0.5, 0.3) / length);
   EXPECT_DOUBLE_EQ(link.k_rot[2], 200 * 0.3 * 0.5 * 0.5 * 0.5 / 12 / length);
   EXPECT_DOUBLE_EQ(link.d_normal, 0.2 * std::sqrt(link.k_normal * mass));

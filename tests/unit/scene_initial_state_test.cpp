@@ -40,7 +40,8 @@ TEST(initial_state, of_a_rigid_motion_is_the_rotation_about_its_centre) {
   const InitialMotion motion = rigid_motion(problem);
   problem.initial_motions = {motion};
   const std::vector<double> state = initial_state(problem);
-  const Eigen::Vector3d axis(motion.rotation.data()), centre(motion.centre.data()), w(motion.angular_velocity.data());
+  const Eigen::Vector3d axis(motion.rotation.data()), centre(motion.centre.data()),
+      w(motion.angular_velocity.data());
   const Eigen::AngleAxisd turn(axis.norm(), axis.normalized());
   const Eigen::Quaterniond q(turn);
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
@@ -66,7 +67,8 @@ TEST(initial_state, keeps_all_digits_of_a_tiny_rotation) {
   motion.rotation = {0, 0, 2e-6};
   problem.initial_motions = {motion};
   const std::vector<double> state = initial_state(problem);
-  EXPECT_NEAR(state[field_count + qs] / -5e-13, 1, 1e-12); // cos(1e-6) - 1 in doubles has four digits
+  EXPECT_NEAR(state[field_count + qs] / -5e-13, 1,
+              1e-12); // cos(1e-6) - 1 in doubles has four digits
   EXPECT_NEAR(state[field_count + qz] / 1e-6, 1, 1e-12);
 }
 

@@ -18,7 +18,8 @@ TEST(why_not_planar, is_empty_for_scenes_that_stay_in_the_plane) {
 }
 
 TEST(why_not_planar, names_the_load_that_leaves_the_plane) {
-  expect_reason(load_scene("plate_bending", {{"n", "8"}}).problem, "load 0 leaves the plane: force z = 500 N");
+  expect_reason(load_scene("plate_bending", {{"n", "8"}}).problem,
+                "load 0 leaves the plane: force z = 500 N");
   Problem problem = fixture::make_plate(8);
   problem.loads[0].torque = {0, 0.5, 0};
   expect_reason(problem, "torque y = 0.5 N m");
@@ -38,7 +39,8 @@ TEST(why_not_planar, names_links_gravity_and_motions_out_of_the_plane) {
   problem.extra_links.push_back({1, 9, 2, LinkLaw::paper, {}});
   expect_reason(problem, "extra link 0");
   for (const auto& [field, part] : std::vector<std::pair<Vec3 InitialMotion::*, std::string>>{
-           {&InitialMotion::displacement, "displacement z"}, {&InitialMotion::velocity, "velocity z"}}) {
+           {&InitialMotion::displacement, "displacement z"},
+           {&InitialMotion::velocity, "velocity z"}}) {
     problem = fixture::make_plate(8);
     problem.initial_motions.resize(1);
     (problem.initial_motions[0].*field) = {1, 1, 0};
@@ -47,7 +49,8 @@ TEST(why_not_planar, names_links_gravity_and_motions_out_of_the_plane) {
     expect_reason(problem, part);
   }
   for (const auto& [field, part] : std::vector<std::pair<Vec3 InitialMotion::*, std::string>>{
-           {&InitialMotion::rotation, "rotation x"}, {&InitialMotion::angular_velocity, "angular velocity x"}}) {
+           {&InitialMotion::rotation, "rotation x"},
+           {&InitialMotion::angular_velocity, "angular velocity x"}}) {
     problem = fixture::make_plate(8);
     problem.initial_motions.resize(1);
     (problem.initial_motions[0].*field) = {0, 0, 1};
@@ -63,7 +66,8 @@ TEST(why_not_planar, is_told_when_a_scene_asks_for_planar_and_leaves_the_plane) 
     load_scene("plate_bending", {{"run.model", "planar"}});
     FAIL() << "accepted";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("/run/model: \"planar\" does not hold: load 0"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("/run/model: \"planar\" does not hold: load 0"),
+              std::string::npos)
         << error.what();
   }
 }

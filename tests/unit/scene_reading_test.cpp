@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What load_scene says against it; a test failure if it says nothing or more than a line.
+/// The error of load_scene. The test fails if there is none, or if it has more than one line.
 std::string refusal(const std::string& scene, const std::vector<Override>& overrides = {}) {
   try {
     load_scene(scene, overrides);
@@ -40,11 +40,12 @@ protected:
     std::ofstream(folder / name) << text;
     return (folder / name).string();
   }
-  /// A scene of one body with the given geometry.
+  /// A scene of one body with this geometry.
   std::string scene_with(const std::string& geometry) const {
-    return written("shape.json", R"({"scene": "shape", "title": "a shape", "run": {"dt": 1e-6, "steps": 1},
+    return written("shape.json",
+                   R"({"scene": "shape", "title": "a shape", "run": {"dt": 1e-6, "steps": 1},
       "bodies": [{"name": "b", "element": 1, "constants": {"law": "paper"}, "geometry": )" +
-                                     geometry + "}]}");
+                       geometry + "}]}");
   }
   fs::path folder;
 };
@@ -58,7 +59,8 @@ TEST_F(scene_file, that_is_missing_is_refused_with_the_nearest_name) {
 }
 
 TEST_F(scene_file, that_is_broken_json_is_refused_with_line_and_column) {
-  expect_part(refusal(written("broken.json", "{\n  \"scene\": \"a\",\n  \"title\" \"b\"\n}\n")), "line 3, column 13");
+  expect_part(refusal(written("broken.json", "{\n  \"scene\": \"a\",\n  \"title\" \"b\"\n}\n")),
+              "line 3, column 13");
   expect_part(refusal(written("cut.json", "{\"scene\": [1, 2")), "line 1, column 16");
   expect_part(refusal(written("empty.json", "")), "empty");
   expect_part(refusal(written("nan.json", "{\"scene\": NaN}")), "not JSON");
@@ -68,7 +70,8 @@ TEST_F(scene_file, that_is_broken_json_is_refused_with_line_and_column) {
 }
 
 TEST_F(scene_file, that_says_a_key_twice_is_refused) {
-  expect_part(refusal(written("twice.json", R"({"scene": "a", "run": {"dt": 1, "dt": 2}})")), "\"dt\" stands twice");
+  expect_part(refusal(written("twice.json", R"({"scene": "a", "run": {"dt": 1, "dt": 2}})")),
+              "\"dt\" stands twice");
 }
 
 TEST_F(scene_file, may_name_a_voxel_file_beside_it) {
@@ -81,11 +84,13 @@ TEST_F(scene_file, may_name_a_voxel_file_beside_it) {
 TEST_F(scene_file, selects_elements_of_rows_with_holes_by_their_cells) {
   const std::string bodies =
       R"({"scene": "holes", "title": "t", "run": {"dt": 1e-6, "steps": 1}, "bodies": [{"name": "b",
-      "element": 1, "constants": {"law": "paper"}, "geometry": {"voxels": {"layers": [["#.##", "####"]]}}}], "clamps": )";
+      "element": 1, "constants": {"law": "paper"}, "geometry": {"voxels": {"layers": [["#.##", "####"]]}}}],
+       "clamps": )";
   const auto clamped = [&](const std::string& select) {
     std::vector<std::size_t> elements;
     for (const Clamp& clamp :
-         load_scene(written("holes.json", bodies + "[{\"select\": " + select + "}]}")).problem.clamps)
+         load_scene(written("holes.json", bodies + "[{\"select\": " + select + "}]}"))
+             .problem.clamps)
       elements.push_back(clamp.element);
     return elements;
   };
@@ -98,9 +103,11 @@ TEST_F(scene_file, selects_elements_of_rows_with_holes_by_their_cells) {
 }
 
 TEST_F(scene_file, with_a_bad_voxel_mask_is_refused) {
-  expect_part(refusal(scene_with(R"({"voxels": {"file": "absent.txt"}})")), "absent.txt cannot be read");
+  expect_part(refusal(scene_with(R"({"voxels": {"file": "absent.txt"}})")),
+              "absent.txt cannot be read");
   written("mask.txt", "##.\n#.\n");
-  expect_part(refusal(scene_with(R"({"voxels": {"file": "mask.txt"}})")), "layer 0, line 1 has 2 characters");
+  expect_part(refusal(scene_with(R"({"voxels": {"file": "mask.txt"}})")),
+              "layer 0, line 1 has 2 characters");
   written("mask.txt", "##x\n");
   expect_part(refusal(scene_with(R"({"voxels": {"file": "mask.txt"}})")), "write # for an element");
   written("mask.txt", "\n\n");
@@ -109,8 +116,9 @@ TEST_F(scene_file, with_a_bad_voxel_mask_is_refused) {
 }
 
 TEST_F(scene_file, of_a_union_of_boxes_counts_shared_cells_once) {
-  const Scene scene = load_scene(
-      scene_with(R"({"boxes": [{"from": [0, 0, 0], "size": [3, 2, 1]}, {"from": [2, 0, 0], "size": [2, 3, 1]}]})"));
+  const Scene scene = load_scene(scene_with(
+      R"({"boxes": [{"from": [0, 0, 0], "size": [3, 2, 1]},
+                     {"from": [2, 0, 0], "size": [2, 3, 1]}]})"));
   EXPECT_EQ(scene.problem.lattice.element_count, 6U + 6 - 2);
 }
 
@@ -121,17 +129,21 @@ TEST_F(scene_file, with_more_cells_than_any_run_could_hold_is_refused) {
 }
 
 TEST(scene_overrides, change_parameters_and_any_scalar) {
-  const Scene scene = load_scene("plate_paper", {{"n", "12"}, {"run.dt", "2e-7"}, {"bodies/0/constants/k", "=1e9*n"}});
+  const Scene scene = load_scene(
+      "plate_paper", {{"n", "12"}, {"run.dt", "2e-7"}, {"bodies/0/constants/k", "=1e9*n"}});
   EXPECT_EQ(scene.parameters.at("n"), 12);
   EXPECT_EQ(scene.problem.lattice.element_count, 144U);
   EXPECT_EQ(scene.problem.dt, 2e-7);
   EXPECT_EQ(scene.problem.bodies[0].axis[0].k_normal, 12e9);
-  EXPECT_EQ(load_scene("plate_paper", {{"loads.0.force.1", "5"}, {"loads.0.share", "each"}}).problem.loads[0].force,
+  EXPECT_EQ(load_scene("plate_paper", {{"loads.0.force.1", "5"}, {"loads.0.share", "each"}})
+                .problem.loads[0]
+                .force,
             (Vec3{1000, 5, 0}));
 }
 
 TEST(scene_overrides, may_set_what_the_file_leaves_at_its_default) {
-  const Scene scene = load_scene("chain", {{"run.integrator", "velocity_verlet"}, {"stabilization.k", "3"}});
+  const Scene scene =
+      load_scene("chain", {{"run.integrator", "velocity_verlet"}, {"stabilization.k", "3"}});
   EXPECT_EQ(scene.integrator, "velocity_verlet");
   EXPECT_EQ(scene.problem.stabilization.k, 3);
 }
@@ -149,7 +161,8 @@ TEST(scene_overrides, that_name_nothing_are_refused_with_what_there_is) {
 }
 
 TEST(scene_overrides, with_bad_values_are_refused_and_named) {
-  expect_part(refusal("plate_paper", {{"n", "-4"}}), "/bodies/0/geometry/box/0: -4 (\"=n\") is out of range");
+  expect_part(refusal("plate_paper", {{"n", "-4"}}),
+              "/bodies/0/geometry/box/0: -4 (\"=n\") is out of range");
   expect_part(refusal("plate_paper", {{"n", "2.5"}}), "2.5 (\"=n\") is not a whole number");
   expect_part(refusal("plate_paper", {{"n", "many"}}), "(from --set n=many)");
   expect_part(refusal("plate_paper", {{"run.dt", "0"}}), "0 is not positive");

@@ -22,8 +22,8 @@ TEST(shipped_scenes, are_all_listed_under_their_file_names) {
     EXPECT_EQ(std::filesystem::path(scene.path).stem().string(), scene.name);
     EXPECT_FALSE(scene.title.empty());
   }
-  for (const char* name : {"plate_paper", "plate_bending", "cantilever_beam", "block", "two_elements", "chain",
-                           "tumbling_box", "l_bracket", "two_bodies"})
+  for (const char* name : {"plate_paper", "plate_bending", "cantilever_beam", "block",
+                           "two_elements", "chain", "tumbling_box", "l_bracket", "two_bodies"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
@@ -36,8 +36,8 @@ TEST(shipped_scenes, have_small_versions_whose_step_is_at_most_half_the_limit_of
       EXPECT_LE(small.problem.lattice.element_count, 300U) << listing.name;
       EXPECT_EQ(small.problem.steps, verify.steps);
       EXPECT_LE(small.problem.steps, 200) << listing.name;
-      const Method& rk4 =
-          *find_method("rk4"); // the exact limit takes seconds, and is asked for where the bound is too low
+      const Method& rk4 = *find_method(
+          "rk4"); // the exact limit takes seconds; it is computed only if the bound is too low
       if (small.problem.dt > 0.5 * stable_step(small.problem, rk4).dt) {
         EXPECT_LE(small.problem.dt, 0.5 * stable_step(small.problem, rk4, true).dt) << listing.name;
       }
@@ -90,7 +90,7 @@ TEST(two_bodies, are_joined_face_to_face_in_order) {
       EXPECT_EQ(link.j, post + z * 22 + x);
       EXPECT_DOUBLE_EQ(link.constants.k_normal, 5e6 * 0.05 * 0.05 / 0.045);
     }
-  // The elements feel gravity less the acceleration of their frame.
+  // The elements feel gravity minus the acceleration of their frame.
   EXPECT_DOUBLE_EQ(problem.frame_acceleration[0](0), -5 * std::sin(0.5));
   EXPECT_DOUBLE_EQ(problem.frame_acceleration[1](0.1), -9.81);
   EXPECT_EQ(problem.frame_acceleration[2](0.1), 0);

@@ -65,7 +65,8 @@ TEST(signal_rows, hold_the_values_at_every_stage_and_at_the_end) {
   ASSERT_EQ(rows.size(), (3 * 4 + 1) * width);
   for (std::size_t r = 0; r <= 12; ++r) {
     const double t = r == 12 ? 8 * dt : (5 + double(r / 4) + method.node[r % 4]) * dt;
-    for (std::size_t a = 0; a < 3; ++a) EXPECT_EQ(rows[r * width + a], problem.frame_acceleration[a](t));
+    for (std::size_t a = 0; a < 3; ++a)
+      EXPECT_EQ(rows[r * width + a], problem.frame_acceleration[a](t));
     for (std::size_t l = 0; l < problem.loads.size(); ++l)
       EXPECT_EQ(rows[r * width + 3 + l], problem.loads[l].signal(t));
   }

@@ -17,8 +17,10 @@ namespace {
 using fixture::rk4;
 using fixture::verlet;
 
-/// Largest eigenvalue over the free degrees of freedom; the rows of clamped ones are zero already.
-double largest_eigenvalue(const Eigen::MatrixXd& matrix) { return matrix.eigenvalues().real().maxCoeff(); }
+/// Largest eigenvalue over the free degrees of freedom. The rows of clamped ones are already zero.
+double largest_eigenvalue(const Eigen::MatrixXd& matrix) {
+  return matrix.eigenvalues().real().maxCoeff();
+}
 
 std::vector<Problem> spectra() {
   Problem clamped = fixture::make_block(2, 2, 2, LinkLaw::material);
@@ -44,21 +46,23 @@ TEST(Rk4, has_the_known_step_limits_of_a_damped_mode) {
                                     {1.5, 1.064},
                                     {2.0, 0.746},
                                     {10.0, 0.1396}})
-    EXPECT_NEAR(omega * mode_step_limit(rk4, omega, 2 * zeta * omega) / limit, 1, 0.005) << "zeta = " << zeta;
+    EXPECT_NEAR(omega * mode_step_limit(rk4, omega, 2 * zeta * omega) / limit, 1, 0.005)
+        << "zeta = " << zeta;
 }
 
 TEST(VelocityVerlet, has_the_step_limit_of_its_predictor) {
   // The step matrix has the eigenvalue -1 where (h omega)^2 + 4 h rate = 4.
   const double omega = 5;
   for (const double zeta : {0.0, 0.01, 0.1, 0.5, 1.0, 10.0})
-    EXPECT_NEAR(omega * mode_step_limit(verlet, omega, 2 * zeta * omega), std::sqrt(16 * zeta * zeta + 4) - 4 * zeta,
-                1e-6)
+    EXPECT_NEAR(omega * mode_step_limit(verlet, omega, 2 * zeta * omega),
+                std::sqrt(16 * zeta * zeta + 4) - 4 * zeta, 1e-6)
         << "zeta = " << zeta;
 }
 
 TEST(StepLimit, of_a_mode_does_not_depend_on_its_scale) {
   for (const Method& method : methods())
-    EXPECT_NEAR(mode_step_limit(method, 1e6, 3e5) * 1e6, mode_step_limit(method, 1e-3, 3e-4) * 1e-3, 1e-9);
+    EXPECT_NEAR(mode_step_limit(method, 1e6, 3e5) * 1e6, mode_step_limit(method, 1e-3, 3e-4) * 1e-3,
+                1e-9);
 }
 
 TEST(Spectrum, bound_is_never_below_the_eigenvalues_of_the_oracle_and_seldom_far_above) {
@@ -76,9 +80,11 @@ TEST(Spectrum, bound_is_never_below_the_eigenvalues_of_the_oracle_and_seldom_far
 TEST(Spectrum, krylov_figures_are_the_eigenvalues_of_the_oracle) {
   for (const Problem& problem : spectra()) {
     const Spectrum found = krylov_spectrum(problem);
-    EXPECT_NEAR(found.omega_max / std::sqrt(largest_eigenvalue(fixture::linearised(problem, true))), 1, 3e-4)
+    EXPECT_NEAR(found.omega_max / std::sqrt(largest_eigenvalue(fixture::linearised(problem, true))),
+                1, 3e-4)
         << problem.name;
-    EXPECT_NEAR(found.damping / largest_eigenvalue(fixture::linearised(problem, false)), 1, 5e-4) << problem.name;
+    EXPECT_NEAR(found.damping / largest_eigenvalue(fixture::linearised(problem, false)), 1, 5e-4)
+        << problem.name;
   }
 }
 
@@ -92,11 +98,12 @@ TEST(StableStep, of_the_papers_plate_allows_the_papers_step_by_rk4) {
   EXPECT_NE(sharp.how, quick.how);
 }
 
-/// Largest displacement after `steps` steps from a random state of small amplitude; infinite if the run broke down.
+/// Largest displacement after `steps` steps from a small random state. Infinite if the run broke
+/// down.
 double growth(Problem problem, const Method& method, double dt, long steps) {
   Oracle<double> oracle(problem, method, dt);
   std::vector<double> state = fixture::random_state(problem, 7, 1e-9, 1e-9, 1e-9);
-  for (const Clamp& clamp : problem.clamps) // made for whole clamps
+  for (const Clamp& clamp : problem.clamps) // this handles only full clamps
     std::fill_n(state.begin() + std::ptrdiff_t(clamp.element * field_count), field_count, 0.0);
   oracle.write(state);
   if (oracle.advance(steps)) return std::numeric_limits<double>::infinity();
@@ -107,14 +114,15 @@ double growth(Problem problem, const Method& method, double dt, long steps) {
 }
 
 TEST(StableStep, separates_runs_that_stay_bounded_from_runs_that_grow) {
-  // Undamped, so that the worst pairing is the true one and the prediction is sharp on both sides.
+  // Undamped: the worst pairing is then the true one, and the prediction is sharp on both sides.
   Problem block = fixture::make_block(4, 3, 2, LinkLaw::material, 0);
   for (const Method& method : methods()) {
     const double dt = stable_step(block, method, true).dt;
-    if (dt == 0) continue; // grows however small the step, too slowly to be seen here
+    if (dt == 0) continue; // grows at every step, too slowly to see here
     EXPECT_LT(growth(block, method, 0.99 * dt, 3000), 1e-5) << method.name;
     if (method.order > 4)
-      continue; // grows by 5e-6 a step at 1 % above its limit: tests/runner/stability_test.cpp waits for it
+      continue; // grows by 5e-6 a step at 1 % above its limit: tests/runner/stability_test.cpp
+                // waits for it
     EXPECT_GT(growth(block, method, 1.01 * dt, 3000), 1) << method.name;
   }
 }
@@ -130,7 +138,8 @@ TEST(StableStep, is_safe_for_damped_problems) {
 }
 
 TEST(StableStep, is_infinite_where_nothing_can_vibrate) {
-  EXPECT_EQ(stable_step(fixture::make_block(1, 1, 1, LinkLaw::paper), rk4).dt, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(stable_step(fixture::make_block(1, 1, 1, LinkLaw::paper), rk4).dt,
+            std::numeric_limits<double>::infinity());
   EXPECT_EQ(stable_step(fixture::make_block(1, 1, 1, LinkLaw::paper), verlet, true).dt,
             std::numeric_limits<double>::infinity());
 }
@@ -155,8 +164,9 @@ TEST(StableStep, says_that_a_large_problem_gets_no_sharp_figure) {
 TEST(Fitted, rkc2_has_as_many_stages_as_the_damping_needs_and_no_more) {
   Problem pair = fixture::make_pair(LinkLaw::paper);
   for (Body& body : pair.bodies)
-    for (AxisConstants& axis : body.axis) // forty times critical, about
-      axis.d_normal = axis.d_shear = 40 * std::sqrt(axis.k_normal * body.mass), axis.d_rot = {1, 1, 1};
+    for (AxisConstants& axis : body.axis) // about forty times critical
+      axis.d_normal = axis.d_shear = 40 * std::sqrt(axis.k_normal * body.mass),
+      axis.d_rot = {1, 1, 1};
   const double dt = 5 * stable_step(pair, rk4).dt;
   const Method method = fitted(pair, *find_method("rkc2"), dt);
   EXPECT_GT(method.stages, 3);

@@ -24,24 +24,27 @@ Load end_load(const Problem& problem, const Vec3& force, const Vec3& torque = {}
   return {{problem.lattice.element_count - 1}, force, torque, {}};
 }
 
-/// A block held on one side, pulled at the other.
+/// A block, held on one side and pulled at the other.
 Problem held_block(LinkLaw law, double load = 1) {
   Problem problem = fixture::make_block(3, 2, 2, law);
-  for (std::size_t e = 0; e < problem.lattice.element_count; e += 3) problem.clamps.push_back({e, dof_all});
+  for (std::size_t e = 0; e < problem.lattice.element_count; e += 3)
+    problem.clamps.push_back({e, dof_all});
   problem.loads = {{{2, 5}, {20 * load, -30 * load, 50 * load}, {0.1 * load, 0, 0.2 * load}, {}}};
   return problem;
 }
 
-std::vector<double> solved(const Problem& problem, Rotation law, SolverKind kind = SolverKind::direct,
+std::vector<double> solved(const Problem& problem, Rotation law,
+                           SolverKind kind = SolverKind::direct,
                            Preconditioner preconditioner = Preconditioner::incomplete_cholesky) {
   StaticSystem system(problem, law);
-  const Equilibrium found = find_equilibrium(system, {.solver = kind, .preconditioner = preconditioner});
+  const Equilibrium found =
+      find_equilibrium(system, {.solver = kind, .preconditioner = preconditioner});
   EXPECT_TRUE(found.is_found) << found.reason;
   EXPECT_LT(found.residual, 1e-9);
   return system.fields(found.state);
 }
 
-/// Largest difference of displacements against the largest displacement.
+/// Largest difference of displacements over the largest displacement.
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0, largest = 0;
   for (std::size_t n = 0; n < a.size(); ++n)
@@ -50,7 +53,9 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
   return most / largest;
 }
 
-double of_end(const std::vector<double>& state, Field field) { return state[state.size() - field_count + field]; }
+double of_end(const std::vector<double>& state, Field field) {
+  return state[state.size() - field_count + field];
+}
 
 std::string refusal(const Problem& problem, SolverKind kind = SolverKind::automatic) {
   StaticSystem system(problem, Rotation::linearised);
@@ -75,16 +80,18 @@ TEST(Statics, stiffness_of_links_at_rest_is_the_slope_of_the_oracles_forces) {
 TEST(Statics, tangent_of_a_loaded_state_is_the_slope_of_its_forces) {
   for (const LinkLaw law : laws) {
     Problem problem = held_block(law);
-    problem.loads.front().torque = {}; // a dead torque has no potential
+    problem.loads.front().torque = {}; // a torque about a fixed axis has no potential
     StaticSystem system(problem);
     const auto state = find_equilibrium(system).state;
     std::mt19937_64 generator(3);
     std::normal_distribution<double> normal;
-    const Eigen::VectorXd step = 1e-6 * Eigen::VectorXd::NullaryExpr(system.size(), [&] { return normal(generator); });
+    const Eigen::VectorXd step =
+        1e-6 * Eigen::VectorXd::NullaryExpr(system.size(), [&] { return normal(generator); });
     auto ahead = state, behind = state;
     system.move(ahead, step);
     system.move(behind, -step);
-    const Eigen::VectorXd slope = ((system.unbalanced(behind) - system.unbalanced(ahead)) / 2).cast<double>();
+    const Eigen::VectorXd slope =
+        ((system.unbalanced(behind) - system.unbalanced(ahead)) / 2).cast<double>();
     const Eigen::VectorXd expected = system.tangent(state).selfadjointView<Eigen::Lower>() * step;
     EXPECT_LT((slope - expected).norm(), 1e-9 * expected.norm());
   }
@@ -109,15 +116,17 @@ TEST(Statics, cantilever_bends_by_the_sum_over_its_links) {
     const Body& body = problem.bodies.front();
     const AxisConstants& link = body.axis[0];
     const double bending = law == LinkLaw::paper ? link.k_rot[0] : link.k_rot[1];
-    double expected = 0; // of each link its shear, and its turn by the arm from its face to the end's centre
+    double expected =
+        0; // for each link: its shear, and its turn times the arm from its face to the end's centre
     for (int i = 0; i < n - 1; ++i) {
       const double arm = body.edge[0] * (n - 1 - i - 0.5);
       expected += 2 / link.k_shear + 2 * arm * arm / bending;
     }
     for (const SolverKind kind : {SolverKind::direct, SolverKind::cg})
-      for (const Preconditioner preconditioner : {Preconditioner::incomplete_cholesky, Preconditioner::block_jacobi})
-        EXPECT_NEAR(of_end(solved(problem, Rotation::linearised, kind, preconditioner), uz), expected,
-                    1e-11 * expected);
+      for (const Preconditioner preconditioner :
+           {Preconditioner::incomplete_cholesky, Preconditioner::block_jacobi})
+        EXPECT_NEAR(of_end(solved(problem, Rotation::linearised, kind, preconditioner), uz),
+                    expected, 1e-11 * expected);
   }
 }
 
@@ -125,7 +134,8 @@ TEST(Statics, end_torque_rolls_a_row_up_as_its_springs_say) {
   constexpr int n = 9;
   Problem problem = held_row(n, LinkLaw::paper);
   const Body& body = problem.bodies.front();
-  const double angle = 0.2, kt = body.axis[0].k_rot[0]; // of each link: 2 kt sin(angle / 2)
+  const double angle = 0.2,
+               kt = body.axis[0].k_rot[0]; // a link turns by `angle` at 2 kt sin(angle / 2)
   problem.loads = {end_load(problem, {}, {0, 0, 2 * kt * std::sin(angle / 2)})};
   double x = 0, y = 0; // half edges of neighbours meet at their faces
   for (int i = 0; i < n - 1; ++i)
@@ -153,9 +163,10 @@ TEST(Statics, newtons_state_differs_from_the_linear_one_by_the_square_of_the_loa
     double last = 0;
     for (const double load : {0.01, 0.02}) {
       const Problem problem = held_block(law, load);
-      const double now = difference(solved(problem, Rotation::linearised), solved(problem, Rotation::quaternion));
+      const double now =
+          difference(solved(problem, Rotation::linearised), solved(problem, Rotation::quaternion));
       if (last > 0) {
-        EXPECT_NEAR(now / last, 2, 0.1); // of a relative difference
+        EXPECT_NEAR(now / last, 2, 0.1); // for a relative difference
       }
       last = now;
     }
@@ -166,7 +177,8 @@ TEST(Statics, every_term_is_in_balance) {
   Problem problem = fixture::make_everything();
   problem.steps = 37;
   const std::vector<double> state = solved(problem, Rotation::quaternion);
-  // Without velocities, and with the signals of the end of the run, nothing is left to accelerate what is free.
+  // Without velocities and with the signals at the end of the run, no force is left on what is
+  // free.
   reference::Dynamics<double> dynamics(problem);
   std::vector<double> rates(state.size()), signals;
   const double end = problem.dt * double(problem.steps);
@@ -174,10 +186,11 @@ TEST(Statics, every_term_is_in_balance) {
   for (const Load& load : problem.loads) signals.push_back(load.signal(end));
   dynamics.rates(state, signals, rates);
   for (std::size_t n = 0; n < rates.size(); ++n) {
-    const bool is_half_clamped = n / field_count == 1; // of that box one turn is clamped, which no scene may do
+    const bool is_half_clamped =
+        n / field_count == 1; // one turn of that box is clamped, which no scene may do
     EXPECT_NEAR(is_half_clamped ? 0 : rates[n], 0, 1e-8) << n;
   }
-  // held_still is the same problem for ever.
+  // held_still is the same problem with the signals of its end, constant.
   EXPECT_LT(difference(solved(held_still(problem), Rotation::quaternion), state), 1e-12);
 }
 
@@ -195,7 +208,8 @@ TEST(Statics, names_the_body_that_is_free_to_move) {
   EXPECT_NE(refusal(problem).find("is free to turn about"), std::string::npos);
   problem.clamps = {{0, dof_all & ~dof_uy}};
   EXPECT_NE(refusal(problem).find("is free to move along y"), std::string::npos);
-  problem.clamps = {{0, dof_ux | dof_uy | dof_uz}, {2, dof_uy | dof_uz}, {4, dof_uz}}; // three points
+  problem.clamps = {
+      {0, dof_ux | dof_uy | dof_uz}, {2, dof_uy | dof_uz}, {4, dof_uz}}; // three points
   EXPECT_EQ(refusal(problem), "");
   problem.clamps.clear();
   problem.stabilization = {1, 0, 0, 0};
@@ -208,11 +222,12 @@ TEST(Statics, names_an_element_that_links_do_not_hold) {
   for (AxisConstants& axis : problem.bodies.front().axis) axis.k_rot = {};
   problem.loads = {end_load(problem, {1, 0, 0})};
   EXPECT_NE(refusal(problem, SolverKind::direct).find("(a mechanism"), std::string::npos);
-  // Where no load drives it conjugate gradients pass it by, and say so.
+  // If no load drives it, conjugate gradients pass it by and say so.
   StaticSystem system(problem, Rotation::linearised);
   const Equilibrium found = find_equilibrium(system);
   EXPECT_NE(found.note.find("(a mechanism"), std::string::npos);
-  EXPECT_NEAR(of_end(system.fields(found.state), ux), 4 / problem.bodies.front().axis[0].k_normal, 1e-15);
+  EXPECT_NEAR(of_end(system.fields(found.state), ux), 4 / problem.bodies.front().axis[0].k_normal,
+              1e-15);
 }
 
 TEST(Statics, says_so_where_loads_buckle_a_column) {
@@ -221,7 +236,8 @@ TEST(Statics, says_so_where_loads_buckle_a_column) {
   const Body& body = problem.bodies.front();
   const double length = body.edge[0] * (n - 1), bending = body.axis[0].k_rot[2] * body.edge[0];
   const double critical =
-      M_PI * M_PI * bending / (4 * length * length); // Euler's; shear and discreteness change some per cent
+      M_PI * M_PI * bending /
+      (4 * length * length); // Euler's; shear and discreteness change it by some per cent
   problem.loads = {end_load(problem, {-0.5 * critical, 0, 0})};
   EXPECT_LT(of_end(solved(problem, Rotation::quaternion), ux), 0);
   problem.loads = {end_load(problem, {-1.5 * critical, 0, 0})};

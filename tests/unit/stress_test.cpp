@@ -1,4 +1,4 @@
-/// Stress is recovered by the links of the equations that a state comes from.
+/// Stress is recovered with the links of the equations that the state comes from.
 #include "solver/model/rotation_vector.hpp"
 #include "solver/model/stress.hpp"
 #include "tests/fixtures/problems.hpp"
@@ -9,14 +9,16 @@
 namespace dss::test {
 namespace {
 
-double largest_von_mises(const Problem& problem, const std::vector<double>& state, Rotation equations) {
+double largest_von_mises(const Problem& problem, const std::vector<double>& state,
+                         Rotation equations) {
   double largest = 0;
   for (const ElementStress& stress : element_stress(problem, state, equations))
     largest = std::max(largest, stress.back());
   return largest;
 }
 
-/// A block that turned about z as one body, as equations see it whose rotations are vectors: u = theta x position, without any shortening.
+/// A block that turned about z as one body, in equations with rotation vectors: u = theta x
+/// position, without shortening.
 std::vector<double> turned_by_vectors(const Problem& problem, double theta) {
   std::vector<double> state(problem.lattice.element_count * field_count);
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
@@ -37,7 +39,8 @@ TEST(Stress, is_none_in_a_rigid_turn_by_the_equations_that_it_comes_from) {
     const double by_spatial = largest_von_mises(problem, state, Rotation::quaternion);
     EXPECT_GT(by_spatial, 0);
     for (const Rotation equations : {Rotation::linearised, Rotation::small})
-      EXPECT_LE(largest_von_mises(problem, state, equations), 1e-10 * by_spatial) << name(equations);
+      EXPECT_LE(largest_von_mises(problem, state, equations), 1e-10 * by_spatial)
+          << name(equations);
   }
 }
 
@@ -46,7 +49,8 @@ TEST(Stress, is_the_same_by_all_equations_to_first_order) {
   const std::vector<double> state = fixture::random_state(problem, 5, 1e-7, 1e-6, 1e-6);
   const double by_spatial = largest_von_mises(problem, state, Rotation::quaternion);
   for (const Rotation equations : {Rotation::linearised, Rotation::small})
-    EXPECT_NEAR(largest_von_mises(problem, state, equations) / by_spatial, 1, 1e-4) << name(equations);
+    EXPECT_NEAR(largest_von_mises(problem, state, equations) / by_spatial, 1, 1e-4)
+        << name(equations);
 }
 
 } // namespace

@@ -13,7 +13,7 @@ void expect_reason(const std::string& reason, const std::string& part) {
   EXPECT_EQ(reason.find('\n'), std::string::npos);
 }
 
-/// nx x ny x 1 of soft links, clamped at x = 0, all other elements pulled along x.
+/// nx x ny x 1 elements with soft links. Those at x = 0 are clamped, all others are pulled along x.
 Problem pulled_plate(int nx, int ny) {
   Problem problem = fixture::make_block(nx, ny, 1, LinkLaw::material);
   problem.loads.resize(1);
@@ -25,7 +25,7 @@ Problem pulled_plate(int nx, int ny) {
   return problem;
 }
 
-/// Largest field that is not along x, after a run of the spatial model.
+/// Largest field that is not along x after a run of the spatial model.
 double off_axis(const Problem& problem) {
   Oracle<double> oracle(problem, *find_method("rk4"), problem.dt);
   const std::vector<double> start = initial_state(problem);
@@ -39,12 +39,14 @@ double off_axis(const Problem& problem) {
   return most;
 }
 
-TEST(why_not_axial, is_empty_for_a_bar_and_for_rows_that_move_alike_and_these_stay_on_their_axis_to_the_last_bit) {
+TEST(why_not_axial,
+     is_empty_for_a_bar_and_for_rows_that_move_alike_and_these_stay_on_their_axis_to_the_last_bit) {
   for (const Problem& problem : {pulled_plate(5, 1), pulled_plate(5, 4)}) {
     EXPECT_EQ(why_not_axial(problem), "");
     EXPECT_EQ(off_axis(problem), 0);
   }
-  for (const char* name : {"chain", "two_elements"}) EXPECT_EQ(why_not_axial(load_scene(name).problem), "");
+  for (const char* name : {"chain", "two_elements"})
+    EXPECT_EQ(why_not_axial(load_scene(name).problem), "");
 }
 
 TEST(why_not_axial, names_rows_that_differ_by_a_load_a_clamp_a_start_or_their_length) {
@@ -58,7 +60,8 @@ TEST(why_not_axial, names_rows_that_differ_by_a_load_a_clamp_a_start_or_their_le
     expect_reason(why_not_axial(problem), "need not move alike");
     EXPECT_GT(off_axis(problem), 0);
   }
-  expect_reason(why_not_axial(load_scene("plate_paper", {{"n", "8"}}).problem), "(0, 0) and (1, 0)");
+  expect_reason(why_not_axial(load_scene("plate_paper", {{"n", "8"}}).problem),
+                "(0, 0) and (1, 0)");
   Problem ragged = fixture::make_sponge(5, 4, 1, LinkLaw::material, 1);
   ragged.frame_acceleration[0].amplitude = 1;
   expect_reason(why_not_axial(ragged), "need not move alike");
@@ -91,7 +94,7 @@ TEST(why_not_axial, names_what_leaves_the_axis) {
   expect_reason(why_not_axial(problem), "element 3 starts with wx = 1 rad/s");
 }
 
-/// A second bar of one row behind each row of the first body, joined along x.
+/// Behind each row of the first body stands a second bar of one row, joined along x.
 Problem joined(int rows, std::size_t most_joints) {
   Problem problem = pulled_plate(4, rows);
   problem.loads.clear();
@@ -102,8 +105,8 @@ Problem joined(int rows, std::size_t most_joints) {
   load.force = {4, 0, 0};
   problem.loads = {load};
   for (std::size_t y = 0; y < std::min(most_joints, std::size_t(rows)); ++y)
-    problem.extra_links.push_back(
-        {4 * y + 3, first + 3 * y, 0, LinkLaw::material, fixture::soft_body(LinkLaw::material).axis[0]});
+    problem.extra_links.push_back({4 * y + 3, first + 3 * y, 0, LinkLaw::material,
+                                   fixture::soft_body(LinkLaw::material).axis[0]});
   return problem;
 }
 

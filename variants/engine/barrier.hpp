@@ -1,16 +1,16 @@
 #pragma once
-/// Where the threads of a team meet once a pass.
-#include "variants/wake.hpp"
+/// The barrier at which the threads of a team meet, once a pass.
+#include "variants/engine/wake.hpp"
 
 #include <sched.h>
 
 namespace dss {
 
-/// Spins for about as long as a step of a small body takes, then sleeps: a thread that lost its core to another process
-/// would else hold up the whole team for many time slices, because those that wait keep it from coming back.
-/// (OpenMP's own barrier spins for milliseconds: measured 0.2 to 6 s for the same run beside one busy process.)
-/// In a crowded team, of more threads than cores, those that wait give their core to those that they wait for: spinning, they kept it from them
-/// (`verify`, whose teams have up to 7 threads, took 2.5 times as long on 2 cores), and waking a sleeper costs more (2.1 times).
+/// A waiting thread spins for about as long as a step of a small body takes, then sleeps. Without
+/// sleep, one thread that loses its core to another process delays the whole team for many time
+/// slices, because the spinning threads keep it from coming back. OpenMP's own barrier spins for
+/// milliseconds. A team with more threads than cores is crowded: its waiting threads yield their
+/// cores to the threads that they wait for, and sleep later. Measurements: README.md.
 class Barrier {
 public:
   Barrier(int threads, bool is_crowded) : threads_(threads), is_crowded_(is_crowded) {}
@@ -32,7 +32,7 @@ public:
   }
 
 private:
-  static constexpr int most_spins = 2000; ///< 20 to 100 us
+  static constexpr int most_spins = 2000; ///< about 20 to 100 us
   static constexpr int most_yields = 100;
   const int threads_;
   const bool is_crowded_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Zeroed memory aligned for packs, on huge pages where it is large (DESIGN.md section 4, item 6).
+/// Zeroed memory, aligned for packs; large pieces lie on huge pages (DESIGN.md section 4, item 6).
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -9,12 +9,13 @@
 
 namespace dss {
 
-/// Where buffers lie: the heap, or one piece that a device can take as a whole.
+/// A source of memory for buffers: the heap, or one piece that a device can take as a whole.
 class Memory {
 public:
   static constexpr std::size_t page = std::size_t(2) << 20, line = 64;
   virtual ~Memory() = default;
-  /// Zeroed, aligned to a line; large pieces to a huge page. @throws std::bad_alloc
+  /// Allocates zeroed memory, aligned to a cache line, or to a huge page if it is large.
+  /// @throws std::bad_alloc
   virtual void* allocate(std::size_t bytes) {
     const std::size_t alignment = bytes >= 2 * page ? page : line;
     void* const at = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
@@ -29,12 +30,15 @@ public:
   }
 };
 
+/// An array of `count` numbers, all zero at first.
 template <class T>
 class Buffer {
 public:
   Buffer() = default;
-  /// `memory` outlives it. @throws std::bad_alloc
-  explicit Buffer(std::size_t count, Memory& memory = Memory::heap()) : size_(count), data_(nullptr, {&memory}) {
+  /// @param memory  outlives the buffer
+  /// @throws std::bad_alloc
+  explicit Buffer(std::size_t count, Memory& memory = Memory::heap())
+      : size_(count), data_(nullptr, {&memory}) {
     if (count > 0) data_.reset(static_cast<T*>(memory.allocate(count * sizeof(T))));
   }
   T* data() { return data_.get(); }

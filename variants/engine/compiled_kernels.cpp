@@ -1,4 +1,5 @@
-/// The kernel cases and the fused rows as this module's instruction set runs them: for the equality tests and the microbenchmarks.
+/// Runs the kernel cases and the fused rows with this module's instruction set, for the tests of
+/// equal bits and for the microbenchmarks.
 #include "variants/engine/compiled_kernels.hpp"
 
 #include "kernels/cases.hpp"
@@ -13,7 +14,8 @@ namespace dss {
 namespace {
 
 template <class T>
-DSS_FLATTEN void run_kernel(int kernel, const void* in, void* out, std::size_t elements, std::size_t stride) {
+DSS_FLATTEN void run_kernel(int kernel, const void* in, void* out, std::size_t elements,
+                            std::size_t stride) {
   using R = simd::Pack<T>;
   constexpr int most = 32;
   const KernelCase<R>& c = kernel_cases<R>()[std::size_t(kernel)];
@@ -22,18 +24,20 @@ DSS_FLATTEN void run_kernel(int kernel, const void* in, void* out, std::size_t e
     for (int n = 0; n < c.inputs; ++n)
       operands[n] = simd::load(static_cast<const T*>(in) + std::size_t(n) * stride + e);
     c.evaluate(operands, results);
-    for (int n = 0; n < c.outputs; ++n) simd::store(static_cast<T*>(out) + std::size_t(n) * stride + e, results[n]);
+    for (int n = 0; n < c.outputs; ++n)
+      simd::store(static_cast<T*>(out) + std::size_t(n) * stride + e, results[n]);
   }
 }
 
 #ifdef DSS_FEWER_MODELS
-constexpr Model row_models[] = {Model::spatial, Model::bending, Model::membrane, Model::planar, Model::axial};
+constexpr Model row_models[] = {Model::spatial, Model::bending, Model::membrane, Model::planar,
+                                Model::axial};
 #else
 constexpr auto& row_models = models;
 #endif
-constexpr Terms row_terms{.is_damped = true}; // those of the paper's plate
+constexpr Terms row_terms{.is_damped = true}; // the terms of the paper's plate
 
-/// kernel: twice the place in row_models, one more for the last stage.
+/// @param kernel  twice the index in row_models, plus one for the last stage
 template <class T>
 void run_rows(int kernel, const void* in, void* out, std::size_t elements, std::size_t stride) {
   const Model model = row_models[kernel / 2];
@@ -47,14 +51,16 @@ template <class T>
 void append(std::vector<CompiledKernel>& list, Precision precision) {
   int index = 0;
   for (const auto& c : kernel_cases<simd::Pack<T>>())
-    list.push_back({c.name, c.model, precision, c.inputs, c.outputs, c.flops, simd::lanes<T>, run_kernel<T>, index++});
+    list.push_back({c.name, c.model, precision, c.inputs, c.outputs, c.flops, simd::lanes<T>,
+                    run_kernel<T>, index++});
   for (std::size_t m = 0; m < std::size(row_models); ++m) {
     const RowFlops flops = row_flops(row_models[m]);
     const int fields = int(model_layout(row_models[m]).fields.size());
     for (const bool is_last : {false, true})
       list.push_back({is_last ? "stage_row_last" : "stage_row", row_models[m], precision,
-                      RowCase::inputs(is_last) * fields, fields, is_last ? flops.last_stage : flops.stage,
-                      simd::lanes<T>, run_rows<T>, int(2 * m) + is_last, true, is_last});
+                      RowCase::inputs(is_last) * fields, fields,
+                      is_last ? flops.last_stage : flops.stage, simd::lanes<T>, run_rows<T>,
+                      int(2 * m) + is_last, true, is_last});
   }
 }
 

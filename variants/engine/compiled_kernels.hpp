@@ -5,7 +5,7 @@
 
 namespace dss {
 
-/// All kernel cases in both precisions, compiled for the module's instruction set.
+/// All kernel cases and fused rows in both precisions, compiled for the module's instruction set.
 std::span<const CompiledKernel> compiled_kernels();
 
 } // namespace dss

@@ -12,12 +12,16 @@ template <template <class> class Physics, class T, Terms terms>
 struct RowKernels {
   using P = Physics<simd::Pack<T>>;
   static constexpr int half_velocities =
-      terms.is_velocity_dependent() ? component_count<typename P::vec>() + component_count<typename P::spin>() : 0;
+      terms.is_velocity_dependent()
+          ? component_count<typename P::vec>() + component_count<typename P::spin>()
+          : 0;
   static constexpr int leapfrog_fields = P::fields + half_velocities;
   static constexpr bool has_packs = simd::lanes<T> != 1;
 
-  // The actions of the most used methods have a function each: the branch a pack and the distance of packs that a function for
-  // all must look up cost 4 to 10 % (measured: AVX-512, n = 100). The rest, and all of rare models in single precision or without packs, share one, which would else be as many times the code.
+  // Common actions have a function of their own. All other actions share one, as do all actions of
+  // rare models in single precision or without packs: one function for each would multiply the
+  // code. The shared function is slower: it branches for each pack and looks up the distance
+  // between packs (README.md).
   static constexpr int in_place = half_velocities > 0 ? predicted_step : leapfrog_step;
   template <int action, int fields>
   DSS_FLATTEN static bool run_stage(const RowTask<T>& task) {
@@ -57,20 +61,22 @@ struct RowKernels {
   }
 
   using S = Physics<T>;
-  static void extra_link(const ExtraLinkConstants<T>& link, const T* fields_i, const T* fields_j, T* wrench_i,
-                         T* wrench_j) {
+  static void extra_link(const ExtraLinkConstants<T>& link, const T* fields_i, const T* fields_j,
+                         T* wrench_i, T* wrench_j) {
     typename S::element i, j;
     each_component(i, [&](T& c) { c = *fields_i++; });
     each_component(j, [&](T& c) { c = *fields_j++; });
     const auto along = [&](auto axis) {
       const auto& b = link.body;
       const auto& a = b.axis[axis];
-      const auto w = S::wrench_of_pair(
-          i, j, axis, link.is_material,
-          {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns, a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz},
-          {link.edge_i, link.edge_i / 2, b.tau, b.kt2, b.dt}, {link.edge_j, link.edge_j / 2, b.tau, b.kt2, b.dt});
+      const auto w = S::wrench_of_pair(i, j, axis, link.is_material,
+                                       {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns,
+                                        a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz},
+                                       {link.edge_i, link.edge_i / 2, b.tau, b.kt2, b.dt},
+                                       {link.edge_j, link.edge_j / 2, b.tau, b.kt2, b.dt});
       const auto add = [&](T* wrench, T sign, typename S::vec force, typename S::spin moment) {
-        each_component(force, [&](T& c) { *wrench = simd::fma(sign * link.unit, c, *wrench), ++wrench; });
+        each_component(force,
+                       [&](T& c) { *wrench = simd::fma(sign * link.unit, c, *wrench), ++wrench; });
         each_component(moment, [&](T& c) { *wrench = simd::fma(link.unit, c, *wrench), ++wrench; });
       };
       add(wrench_i, T(1), w.force, w.moment_i);
@@ -86,7 +92,7 @@ struct RowKernels {
   static constexpr KernelSet<T> set{terms, stage, prime, extra_link};
 };
 
-/// Null where the row is not compiled for the model.
+/// Null if these terms are not compiled for the model.
 template <template <class> class Physics, class T, Model model, std::size_t index>
 constexpr const KernelSet<T>* compiled_set() {
   if constexpr (is_compiled(model, compiled_terms[index]))

@@ -1,17 +1,17 @@
 #pragma once
-/// The compiled row kernels of one (model, precision, terms), behind function pointers: the engine around them is
-/// compiled once a precision.
+/// The compiled row kernels of one (model, precision, terms), behind function pointers. So the
+/// engine around them is compiled only once for each precision.
+#include "kernels/model.hpp"
 #include "kernels/physics.hpp"
 #include "kernels/stage_row/row.hpp"
-#include "solver/model/model.hpp"
 
 #include <array>
 #include <stdexcept>
 
 namespace dss {
 
-/// Combinations that are compiled, per law from lean to full; a problem takes the first that covers what it needs.
-/// One more row costs about 5 s of compile time a module.
+/// The combinations of terms that are compiled: for each law from lean to full. A problem takes the
+/// first one that covers what it needs. Each row of this table costs compile time (README.md).
 inline constexpr std::array compiled_terms{
     // material, damped, bending, gyroscopic, tied, oblong
     Terms{false, false, false, false, false, false}, Terms{false, true, false, false, false, false},
@@ -20,64 +20,75 @@ inline constexpr std::array compiled_terms{
     Terms{true, true, true, true, true, false},
 };
 
-/// Models that few runs take leave out what few scenes have, and the full row covers. (Damped bodies of the material law had cost 6 to 9 % there.)
+/// Rarely used models leave out the damped oblong row of the paper's law; the full row covers it.
+/// They keep all rows of the material law, since the full row in their place would be slower
+/// (README.md).
 constexpr bool is_compiled(Model model, const Terms& terms) {
   if (model == Model::spatial || model == Model::planar) return true;
   const bool is_full = terms.is_gyroscopic && terms.is_tied;
   return is_full || terms.is_material || !terms.is_oblong;
 }
 
-/// What the terms of a row make of its memory.
+/// How much memory an element of a row needs, as its terms require.
 struct RowShape {
   Terms terms;              ///< one of compiled_terms
-  int carry_components = 0; ///< of a link's force (and couple) in a carry buffer
-  int leapfrog_fields =
-      0; ///< an element of a leapfrog row holds: half-step velocities too where forces depend on velocities
+  int carry_components = 0; ///< numbers of a link's force (and couple) in a carry buffer
+  /// Numbers of an element in a leapfrog row. They include half-step velocities if forces depend on
+  /// velocities.
+  int leapfrog_fields = 0;
 };
-/// The shape that a body takes. @throws std::logic_error if no compiled combination covers what it needs
+/// The shape of the rows of a body.
+/// @throws std::logic_error if no compiled combination covers what the body needs
 RowShape row_shape(Model model, const Terms& need);
 
-/// Constants of one link outside the grid; T-valued, both laws.
+/// Constants of an extra link, which is a link outside the grid, for both laws.
 template <class T>
 struct ExtraLinkConstants {
   bool is_material;
   int axis;
   T edge_i, edge_j, unit; ///< unit: as in BodyConstants
-  BodyConstants<T> body;  ///< link constants only, on `axis`
+  BodyConstants<T> body;  ///< constants of links only, on `axis`
 };
 
+/// The row kernels of one combination of terms.
 template <class T>
 struct KernelSet {
   Terms terms;
-  /// One stage of a row, whatever its action; false if the last of a step left a velocity that is not finite.
+  /// Computes one stage of a row, with any action.
+  /// @return false if the last stage of a step left a velocity that is not finite
   bool (*stage)(const RowTask<T>& task);
-  /// Only the links from a row (its `in`, `upper_*`, `carry_*`) across an axis (1 or 2): what a block of rows needs
-  /// from the row before it.
+  /// Computes only the links from a row (its `in`, `upper_*`, `carry_*`) to the next row across an
+  /// axis (1 or 2). A block of rows needs them from the row before its first.
   void (*prime)(const RowTask<T>& task, int axis);
-  /// A link outside the grid: fields of both elements in, wrenches (force then moment) added to both.
-  void (*extra_link)(const ExtraLinkConstants<T>& link, const T* i, const T* j, T* wrench_i, T* wrench_j);
+  /// Computes an extra link.
+  /// @param i, j                fields of the two elements
+  /// @param wrench_i, wrench_j  the link's force, then moment, are added here
+  void (*extra_link)(const ExtraLinkConstants<T>& link, const T* i, const T* j, T* wrench_i,
+                     T* wrench_j);
 };
 
-/// The kernels for a model and the terms of a shape. One definition a (model, precision): variants/engine/kernels_*.cpp.
+/// Finds the kernels of a model and the terms of a shape. Each (model, precision) is defined in one
+/// file variants/engine/kernels_*.cpp.
 #ifdef DSS_FEWER_MODELS
 #define DSS_EACH_MODEL(act) act(spatial) act(bending) act(membrane) act(planar) act(axial)
 #else
-#define DSS_EACH_MODEL(act) act(spatial) act(small) act(linear) act(bending) act(membrane) act(planar) act(axial)
+#define DSS_EACH_MODEL(act)                                                                        \
+  act(spatial) act(small) act(linear) act(bending) act(membrane) act(planar) act(axial)
 #endif
-#define DSS_DECLARE(model)                                                                                             \
-  const KernelSet<double>& model##_f64_kernels(const Terms& terms);                                                    \
+#define DSS_DECLARE(model)                                                                         \
+  const KernelSet<double>& model##_f64_kernels(const Terms& terms);                                \
   const KernelSet<float>& model##_f32_kernels(const Terms& terms);
 DSS_EACH_MODEL(DSS_DECLARE)
 #undef DSS_DECLARE
 
 template <class T>
 const KernelSet<T>& find_kernels(Model model, const Terms& terms) {
-  switch (model) { // no default: a model without kernels is a warning here
-#define DSS_FIND(name)                                                                                                 \
-  case Model::name:                                                                                                    \
-    if constexpr (sizeof(T) == sizeof(double))                                                                         \
-      return name##_f64_kernels(terms);                                                                                \
-    else                                                                                                               \
+  switch (model) { // no default: the compiler warns about a model without kernels
+#define DSS_FIND(name)                                                                             \
+  case Model::name:                                                                                \
+    if constexpr (sizeof(T) == sizeof(double))                                                     \
+      return name##_f64_kernels(terms);                                                            \
+    else                                                                                           \
       return name##_f32_kernels(terms);
     DSS_EACH_MODEL(DSS_FIND)
 #undef DSS_FIND

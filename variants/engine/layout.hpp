@@ -1,8 +1,8 @@
 #pragma once
-/// Which of the 13 fields, six wrench components and six clamp bits a model keeps, in the order in which its packs hold
-/// them.
-#include "solver/model/fields.hpp"
-#include "solver/model/model.hpp"
+/// Which of the 13 fields, six wrench components and six clamp bits a model has. Packs hold them in
+/// this order. A wrench is a force with a moment.
+#include "kernels/fields.hpp"
+#include "kernels/model.hpp"
 
 #include <span>
 
@@ -10,10 +10,10 @@ namespace dss {
 
 struct ModelLayout {
   std::span<const Field> fields;
-  std::span<const int> wrench; ///< of force x, y, z, moment x, y, z; also the bits of Dof
-  int vec_size;                ///< the first components of the wrench that are forces
-  int axes;                    ///< along which elements are linked: x, y, z
-  bool has_vectors = false;    ///< qx, qy, qz are half the rotation vector
+  std::span<const int> wrench; ///< indices into force x, y, z, moment x, y, z; also the bits of Dof
+  int vec_size;                ///< how many of the wrench components are forces
+  int axes;                    ///< number of axes x, y, z along which elements have links
+  bool has_vectors = false;    ///< qx, qy, qz hold half of the rotation vector
 };
 
 inline ModelLayout model_layout(Model model) {
@@ -23,8 +23,8 @@ inline ModelLayout model_layout(Model model) {
   static constexpr Field membrane[] = {ux, uy, vx, vy, qz, wz};
   static constexpr Field planar[] = {ux, uy, vx, vy, qs, qz, wz};
   static constexpr Field axial[] = {ux, vx};
-  static constexpr int all_wrench[] = {0, 1, 2, 3, 4, 5}, bending_wrench[] = {2, 3, 4}, planar_wrench[] = {0, 1, 5},
-                       axial_wrench[] = {0};
+  static constexpr int all_wrench[] = {0, 1, 2, 3, 4, 5}, bending_wrench[] = {2, 3, 4},
+                       planar_wrench[] = {0, 1, 5}, axial_wrench[] = {0};
   switch (model) {
   case Model::axial:
     return {axial, axial_wrench, 1, 1};

@@ -21,8 +21,9 @@ RowShape row_shape(Model model, const Terms& need) {
 }
 
 std::size_t row_of(const Lattice& lattice, std::size_t element) {
-  const auto after = std::upper_bound(lattice.rows.begin(), lattice.rows.end(), element,
-                                      [](std::size_t e, const Row& row) { return e < row.first_element; });
+  const auto after =
+      std::upper_bound(lattice.rows.begin(), lattice.rows.end(), element,
+                       [](std::size_t e, const Row& row) { return e < row.first_element; });
   return std::size_t(after - lattice.rows.begin()) - 1;
 }
 
@@ -31,8 +32,8 @@ Place place_of(const PackedRows<T, W>& packed, std::size_t element) {
   const std::size_t r = row_of(packed.lattice, element);
   Place place{r, 0, 0};
   const Row& row = packed.lattice.rows[r];
-  const std::size_t end =
-      r + 1 < packed.rows.size() ? packed.lattice.rows[r + 1].first_element : packed.lattice.element_count;
+  const std::size_t end = r + 1 < packed.rows.size() ? packed.lattice.rows[r + 1].first_element
+                                                     : packed.lattice.element_count;
   if (end - row.first_element == std::size_t(row.x_end - row.x_begin)) { // no holes
     const int x = row.x_begin + int(element - row.first_element);
     return {r, x / W - packed.rows[r].first_pack, x % W};
@@ -45,8 +46,9 @@ Place place_of(const PackedRows<T, W>& packed, std::size_t element) {
 
 template <class T, int W>
 PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* part, Memory& where)
-    : memory(where), lattice(problem.lattice), layout(model_layout(model)), rows(lattice.rows.size()),
-      own_end(int(rows.size())), part_(part), applied_index_(lattice.rows.size(), -1) {
+    : memory(where), lattice(problem.lattice), layout(model_layout(model)),
+      rows(lattice.rows.size()), own_end(int(rows.size())), part_(part),
+      applied_index_(lattice.rows.size(), -1) {
   reach = lattice.row_reach();
   if (part_ != nullptr) find_layers();
   choose_shapes(problem, model);
@@ -76,7 +78,8 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
     row.applied.pattern_count = int(row.patterns.size());
     row.applied.first = 0;
     row.applied.packs = rows[r].packs;
-    if (row.free_lanes.empty() && !row.patterns.empty()) { // loads alone: only the packs that carry one
+    if (row.free_lanes.empty() &&
+        !row.patterns.empty()) { // loads but no clamps: only the packs with a load
       row.applied.first = row.patterns.front().first;
       int end = 0;
       for (const auto& p : row.patterns) {
@@ -99,30 +102,34 @@ void PackedRows<T, W>::choose_shapes(const Problem& problem, Model model) {
       common.is_damped |= a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{};
       common.is_bending |= body.law == LinkLaw::paper && a.k_rot != Vec3{};
     }
-    common.is_gyroscopic |= body.has_tensor_inertia() && !is_of_plane(model) && model != Model::axial;
+    common.is_gyroscopic |=
+        body.has_tensor_inertia() && !is_of_plane(model) && model != Model::axial;
   }
-  // The row kernels do not compute extra links, but leapfrog must carry predicted velocities for them; in all parts alike.
+  // The row kernels do not compute extra links. Still, leapfrog must carry predicted velocities for
+  // damped ones, and in all parts alike.
   common.is_damped |= problem.has_damped_links_elsewhere;
   for (const ExtraLink& link : problem.extra_links)
-    common.is_damped |= link.constants.d_normal != 0 || link.constants.d_shear != 0 || link.constants.d_rot != Vec3{};
+    common.is_damped |= link.constants.d_normal != 0 || link.constants.d_shear != 0 ||
+                        link.constants.d_rot != Vec3{};
   const auto choose = [&] {
     shapes_.clear();
     bool is_velocity_dependent = false;
     for (const Body& body : problem.bodies) {
       Terms need = common;
       need.is_material = body.law == LinkLaw::material;
-      need.is_oblong =
-          (layout.axes > 1 && body.edge[1] != body.edge[0]) || (layout.axes > 2 && body.edge[2] != body.edge[0]);
+      need.is_oblong = (layout.axes > 1 && body.edge[1] != body.edge[0]) ||
+                       (layout.axes > 2 && body.edge[2] != body.edge[0]);
       shapes_.push_back(row_shape(model, need));
       is_velocity_dependent |= shapes_.back().terms.is_velocity_dependent();
     }
     return is_velocity_dependent;
   };
   if (choose() && !common.is_velocity_dependent())
-    common.is_damped = true, choose(); // one width of leapfrog rows for all bodies
+    common.is_damped = true, choose(); // all bodies get the same width of leapfrog rows
   for (const Body& body : problem.bodies) {
     bodies_.push_back(body_constants<T>(body, problem.stabilization));
-    for (const Signal& a : problem.frame_acceleration) bodies_.back().is_accelerated |= !is_zero_always(a);
+    for (const Signal& a : problem.frame_acceleration)
+      bodies_.back().is_accelerated |= !is_zero_always(a);
   }
   for (const RowShape& shape : shapes_) {
     carry_size = std::max(carry_size, shape.carry_components * W);
@@ -153,11 +160,13 @@ bool PackedRows<T, W>::reads_halo(int row) const {
 }
 
 template <class T, int W>
-std::optional<std::size_t> PackedRows<T, W>::first_failed(int row, const T* packs, int fields) const {
+std::optional<std::size_t> PackedRows<T, W>::first_failed(int row, const T* packs,
+                                                          int fields) const {
   std::optional<std::size_t> failed;
   each_cell(lattice, lattice.rows[std::size_t(row)], [&](std::size_t element, int x) {
     if (failed || (part_ != nullptr && part_->layer[element] > 0)) return;
-    const T* lane = packs + std::ptrdiff_t(x / W - rows[std::size_t(row)].first_pack) * fields * W + x % W;
+    const T* lane =
+        packs + std::ptrdiff_t(x / W - rows[std::size_t(row)].first_pack) * fields * W + x % W;
     for (int f = 0; f < fields; ++f)
       if (!std::isfinite(lane[f * W])) failed = element;
   });
@@ -208,7 +217,8 @@ void PackedRows<T, W>::apply_loads(const Problem& problem) {
       for (std::size_t p = from; p < to; ++p)
         for (std::size_t c = 0; c < components; ++c) {
           const std::size_t w = std::size_t(layout.wrench[c]);
-          values.data()[(std::size_t(places[p].pack - first) * components + c) * W + std::size_t(places[p].lane)] =
+          values.data()[(std::size_t(places[p].pack - first) * components + c) * W +
+                        std::size_t(places[p].lane)] =
               T(w < 3 ? load.force[w] : load.torque[w - 3]);
         }
       row.patterns.push_back({values.data(), int(3 + n), first, packs});
@@ -237,17 +247,19 @@ void PackedRows<T, W>::apply_clamps(const Problem& problem) {
   for (const Clamp& clamp : problem.clamps) {
     const Place place = place_of(*this, clamp.element);
     AppliedRow& row = applied_row(place.row);
-    if (row.free_lanes.empty()) row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, all_lanes);
+    if (row.free_lanes.empty())
+      row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, all_lanes);
     for (std::size_t c = 0; c < components; ++c)
       if ((clamp.dofs >> layout.wrench[c] & 1) != 0)
-        row.free_lanes[std::size_t(place.pack) * components + c] &= simd::LaneMask(~(1u << place.lane));
+        row.free_lanes[std::size_t(place.pack) * components + c] &=
+            simd::LaneMask(~(1u << place.lane));
   }
 }
 
 template <class T, int W>
 std::size_t PackedRows<T, W>::bytes() const {
-  std::size_t sum =
-      rows.size() * sizeof(PackedRow<T>) + masks_.size() * sizeof(PackMasks) + applied_index_.size() * sizeof(int);
+  std::size_t sum = rows.size() * sizeof(PackedRow<T>) + masks_.size() * sizeof(PackMasks) +
+                    applied_index_.size() * sizeof(int);
   for (const auto& row : applied_) {
     sum += sizeof(AppliedRow) + row->free_lanes.size() * sizeof(simd::LaneMask);
     for (const Buffer<T>& values : row->values) sum += values.bytes();
@@ -256,8 +268,10 @@ std::size_t PackedRows<T, W>::bytes() const {
   return sum;
 }
 
-/// Unit of force of a link law: the paper's law is computed in units of k.
-static double force_unit(LinkLaw law, const AxisConstants& a) { return law == LinkLaw::paper ? a.k_normal : 1; }
+/// Unit of force of a law: the paper's law is computed in units of k [N/m], the material law in SI.
+static double force_unit(LinkLaw law, const AxisConstants& a) {
+  return law == LinkLaw::paper ? a.k_normal : 1;
+}
 
 template <class T>
 BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
@@ -295,8 +309,8 @@ ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLi
   return c;
 }
 
-#define DSS_INSTANTIATE(T, W)                                                                                          \
-  template class PackedRows<T, W>;                                                                                     \
+#define DSS_INSTANTIATE(T, W)                                                                      \
+  template class PackedRows<T, W>;                                                                 \
   template Place place_of(const PackedRows<T, W>&, std::size_t);
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE

@@ -1,5 +1,5 @@
 #pragma once
-/// A problem cut into rows of packs: what is constant during a run.
+/// A problem cut into rows of packs: everything that is constant during a run.
 #include "solver/decomposition/part.hpp"
 #include "variants/engine/buffer.hpp"
 #include "variants/engine/kernel_set.hpp"
@@ -10,27 +10,31 @@
 
 namespace dss {
 
-/// One row of packs. Packs start at multiples of W on the body's grid, so that neighbouring rows agree on lanes.
+/// One row of packs. A pack starts at a multiple of W on the body's grid, so an element has the
+/// same lane as its neighbours in the rows beside it.
 template <class T>
 struct PackedRow {
+  /// First pack on the body's grid, and number of packs.
   int first_pack = 0, packs = 0;
-  std::size_t pack_offset = 0; ///< packs of all rows before it
+  std::size_t pack_offset = 0; ///< number of packs in all rows before it
   RowShape shape;
-  const KernelSet<T>* kernels =
-      nullptr; ///< null until the executor attaches them; always for devices, which have their own
+  /// Null until the executor sets it. Devices have their own kernels, so there it stays null.
+  const KernelSet<T>* kernels = nullptr;
   const BodyConstants<T>* body = nullptr;
   const PackMasks* masks = nullptr;
   const Applied<T>* applied = nullptr;
 };
 
-/// W: lanes of a pack, the module's own or a device's.
+/// @tparam W  lanes of a pack: those of the module, or of a device
 template <class T, int W = simd::lanes<T>>
 class PackedRows {
 public:
   static constexpr int lanes = W;
   static constexpr simd::LaneMask all_lanes = simd::LaneMask((1u << W) - 1);
-  /// @param part  null, or the part that `problem` is  @param memory  of what devices need too; outlives it
-  PackedRows(const Problem& problem, Model model, const Part* part, Memory& memory = Memory::heap());
+  /// @param part    null, or the part that `problem` is
+  /// @param memory  for what devices need too; outlives this object
+  PackedRows(const Problem& problem, Model model, const Part* part,
+             Memory& memory = Memory::heap());
   PackedRows(const PackedRows&) = delete;
   PackedRows& operator=(const PackedRows&) = delete;
 
@@ -38,10 +42,10 @@ public:
   const Lattice& lattice;
   const ModelLayout layout;
   std::vector<PackedRow<T>> rows;
-  int reach = 0;        ///< largest distance in rows of two linked elements
+  int reach = 0;        ///< largest distance of two linked elements [rows]
   int packs_across = 0; ///< packs of the widest body's grid
   int max_packs = 0;    ///< packs of the longest row
-  int carry_size = 0;   ///< numbers a pack of a carry buffer, largest over the bodies
+  int carry_size = 0;   ///< numbers of a pack in a carry buffer; the largest over the bodies
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
 
@@ -51,25 +55,25 @@ public:
     const PackedRow<T>& last = rows[std::size_t(end - 1)];
     return last.pack_offset + std::size_t(last.packs) - rows[std::size_t(begin)].pack_offset;
   }
-  /// Packs of all rows, and one more: rows look one pack ahead.
+  /// Packs of all rows and one more, because rows look one pack ahead.
   std::size_t readable_packs() const { return packs_of(0, int(rows.size())) + 1; }
 
-  int own_begin = 0,
-      own_end = 0; ///< from the first row with an own element to behind the last: all rows of a whole problem
+  /// From the first row with an own element to behind the last such row. A whole problem: all rows.
+  int own_begin = 0, own_end = 0;
   bool is_part() const { return part_ != nullptr; }
-  /// Whether a row has anything to compute in a stage after which `stages_left` more follow before the next exchange: each needs
-  /// one layer of halo less.
+  /// Whether a row is computed in a stage after which `stages_left` more follow before the next
+  /// exchange. Each of these needs one layer of halo less.
   bool is_computed(int row, int stages_left) const {
     return row_layer_.empty() || row_layer_[std::size_t(row)] <= stages_left;
   }
-  /// Whether computing a row reads halo elements: its own, or those of a row beside it.
+  /// Whether computing a row reads halo elements, in the row itself or in a row beside it.
   bool reads_halo(int row) const;
-  /// First own element of a row that is not finite, if one is. The halo's outermost elements lack links: what becomes of them says
-  /// nothing, and they are received anew.
+  /// The first own element of a row that is not finite, if there is one. Halo elements do not
+  /// count: the outermost lack links, so their values mean nothing, and all are received anew.
   std::optional<std::size_t> first_failed(int row, const T* packs, int fields) const;
 
-  /// Where a row's extra wrenches go (links outside the grid), or null; six (three) components a pack, in newtons.
-  /// Signal: constant 1.
+  /// Where the wrenches [N, N m] of a row's extra links go, or null: layout.wrench components a
+  /// pack. They are applied with a signal of constant 1.
   T* extra_wrench(std::size_t row) { return extra_.empty() ? nullptr : extra_[row].data(); }
   std::size_t bytes() const;
 
@@ -89,24 +93,25 @@ private:
   AppliedRow& applied_row(std::size_t row);
 
   const Part* part_;
-  std::vector<std::uint8_t> row_layer_; ///< least layer of a row's elements; empty for a whole problem
-  std::vector<bool> has_halo_;          ///< rows with an element of the halo
+  /// The least layer of a row's elements; empty for a whole problem.
+  std::vector<std::uint8_t> row_layer_;
+  std::vector<bool> has_halo_; ///< rows with a halo element
   std::vector<RowShape> shapes_;
   std::vector<BodyConstants<T>> bodies_;
   std::vector<PackMasks> masks_;
-  std::vector<int> applied_index_; ///< row -> applied_, or -1
+  std::vector<int> applied_index_; ///< from row to index in applied_, or -1
   std::vector<std::unique_ptr<AppliedRow>> applied_;
   std::vector<Buffer<T>> extra_;
 };
 
-/// Where an element is.
+/// The place of an element in rows of packs.
 struct Place {
   std::size_t row;
-  int pack, lane; ///< pack counted from the row's first
+  int pack, lane; ///< pack: counted from the row's first
 };
-/// Row that holds an element: the last whose first_element is not beyond it.
+/// The row that holds an element: the last row whose first_element is not behind it.
 std::size_t row_of(const Lattice& lattice, std::size_t element);
-/// x of every present cell of a row is visited as visit(element, x), in order.
+/// Calls visit(element, x) for every present cell of a row, in ascending x.
 template <class Visit>
 void each_cell(const Lattice& lattice, const Row& row, Visit&& visit) {
   std::size_t element = row.first_element;
@@ -116,9 +121,10 @@ void each_cell(const Lattice& lattice, const Row& row, Visit&& visit) {
 template <class T, int W>
 Place place_of(const PackedRows<T, W>& packed, std::size_t element);
 
-/// Constants of a body in the form of the kernels.
+/// The constants of a body in the form that the kernels take.
 template <class T>
 BodyConstants<T> body_constants(const Body& body, const Stabilization& tie);
+/// The constants of an extra link in the form that the kernels take.
 template <class T>
 ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLink& link);
 

@@ -1,4 +1,5 @@
-/// Entry point of every module built over the row engine; DSS_VARIANT and DSS_ISA come from CMake.
+/// Entry point of every module that consists of the row engine. CMake defines DSS_VARIANT and
+/// DSS_ISA.
 #include "variants/engine/compiled_kernels.hpp"
 #include "variants/engine/row_executor.hpp"
 
@@ -8,7 +9,8 @@ extern "C" const dss::Plugin* dss_plugin() {
 #else
   constexpr bool has_fma = false;
 #endif
-  static constexpr dss::Plugin plugin{dss::plugin_abi,          DSS_VARIANT,          DSS_ISA, has_fma, true, false,
-                                      dss::create_row_executor, dss::compiled_kernels};
+  static constexpr dss::Plugin plugin{
+      dss::plugin_abi,          DSS_VARIANT,          DSS_ISA, has_fma, true, false,
+      dss::create_row_executor, dss::compiled_kernels};
   return &plugin;
 }

@@ -1,8 +1,8 @@
 #include "variants/engine/row_executor.hpp"
 
 #include "solver/numerics/denormals.hpp"
+#include "variants/api/tried_steps.hpp"
 #include "variants/engine/thread_team.hpp"
-#include "variants/tried_steps.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -15,10 +15,12 @@ RowExecutor<T>::RowExecutor(const Setup& setup)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part),
       rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }) {
-  for (PackedRow<T>& row : packed_.rows) row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
+  for (PackedRow<T>& row : packed_.rows)
+    row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
   if (setup_.method.has_error_stage || !setup_.problem.extra_links.empty() ||
       (part_ != nullptr && part_->is_every_stage))
-    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(), setup_.threads, part_);
+    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(),
+                    setup_.threads, part_);
   else
     make_blocks();
 }
@@ -29,17 +31,18 @@ void RowExecutor<T>::make_blocks() {
   const int rows = int(packed_.rows.size()), halo = method.stages * packed_.reach;
   std::vector<int> cuts = cut_rows(packed_, setup_.threads);
   threads_ = int(cuts.size()) - 1;
-  // The rows that the upper neighbours wait for make a block of their own, which is computed first.
+  // The rows that the upper neighbours wait for are a block of their own, which is computed first.
   if (const int edge = packed_.own_end - halo; is_part() && part_->is_overlapped && threads_ == 1 &&
-                                               packed_.own_end < rows && edge - packed_.own_begin >= 2 * halo)
+                                               packed_.own_end < rows &&
+                                               edge - packed_.own_begin >= 2 * halo)
     cuts = {packed_.own_begin, edge, packed_.own_end};
   steps_a_pass_ = steps_a_pass(packed_, method, cuts);
   blocks_.make(packed_, method, cuts, stored_fields(), steps_a_pass_);
   std::vector<Block<T>>& blocks = blocks_.all();
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (!blocks[b].is_remote())
-      steps_.emplace_back(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem), blocks, b,
-                          steps_a_pass_);
+      steps_.emplace_back(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem),
+                          blocks, b, steps_a_pass_);
 }
 
 template <class T>
@@ -62,7 +65,7 @@ HaloLayout RowExecutor<T>::halo_layout(std::span<const std::size_t> elements, in
   for (const std::size_t element : elements) {
     const int r = int(row_of(packed_.lattice, element));
     const bool own = is_own(element), is_halo_row = !packed_.is_computed(r, 0);
-    if (staged_) // own rows are written whole, with the halo elements among them
+    if (staged_) // a staged part writes own rows whole, including the halo elements among them
       is_stable &= staged_->copies() > 1 && (own || is_halo_row);
     else
       is_stable &= own ? copy_row(copy, r).second != nullptr : blocks_.of(r).is_remote();
@@ -156,22 +159,26 @@ Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
   if (setup_.method.has_error_stage) return advance_by_tries(*this, setup_, steps, signals);
   const std::size_t width = signal_count(setup_.problem);
-  if (rows_.is_staggered() && !is_started_) start_leapfrog(signals.first(width)), is_started_ = true;
+  if (rows_.is_staggered() && !is_started_)
+    start_leapfrog(signals.first(width)), is_started_ = true;
   end_rates_ = {};
   end_signals_.assign(signals.end() - std::ptrdiff_t(width), signals.end());
   return staged_ ? run_staged(steps, signals) : run_blocks(steps, signals);
 }
 
-/// The first failure of a run; threads of a team may meet it at once.
+/// The first failure of a run. Several threads may meet one at the same time.
 class FirstFailure {
 public:
   bool is_met() const { return step_ >= 0; }
   long step() const { return step_; }
   void meet(long step, std::size_t element) {
     const std::lock_guard lock(mutex_);
-    if (step_ < 0 || step < step_ || (step == step_ && element < element_)) step_ = step, element_ = element;
+    if (step_ < 0 || step < step_ || (step == step_ && element < element_))
+      step_ = step, element_ = element;
   }
-  Outcome outcome(long steps) const { return is_met() ? Outcome{false, step_, element_} : Outcome{true, steps, 0}; }
+  Outcome outcome(long steps) const {
+    return is_met() ? Outcome{false, step_, element_} : Outcome{true, steps, 0};
+  }
 
 private:
   std::mutex mutex_;
@@ -179,7 +186,8 @@ private:
   std::size_t element_ = 0;
 };
 
-// A part goes on after a failure, since its neighbours wait for it; they soon fail as well, and all are told at the end.
+// After a failure a part continues, because its neighbours wait for it. They soon fail too, and all
+// parts learn of it at the end.
 template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
   const std::size_t step_width = signal_count(setup_.problem) * std::size_t(setup_.method.stages);
@@ -208,7 +216,8 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
       for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
         if (Block<T>& block = blocks[first_own + b]; block.failed_row >= 0)
           failure.meet(n + block.failed_step,
-                       *packed_.first_failed(block.failed_row, block.row(block.failed_row), stored_fields()));
+                       *packed_.first_failed(block.failed_row, block.row(block.failed_row),
+                                             stored_fields()));
       synchronise();
       if (!is_part() && failure.is_met() && failure.step() < n + at_once)
         break; // a faster thread may already have failed in the next pass
@@ -223,9 +232,11 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
 template <class T>
 void RowExecutor<T>::step_overlapped(const double* signals, int parity, bool is_last) {
   WavefrontStep<T>&lower = steps_.front(), &upper = steps_.back();
-  const int edge = std::min(packed_.own_begin + setup_.method.stages * packed_.reach, packed_.own_end) - 1;
+  const int edge =
+      std::min(packed_.own_begin + setup_.method.stages * packed_.reach, packed_.own_end) - 1;
   overlapped_step(
-      part_->halo, parity, parity ^ 1, is_last, steps_.size() == 2, [&] { upper(signals, 1, parity); },
+      part_->halo, parity, parity ^ 1, is_last, steps_.size() == 2,
+      [&] { upper(signals, 1, parity); },
       [&](auto&& edge_is_done) {
         lower.watch(edge, edge_is_done);
         lower(signals, 1, parity);
@@ -234,7 +245,8 @@ void RowExecutor<T>::step_overlapped(const double* signals, int parity, bool is_
 
 template <class T>
 Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) {
-  const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
+  const std::size_t width = signal_count(setup_.problem),
+                    step_width = width * std::size_t(setup_.method.stages);
   staged_->forget_failures();
   FirstFailure failure;
   if (is_part()) exchange(&Halo::send, current_copy());
@@ -248,7 +260,7 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
       if (failed >= 0 && thread == 0 && !failure.is_met())
         failure.meet(n, *packed_.first_failed(failed, row(failed), stored_fields()));
       if (failed >= 0 && !is_part()) break;
-      synchronise(); // nobody starts the next step, and fails in it, before all have looked
+      synchronise(); // no thread starts the next step, and fails in it, before all have looked
     }
   };
   run_team(staged_->threads(), work);
@@ -258,9 +270,10 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
 template <class T>
 std::string RowExecutor<T>::schedule() const {
   if (staged_)
-    return setup_.method.has_error_stage        ? "stage by stage: adaptive steps"
-           : setup_.problem.extra_links.empty() ? "stage by stage: halos are exchanged in between"
-                                                : "stage by stage: extra links break the order of rows";
+    return setup_.method.has_error_stage ? "stage by stage: adaptive steps"
+           : setup_.problem.extra_links.empty()
+               ? "stage by stage: halos are exchanged in between"
+               : "stage by stage: extra links break the order of rows";
   return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place" +
          (steps_a_pass_ > 1 ? ", " + std::to_string(steps_a_pass_) + " steps a pass" : "");
 }

@@ -1,8 +1,8 @@
 #pragma once
-/// The executor of every CPU variant: converts states, starts and reads the methods, runs the schedule on a team of
-/// threads.
+/// The executor of every CPU variant. It converts states, starts and reads the methods, and runs
+/// the schedule on a team of threads.
 #include "solver/numerics/signal_rows.hpp"
-#include "variants/api.hpp"
+#include "variants/api/api.hpp"
 #include "variants/engine/blocks.hpp"
 #include "variants/engine/staged.hpp"
 #include "variants/engine/state_rows.hpp"
@@ -11,14 +11,22 @@
 
 namespace dss {
 
+/// Computes a problem, or a part of one, in numbers of type T. The schedule is either the wavefront
+/// (blocks_, steps_) or stage by stage (staged_).
 template <class T>
-class RowExecutor final : public Executor {
+class RowExecutor final : public Executor,
+                          public StepTrials,
+                          public PartHalos,
+                          public StateTransfer {
 public:
   explicit RowExecutor(const Setup& setup);
   void write(std::size_t first, std::span<const double> fields) override;
   void read(std::size_t first, std::span<double> fields) override;
   void derivative(std::span<const double> signals, std::span<double> rates) override;
   Outcome advance(long steps, std::span<const double> signals) override;
+  StepTrials* step_trials() override { return this; }
+  PartHalos* part_halos() override { return this; }
+  StateTransfer* state_transfer() override { return this; }
   StepMaxima try_step(double dt, std::span<const double> signals) override;
   void accept_step() override;
   std::string schedule() const override;
@@ -37,39 +45,42 @@ private:
   bool is_part() const { return part_ != nullptr; }
   void make_blocks();
   T* row(int r);
-  /// Row of a copy that parts exchange, and where else it is kept (or null).
+  /// Two places of a row of a copy that parts exchange: where it is kept, and its other place or
+  /// null.
   std::pair<T*, T*> copy_row(int copy, int r);
   int current_copy() const { return staged_ ? staged_->current_copy() : parity_; }
   void exchange(void (Halo::*act)(Side, int), int copy) {
     for (const Side side : all_sides) (part_->halo.*act)(side, copy);
   }
-  /// All of the halo anew, of the present state. Every part must take part.
+  /// Exchanges the whole halo of the present state. All parts must call it.
   void refresh_halo();
-  /// Rates of all model fields, packs of packed_.fields() fields, at the present state.
+  /// Rates of all model fields at the present state, in packs of packed_.fields() fields.
   Buffer<T> evaluate(std::span<const double> signals);
   void start_leapfrog(std::span<const double> signals);
-  /// Velocities back from the half step to the present time, so that the state is what read() says.
+  /// Moves the velocities from the half step to the present time. Then the stored state is what
+  /// read() returns.
   void stop_leapfrog();
   Outcome run_blocks(long steps, std::span<const double> signals);
-  /// One step of a part by one thread, which sends as early and receives as late as it can.
+  /// One step of a part by one thread. It sends as early and receives as late as possible.
   void step_overlapped(const double* signals, int parity, bool is_last);
   Outcome run_staged(long steps, std::span<const double> signals);
 
   const Setup setup_;
-  const PartSetup* part_; ///< null for a whole problem, or a part that has no neighbours
+  const PartSetup* part_; ///< null for a whole problem and for a part without neighbours
   PackedRows<T> packed_;
   StateRows<T> rows_;
-  Blocks<T> blocks_;                    ///< wavefront
-  std::vector<WavefrontStep<T>> steps_; ///< of each own block
+  Blocks<T> blocks_;                    ///< of the wavefront
+  std::vector<WavefrontStep<T>> steps_; ///< of the wavefront, one for each own block
   int threads_ = 1, steps_a_pass_ = 1;
-  std::optional<StagedRows<T>> staged_; ///< or stage by stage
+  std::optional<StagedRows<T>> staged_; ///< stage by stage, in place of blocks_ and steps_
   int parity_ = 0;
-  bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before
+  bool is_started_ = false; ///< leapfrog: the stored velocities are those of the last half step
   std::vector<double> end_signals_;
-  Buffer<T> end_rates_; ///< leapfrog: rates at the end of the last advance, made when first read
+  /// Leapfrog: rates at the end of the last advance, computed when first read.
+  Buffer<T> end_rates_;
 };
 
-/// The plug-in record of a module built over this engine.
+/// Makes the executor of a module that consists of the row engine.
 std::unique_ptr<Executor> create_row_executor(const Setup& setup);
 
 } // namespace dss

@@ -1,4 +1,4 @@
-/// Adaptive steps of the row executor: tried stage by stage, and accepted or not.
+/// Adaptive steps of the row executor: tries them stage by stage and accepts them.
 #include "solver/numerics/denormals.hpp"
 #include "variants/engine/row_executor.hpp"
 #include "variants/engine/thread_team.hpp"
@@ -27,8 +27,8 @@ void RowExecutor<T>::accept_step() {
   run_team(staged_->threads(), [&](int thread, auto&&) { staged_->accept(thread); });
 }
 
-#define DSS_INSTANTIATE(T)                                                                                             \
-  template StepMaxima RowExecutor<T>::try_step(double, std::span<const double>);                                       \
+#define DSS_INSTANTIATE(T)                                                                         \
+  template StepMaxima RowExecutor<T>::try_step(double, std::span<const double>);                   \
   template void RowExecutor<T>::accept_step();
 DSS_INSTANTIATE(float)
 DSS_INSTANTIATE(double)

@@ -1,19 +1,24 @@
 #pragma once
-/// What a pack of a state's row holds, and so every stage's.
-#include "solver/model/model.hpp"
+/// Which numbers of an element a row of the state holds. The rows of stages hold the same.
+#include "kernels/model.hpp"
 #include "solver/numerics/method.hpp"
 #include "variants/engine/packed_rows.hpp"
 
 namespace dss {
 
-/// The model's fields come first; then, of a staggered method whose forces depend on velocities, the velocities of the half step, while
-/// those among the fields are predictions; then, in compensated precision, the low parts of all that is summed, in the order of the
-/// fields: of the half-step velocities where there are such. Rows of stages hold increments in their place.
+/// A pack holds, in this order:
+/// 1. the fields of the model;
+/// 2. if the method is staggered and forces depend on velocities: the velocities of the half step
+/// (those among the fields are then predictions);
+/// 3. in compensated precision: a low part for each field, in the order of the fields; if there are
+///    half-step velocities, the low parts of the velocities are theirs.
+/// In 3. the rows of stages hold increments instead of low parts.
 struct RowStorage {
   int fields = 0, half_velocities = 0, lows = 0;
   template <class T, int W>
   RowStorage(const PackedRows<T, W>& packed, const Method& method, Precision precision)
-      : fields(packed.fields()), half_velocities(method.is_staggered() ? packed.leapfrog_fields - packed.fields() : 0),
+      : fields(packed.fields()),
+        half_velocities(method.is_staggered() ? packed.leapfrog_fields - packed.fields() : 0),
         lows(precision == Precision::f32c ? fields : 0) {}
 
   int stored() const { return fields + half_velocities + lows; }

@@ -1,5 +1,5 @@
 #pragma once
-/// Blocks of rows, one a thread, and the row tasks that every schedule is made of.
+/// Blocks of rows, one for each thread, and the row tasks that all schedules consist of.
 #include "solver/numerics/method.hpp"
 #include "variants/engine/packed_rows.hpp"
 
@@ -8,18 +8,20 @@
 
 namespace dss {
 
-/// Carry buffers of one stage of one block: the link forces that rows leave for their upper neighbours.
-/// Across y the upper row is the next one; across z it is at most `reach` rows ahead. A row reads what its lower row left
-/// before it leaves its own in the same place, so one row across y and a ring of `reach` rows across z do.
+/// Carry buffers of one stage of one block. They hold the link forces that a row leaves for its
+/// upper neighbours: across y the next row, across z a row at most `reach` rows ahead. A row reads
+/// what its lower neighbour left before it writes its own forces to the same place. So one row is
+/// enough across y, and a ring of `reach` rows across z.
 template <class T>
 class CarryRings {
 public:
   CarryRings() = default;
   template <int W>
   explicit CarryRings(const PackedRows<T, W>& packed)
-      : rows_z_(packed.reach), row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
+      : rows_z_(packed.reach),
+        row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
         data_(std::size_t(1 + rows_z_) * row_size_, packed.memory) {}
-  /// Ring rows start at pack 0 of the body's grid, so rows of different first packs agree.
+  /// Ring rows start at pack 0 of the body's grid, so that rows with different first packs agree.
   T* y() { return data_.data(); }
   T* z(int row) { return data_.data() + std::size_t(1 + row % rows_z_) * row_size_; }
   std::size_t bytes() const { return data_.bytes(); }
@@ -30,17 +32,21 @@ private:
   Buffer<T> data_;
 };
 
-/// Fills the part of a task that depends on the row and its neighbours: masks, constants, input rows, carries.
-/// `input(row)` is the address of any row's input; rows hold `fields` fields a pack.
+/// Fills the part of a task that depends on the row and its neighbours: masks, constants, input
+/// rows, carry buffers.
+/// @param fields  numbers that a pack of an input row holds for each element
+/// @param input   function from a row's number to the address of its input
 template <class T, int W, class Input>
-void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fields, CarryRings<T>& carry,
-             Input&& input) {
+void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fields,
+             CarryRings<T>& carry, Input&& input) {
   const PackedRow<T>& p = packed.rows[std::size_t(row)];
   const Row& r = packed.lattice.rows[std::size_t(row)];
   const std::ptrdiff_t pack_size = std::ptrdiff_t(fields) * W;
   const std::ptrdiff_t carry_offset = std::ptrdiff_t(p.first_pack) * p.shape.carry_components * W;
   const auto aligned = [&](int upper) -> const T* {
-    return upper < 0 ? nullptr : input(upper) + (p.first_pack - packed.rows[std::size_t(upper)].first_pack) * pack_size;
+    return upper < 0 ? nullptr
+                     : input(upper) +
+                           (p.first_pack - packed.rows[std::size_t(upper)].first_pack) * pack_size;
   };
   task.packs = p.packs;
   task.stride = int(pack_size);
@@ -63,11 +69,11 @@ void prime_uppers(const PackedRows<T, W>& packed, int row, const RowTask<T>& tas
   if (task.upper_z != nullptr) kernels.prime(task, 2);
 }
 
-/// Calls visit(row number, task, axis) for the links that rows before `begin` leave for rows from `begin` on: what a block needs before its
-/// first row.
+/// Calls visit(row, task, axis) for the links that rows before `begin` leave for rows from `begin`
+/// on. A block needs them before its first row.
 template <class T, int W, class Input, class Visit>
-void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input,
-                Visit&& visit) {
+void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry,
+                Input&& input, Visit&& visit) {
   const auto prime = [&](int lower, int axis) {
     RowTask<T> task;
     set_row(task, packed, lower, fields, carry, input);
@@ -75,19 +81,24 @@ void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRing
   };
   const int rows = int(packed.rows.size());
   if (begin >= rows) return;
-  if (const int lower = packed.lattice.rows[std::size_t(begin)].lower_y; lower >= 0) prime(lower, 1);
+  if (const int lower = packed.lattice.rows[std::size_t(begin)].lower_y; lower >= 0)
+    prime(lower, 1);
   for (int row = begin; row < rows && row < begin + packed.reach; ++row)
-    if (const int lower = packed.lattice.rows[std::size_t(row)].lower_z; lower >= 0 && lower < begin) prime(lower, 2);
+    if (const int lower = packed.lattice.rows[std::size_t(row)].lower_z;
+        lower >= 0 && lower < begin)
+      prime(lower, 2);
 }
-/// Computes them.
+/// Computes the links that each_prime visits.
 template <class T, int W, class Input>
-void prime_links(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry, Input&& input) {
+void prime_links(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry,
+                 Input&& input) {
   each_prime(packed, begin, fields, carry, input, [&](int row, const RowTask<T>& task, int axis) {
     packed.rows[std::size_t(row)].kernels->prime(task, axis);
   });
 }
 
-/// First row of each of `parts` blocks of own rows with about equal packs, and the end.
+/// @return the first row of each of `parts` blocks of own rows with about equally many packs, then
+///   the end of the last
 template <class T, int W>
 std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts);
 

@@ -5,20 +5,23 @@
 namespace dss {
 
 template <class T, int W>
-StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt,
-                             const RowStorage& storage, int threads, const PartSetup* exchange)
+StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method,
+                             double dt, const RowStorage& storage, int threads,
+                             const PartSetup* exchange)
     : packed_(packed), method_(method), exchange_(exchange), fields_(storage.stored()),
       pack_size_(std::size_t(fields_) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
-      failed_rows_(cuts_.size() - 1, -1), storage_(storage), updates_(stage_updates<T>(method, storage, W, dt)),
-      extra_links_(problem, packed) {
+      failed_rows_(cuts_.size() - 1, -1), storage_(storage),
+      updates_(stage_updates<T>(method, storage, W, dt)), extra_links_(problem, packed) {
   const int copies = std::max(method.stages + int(method.has_error_stage), 2);
-  for (int m = 0; m < copies; ++m) stages_.emplace_back(packed.readable_packs() * pack_size_, packed.memory);
+  for (int m = 0; m < copies; ++m)
+    stages_.emplace_back(packed.readable_packs() * pack_size_, packed.memory);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
-  if (method.has_error_stage) own_lanes_ = own_lanes(packed, exchange == nullptr ? nullptr : &exchange->part);
+  if (method.has_error_stage)
+    own_lanes_ = own_lanes(packed, exchange == nullptr ? nullptr : &exchange->part);
   plan_rows();
 }
 
-/// The rows of [begin, end) that are computed, and before them the rows whose links they need.
+/// The rows of [begin, end) that are computed, and the rows before them whose links they need.
 template <class T, int W>
 template <class IsComputed>
 auto StagedRows<T, W>::actions(int begin, int end, IsComputed&& is_computed) const -> RowActions {
@@ -26,7 +29,8 @@ auto StagedRows<T, W>::actions(int begin, int end, IsComputed&& is_computed) con
   RowActions list;
   for (int r = std::max(0, begin - packed_.reach); r < end; ++r) {
     const Row& row = packed_.lattice.rows[std::size_t(r)];
-    if (is_whole(r) || is_whole(row.upper_y) || is_whole(row.upper_z)) list.push_back({r, is_whole(r)});
+    if (is_whole(r) || is_whole(row.upper_y) || is_whole(row.upper_z))
+      list.push_back({r, is_whole(r)});
   }
   return list;
 }
@@ -36,17 +40,21 @@ void StagedRows<T, W>::plan_rows() {
   const int rows = int(packed_.rows.size()), threads = int(cuts_.size()) - 1;
   const bool is_overlapped = exchange_ != nullptr && exchange_->is_overlapped;
   for (int t = 0; t < threads; ++t) {
-    // The first and the last thread also compute what later stages read of the halo beside the own rows.
-    const int begin = t == 0 ? 0 : cuts_[std::size_t(t)], end = t + 1 == threads ? rows : cuts_[std::size_t(t) + 1];
+    // The first and the last thread also compute those halo rows that later stages read.
+    const int begin = t == 0 ? 0 : cuts_[std::size_t(t)],
+              end = t + 1 == threads ? rows : cuts_[std::size_t(t) + 1];
     plan_.emplace_back();
     for (int s = 0; s < method_.stages; ++s) {
-      const int stages_left = exchange_ != nullptr && exchange_->is_every_stage ? 0 : method_.stages - 1 - s;
+      const int stages_left =
+          exchange_ != nullptr && exchange_->is_every_stage ? 0 : method_.stages - 1 - s;
       const auto is_computed = [&](int r) { return packed_.is_computed(r, stages_left); };
       StageRows stage;
       if (is_overlapped)
-        stage.inner = actions(begin, end, [&](int r) { return is_computed(r) && !packed_.reads_halo(r); });
-      stage.outer =
-          actions(begin, end, [&](int r) { return is_computed(r) && !(is_overlapped && !packed_.reads_halo(r)); });
+        stage.inner =
+            actions(begin, end, [&](int r) { return is_computed(r) && !packed_.reads_halo(r); });
+      stage.outer = actions(begin, end, [&](int r) {
+        return is_computed(r) && !(is_overlapped && !packed_.reads_halo(r));
+      });
       plan_.back().push_back(std::move(stage));
     }
   }
@@ -55,17 +63,21 @@ void StagedRows<T, W>::plan_rows() {
 template <class T, int W>
 RowTask<T> StagedRows<T, W>::task_of(int thread, int stage, int r, bool is_whole) {
   RowTask<T> task;
-  set_row(task, packed_, r, fields_, carry_[std::size_t(thread)], [&](int row) { return stage_row(stage, row); });
+  set_row(task, packed_, r, fields_, carry_[std::size_t(thread)],
+          [&](int row) { return stage_row(stage, row); });
   if (!is_whole) return task;
   const bool is_last = stage + 1 == method_.stages && !method_.has_error_stage;
-  T* const out = is_swapped() ? stage_row(1, r) : is_last ? stage_row(0, r) : stage_row(stage + 1, r);
+  T* const out = is_swapped() ? stage_row(1, r)
+                 : is_last    ? stage_row(0, r)
+                              : stage_row(stage + 1, r);
   updates_[std::size_t(stage)].set(
       task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); }, step_);
   return task;
 }
 
 template <class T, int W>
-void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows) {
+void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& signals,
+                               const RowActions& rows) {
   for (const RowAction& action : rows) {
     const int r = action.row;
     RowTask<T> task = task_of(thread, stage, r, action.is_whole);
@@ -75,7 +87,8 @@ void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& sign
     }
     task.signals = signals.stage(stage);
     const bool is_finite = packed_.rows[std::size_t(r)].kernels->stage(task);
-    if (!is_finite && failed_rows_[std::size_t(thread)] < 0 && packed_.first_failed(r, task.out, fields_))
+    if (!is_finite && failed_rows_[std::size_t(thread)] < 0 &&
+        packed_.first_failed(r, task.out, fields_))
       failed_rows_[std::size_t(thread)] = r;
   }
 }
@@ -86,8 +99,8 @@ StepMaxima StagedRows<T, W>::maxima(int thread) {
   for (int r = cuts_[std::size_t(thread)]; r < cuts_[std::size_t(thread) + 1]; ++r) {
     const PackedRow<T>& row = packed_.rows[std::size_t(r)];
     for (std::size_t p = 0; p < std::size_t(row.packs); ++p)
-      lanes.add(error_row(r) + p * pack_size_, tried_row(r) + p * pack_size_, own_lanes_[row.pack_offset + p],
-                packed_.layout.fields);
+      lanes.add(error_row(r) + p * pack_size_, tried_row(r) + p * pack_size_,
+                own_lanes_[row.pack_offset + p], packed_.layout.fields);
   }
   return lanes.maxima();
 }

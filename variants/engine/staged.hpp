@@ -1,22 +1,25 @@
 #pragma once
-/// Stage by stage: for scenes whose extra links break the order of rows, and for parts whose halo is exchanged after
-/// every stage. Every stage keeps all rows; threads meet twice a stage.
+/// The schedule "stage by stage". It serves scenes whose extra links break the order of rows, parts
+/// whose halo is exchanged after every stage, and adaptive steps. Every stage keeps all rows. The
+/// threads of a team meet twice in a stage.
+#include "variants/api/halo.hpp"
 #include "variants/engine/step_error.hpp"
 #include "variants/engine/wavefront.hpp"
-#include "variants/halo.hpp"
 
 #include <algorithm>
 
 namespace dss {
 
-/// Links outside the grid: evaluated one by one, always in the same order, into the wrench rows that the row kernels
-/// add.
+/// Extra links, which are links outside the grid. They are evaluated one by one, always in the same
+/// order, into the wrench rows that the row kernels add.
 template <class T, int W = simd::lanes<T>>
 class ExtraLinks {
 public:
   ExtraLinks(const Problem& problem, PackedRows<T, W>& packed);
   bool empty() const { return links_.empty(); }
-  /// `row(r)` is the address of row r, with `fields` fields a pack.
+  /// Computes all extra links.
+  /// @param row     function from a row's number to its address
+  /// @param fields  numbers that a pack of a row holds for each element
   template <class RowAddress>
   void evaluate(RowAddress&& row, int fields);
 
@@ -32,48 +35,62 @@ private:
   std::vector<Link> links_;
 };
 
-/// All rows of the state and of every intermediate stage.
+/// All rows of the state and of every intermediate stage, and the steps over them.
 template <class T, int W = simd::lanes<T>>
 class StagedRows {
 public:
-  /// @param exchange  null, or how the halo of the part is exchanged
+  /// @param dt        step [s]
+  /// @param exchange  null, or how the part exchanges its halo
   StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt,
              const RowStorage& storage, int threads, const PartSetup* exchange);
   T* row(int r) { return stage_row(0, r); }
-  /// Of a method with an error stage: the length of the steps that follow [s]. A step leaves the state as it is, and where it leads in
-  /// the tried rows.
+  /// Methods with an error stage: sets the length of the next steps [s]. A step does not change the
+  /// state; its result is in the tried rows.
   void set_step(double dt) { step_ = T(dt); }
+  /// Row r of the result of a tried step.
   T* tried_row(int r) { return stage_row(method_.stages - 1, r); }
+  /// Row r of the estimated error of a tried step.
   T* error_row(int r) { return stage_row(method_.stages, r); }
-  /// Of the rows of a thread, after a step that was tried.
+  /// Maxima of a tried step over the rows of a thread.
   StepMaxima maxima(int thread);
-  /// Makes the result of that step the state, in the rows of a thread.
+  /// Makes the result of the tried step the state, in the rows of a thread.
   void accept(int thread);
-  /// Row r of a copy that parts exchange: an input of a stage, or the present and the next state of a method of one stage.
+  /// Row r of a copy that parts exchange. A copy is the input of a stage. A method of one stage has
+  /// two: the present and the next state.
   T* copy_row(int copy, int r) { return buffer_row(std::size_t(copy), r); }
   int copies() const {
-    return is_swapped() ? 2 : exchange_ != nullptr && exchange_->is_every_stage ? method_.stages : 1;
+    return is_swapped()                                        ? 2
+           : exchange_ != nullptr && exchange_->is_every_stage ? method_.stages
+                                                               : 1;
   }
   int current_copy() const { return parity_; }
-  /// One step by the calling thread of a team of `threads`; all call it together. Synchronise() is the team's barrier.
-  /// With a part, the halo of the first stage's input has been sent; that of the next step's is, unless this is the last.
+  /// Computes the calling thread's rows of one step. All threads of the team call it together. In a
+  /// part, the halo of the first stage's input must have been sent before; this call sends that of
+  /// the next step, unless this step is the last.
+  /// @param synchronise  the barrier of the team
   template <class Synchronise>
-  void step(int thread, const StepSignals<T>& signals, bool is_last_step, Synchronise&& synchronise);
-  /// Calls visit(row, is_whole, task) for all that a thread does in a stage, in its order.
+  void step(int thread, const StepSignals<T>& signals, bool is_last_step,
+            Synchronise&& synchronise);
+  /// Calls visit(row, is_whole, task) for everything that a thread does in a stage, in its order.
   template <class Visit>
   void each_task(int thread, int stage, Visit&& visit) {
-    for (const RowActions* rows :
-         {&plan_[std::size_t(thread)][std::size_t(stage)].inner, &plan_[std::size_t(thread)][std::size_t(stage)].outer})
+    for (const RowActions* rows : {&plan_[std::size_t(thread)][std::size_t(stage)].inner,
+                                   &plan_[std::size_t(thread)][std::size_t(stage)].outer})
       for (const RowAction& action : *rows)
         visit(action.row, action.is_whole, task_of(thread, stage, action.row, action.is_whole));
   }
-  /// The input of a stage, or the output of the one before.
-  T* stage_row(int stage, int r) { return buffer_row(std::size_t(is_swapped() ? stage ^ parity_ : stage), r); }
-  /// Method of one stage: it reads neighbours while it writes, so output and state change places.
+  /// A row of the input of a stage, which is the output of the stage before it.
+  T* stage_row(int stage, int r) {
+    return buffer_row(std::size_t(is_swapped() ? stage ^ parity_ : stage), r);
+  }
+  /// A method of one stage reads neighbours while it writes. So its output gets buffers of its own,
+  /// and output and state swap after each step.
   bool is_swapped() const { return method_.stages == 1; }
   void swap() { parity_ ^= 1; }
-  /// Whether parts exchange the input of a stage, and as which copy.
-  bool is_exchanged(int stage) const { return exchange_ != nullptr && (stage == 0 || exchange_->is_every_stage); }
+  /// Whether parts exchange the input of a stage. copy_of() is the number of that copy.
+  bool is_exchanged(int stage) const {
+    return exchange_ != nullptr && (stage == 0 || exchange_->is_every_stage);
+  }
   int copy_of(int stage) const { return is_swapped() ? parity_ : stage; }
   int failed_row() const;
   void forget_failures() { std::fill(failed_rows_.begin(), failed_rows_.end(), -1); }
@@ -81,13 +98,14 @@ public:
   int threads() const { return int(cuts_.size()) - 1; }
 
 private:
-  /// What a thread does with a row in a stage: all of it, or only its links to upper rows that are computed.
+  /// What a thread does with a row in a stage: computes all of it, or only its links to those upper
+  /// rows that are computed.
   struct RowAction {
     int row;
     bool is_whole;
   };
   using RowActions = std::vector<RowAction>;
-  /// The rows of a thread in two groups: those that read no halo, and the rest.
+  /// The rows of a thread in two groups: those that read no halo, and the others.
   struct StageRows {
     RowActions inner, outer;
   };
@@ -106,15 +124,17 @@ private:
   const int fields_;
   const std::size_t pack_size_;
   std::vector<int> cuts_;
-  std::vector<std::vector<StageRows>> plan_; ///< thread, stage
-  std::vector<Buffer<T>>
-      stages_; ///< [0] the state, [m] the output of stage m - 1; one-stage methods: state and next state by parity
+  std::vector<std::vector<StageRows>> plan_; ///< [thread][stage]
+  /// [0]: the state; [m]: the output of stage m - 1. A method of one stage: the states of both
+  /// parities.
+  std::vector<Buffer<T>> stages_;
   int parity_ = 0;
   std::vector<CarryRings<T>> carry_;
   std::vector<int> failed_rows_;
   const RowStorage storage_;
-  T step_ = 1;                            ///< of a method with an error stage
-  std::vector<simd::LaneMask> own_lanes_; ///< the same: of each pack
+  T step_ = 1; ///< length of a step [s]; only methods with an error stage use it
+  /// Lanes of own elements in each pack; only for methods with an error stage.
+  std::vector<simd::LaneMask> own_lanes_;
   const std::vector<StageUpdate<T>> updates_;
   ExtraLinks<T, W> extra_links_;
 };
@@ -122,7 +142,8 @@ private:
 template <class T, int W>
 ExtraLinks<T, W>::ExtraLinks(const Problem& problem, PackedRows<T, W>& packed) : packed_(packed) {
   for (const ExtraLink& link : problem.extra_links)
-    links_.push_back({extra_link_constants<T>(problem, link), place_of(packed, link.i), place_of(packed, link.j)});
+    links_.push_back({extra_link_constants<T>(problem, link), place_of(packed, link.i),
+                      place_of(packed, link.j)});
 }
 
 template <class T, int W>
@@ -145,7 +166,8 @@ void ExtraLinks<T, W>::evaluate(RowAddress&& row, int fields) {
       for (int f = 0; f < packed_.fields(); ++f) state[e][f] = fields_of[f * W];
       for (int c = 0; c < components; ++c) wrench[e][c] = targets[e][c * W];
     }
-    packed_.rows[link.i.row].kernels->extra_link(link.constants, state[0], state[1], wrench[0], wrench[1]);
+    packed_.rows[link.i.row].kernels->extra_link(link.constants, state[0], state[1], wrench[0],
+                                                 wrench[1]);
     for (std::size_t e = 0; e < 2; ++e)
       for (int c = 0; c < components; ++c) targets[e][c * W] = wrench[e][c];
   }
@@ -153,7 +175,8 @@ void ExtraLinks<T, W>::evaluate(RowAddress&& row, int fields) {
 
 template <class T, int W>
 template <class Synchronise>
-void StagedRows<T, W>::step(int thread, const StepSignals<T>& signals, bool is_last_step, Synchronise&& synchronise) {
+void StagedRows<T, W>::step(int thread, const StepSignals<T>& signals, bool is_last_step,
+                            Synchronise&& synchronise) {
   const auto receive = [&](int s) {
     for (const Side side : all_sides) exchange_->halo.receive(side, copy_of(s));
   };

@@ -19,7 +19,9 @@ void StateRows<T, W>::each_element(std::size_t first, std::size_t count, Visit&&
     T* const packs = row_(int(r));
     each_cell(packed_.lattice, lattice_row, [&](std::size_t element, int x) {
       if (element < first || element >= first + count) return;
-      visit(element, packs + std::ptrdiff_t(x / W - packed_.rows[r].first_pack) * stored_fields() * W + x % W);
+      visit(element, packs +
+                         std::ptrdiff_t(x / W - packed_.rows[r].first_pack) * stored_fields() * W +
+                         x % W);
     });
   }
 }
@@ -46,11 +48,12 @@ void StateRows<T, W>::write(std::size_t first, std::span<const double> fields) {
     std::array<double, field_count> from;
     std::copy_n(&fields[(element - first) * field_count], from.size(), from.begin());
     if (packed_.layout.has_vectors) to_rotation_vector(from);
-    for (int f = 0; f < packed_.fields(); ++f) keep(from[packed_.layout.fields[std::size_t(f)]], lane, f, f);
+    for (int f = 0; f < packed_.fields(); ++f)
+      keep(from[packed_.layout.fields[std::size_t(f)]], lane, f, f);
   });
 }
 
-// The product and the sum are rounded once, as a fused multiply-add: in all variants alike.
+// v = v_half + (h / 2) a is rounded once, by a fused multiply-add, so that all variants agree.
 template <class T, int W>
 void StateRows<T, W>::read(std::size_t first, std::span<double> fields, const T* end_rates) {
   std::fill(fields.begin(), fields.end(), 0.0);
@@ -64,8 +67,9 @@ void StateRows<T, W>::read(std::size_t first, std::span<double> fields, const T*
     const T* const rates = end_rates + pack * std::size_t(packed_.fields() * W) + place.lane;
     each_velocity([&](int f, int half) {
       out[std::size_t(packed_.layout.fields[std::size_t(f)])] =
-          storage_.is_compensated() ? value(lane, f, half) + double(half_step_) * double(rates[f * W])
-                                    : double(simd::fma(half_step_, rates[f * W], lane[half * W]));
+          storage_.is_compensated()
+              ? value(lane, f, half) + double(half_step_) * double(rates[f * W])
+              : double(simd::fma(half_step_, rates[f * W], lane[half * W]));
     });
   });
 }
@@ -79,10 +83,12 @@ void StateRows<T, W>::save(std::size_t first, std::span<double> kept, bool is_st
     for (int f = 0; f < packed_.fields(); ++f)
       out[std::size_t(packed_.layout.fields[std::size_t(f)])] = double(lane[f * W]);
     for (int f = 0; f < storage_.lows; ++f)
-      out[std::size_t(kept_first_low(method_) + packed_.layout.fields[std::size_t(f)])] = double(*low(lane, f));
+      out[std::size_t(kept_first_low(method_) + packed_.layout.fields[std::size_t(f)])] =
+          double(*low(lane, f));
     if (!is_staggered()) return;
     each_velocity([&](int f, int half) {
-      out[std::size_t(kept_half_velocity(packed_.layout.fields[std::size_t(f)]))] = double(lane[half * W]);
+      out[std::size_t(kept_half_velocity(packed_.layout.fields[std::size_t(f)]))] =
+          double(lane[half * W]);
     });
     out[kept_is_started] = is_started;
   });
@@ -94,12 +100,14 @@ bool StateRows<T, W>::restore(std::size_t first, std::span<const double> kept) {
   bool is_started = false;
   each_element(first, kept.size() / count, [&](std::size_t element, T* lane) {
     const double* from = &kept[(element - first) * count];
-    for (int f = 0; f < packed_.fields(); ++f) lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
+    for (int f = 0; f < packed_.fields(); ++f)
+      lane[f * W] = T(from[packed_.layout.fields[std::size_t(f)]]);
     for (int f = 0; f < storage_.lows; ++f)
       *low(lane, f) = T(from[kept_first_low(method_) + packed_.layout.fields[std::size_t(f)]]);
     if (!is_staggered()) return;
-    each_velocity(
-        [&](int f, int half) { lane[half * W] = T(from[kept_half_velocity(packed_.layout.fields[std::size_t(f)])]); });
+    each_velocity([&](int f, int half) {
+      lane[half * W] = T(from[kept_half_velocity(packed_.layout.fields[std::size_t(f)])]);
+    });
     is_started = from[kept_is_started] != 0;
   });
   return is_started;
@@ -112,7 +120,8 @@ std::size_t StateRows<T, W>::plain_size() const {
 
 template <class T, int W>
 void StateRows<T, W>::copy_plain(T* plain, const RowAddress& row) {
-  const std::size_t pack_size = std::size_t(packed_.fields() * W), stored_size = std::size_t(stored_fields() * W);
+  const std::size_t pack_size = std::size_t(packed_.fields() * W),
+                    stored_size = std::size_t(stored_fields() * W);
   for (int r = 0; r < int(packed_.rows.size()); ++r)
     for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
       std::copy_n(row(r) + std::size_t(p) * stored_size, pack_size,
@@ -142,7 +151,8 @@ void StateRows<T, W>::start(const T* rates) {
     for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
       for (int l = 0; l < W; ++l) {
         T* const lane = row_(r) + std::ptrdiff_t(p) * stored_fields() * W + l;
-        const T* const rate = rates + plain_offset(r) + std::size_t(p) * std::size_t(packed_.fields() * W) + l;
+        const T* const rate =
+            rates + plain_offset(r) + std::size_t(p) * std::size_t(packed_.fields() * W) + l;
         each_velocity([&](int f, int half) {
           if (storage_.is_compensated())
             keep(value(lane, f, f) - double(half_step_) * double(rate[f * W]), lane, f, half);

@@ -1,73 +1,88 @@
 #pragma once
-/// The state of an executor, held as rows of packs, in and out: as fields, as what a method keeps, as messages.
+/// Converts the state of an executor, which is held as rows of packs: to and from fields, to and
+/// from what a method keeps, and into layouts of messages.
 #include "solver/numerics/method.hpp"
+#include "variants/api/halo.hpp"
+#include "variants/api/kept_state.hpp"
 #include "variants/engine/row_storage.hpp"
-#include "variants/halo.hpp"
-#include "variants/kept_state.hpp"
 
 #include <functional>
 #include <span>
 
 namespace dss {
 
+/// Reads and writes the state through the addresses of its rows.
 template <class T, int W = simd::lanes<T>>
 class StateRows {
 public:
   using RowAddress = std::function<T*(int)>;
-  /// @param row  address of any row's present state  @param packed, method  outlive it
-  StateRows(const PackedRows<T, W>& packed, const Method& method, Precision precision, double dt, RowAddress row)
-      : packed_(packed), method_(method), precision_(precision), storage_(packed, method, precision),
-        half_step_(T(dt / 2)), row_(std::move(row)) {}
+  /// @param packed, method  outlive this object
+  /// @param dt              step [s]
+  /// @param row             function from a row's number to the address of its present state
+  StateRows(const PackedRows<T, W>& packed, const Method& method, Precision precision, double dt,
+            RowAddress row)
+      : packed_(packed), method_(method), precision_(precision),
+        storage_(packed, method, precision), half_step_(T(dt / 2)), row_(std::move(row)) {}
 
   bool is_staggered() const { return method_.is_staggered(); }
   const RowStorage& storage() const { return storage_; }
-  /// Numbers of an element that a pack of the state holds.
+  /// Numbers that a pack of the state holds for each element.
   int stored_fields() const { return storage_.stored(); }
 
-  /// As Executor::write and read. `end_rates`: null, or rates at the end of a staggered method's last step, whose velocities are those of
-  /// the half step before: v_n = v_{n-1/2} + (h / 2) a(x_n, p_n).
+  /// As Executor::write and Executor::read.
+  /// @param end_rates  null, or rates at the end of a staggered method's last step, in plain packs.
+  ///   Its stored velocities are those of the last half step; then v_n = v_{n-1/2} + (h / 2) a(x_n,
+  ///   p_n), where p is the predicted velocity.
   void write(std::size_t first, std::span<const double> fields);
   void read(std::size_t first, std::span<double> fields, const T* end_rates);
-  /// As Executor::save and restore; `is_started`: a staggered method has its half-step velocities.
+  /// As Executor::save and restore. `is_started`: a staggered method has half-step velocities.
   int kept_fields() const { return kept_field_count(method_, precision_); }
   void save(std::size_t first, std::span<double> kept, bool is_started);
   bool restore(std::size_t first, std::span<const double> kept);
 
-  /// Numbers of a buffer of plain packs, the model's fields alone, row after row, with one pack behind the last.
+  /// Size of a buffer of plain packs [numbers]. Plain packs hold only the model's fields, row after
+  /// row. One readable pack follows the last.
   std::size_t plain_size() const;
   std::size_t plain_offset(int r) const {
     return packed_.rows[std::size_t(r)].pack_offset * std::size_t(packed_.fields() * W);
   }
   void copy_plain(T* plain) { copy_plain(plain, row_); }
   void copy_plain(T* plain, const RowAddress& row);
-  /// Of plain rates: all fields of all elements.
+  /// Converts plain rates to all 13 fields of all elements.
   void rates_out(const T* rates, std::span<double> out) const;
-  /// A staggered method's first half step back: v_{-1/2} = v_0 - (h / 2) a_0, and p_0 = v_0, which the rows hold already.
+  /// Starts a staggered method: moves the velocities back by half a step, v_{-1/2} = v_0 - (h / 2)
+  /// a_0. The predicted velocities p_0 = v_0 are in the rows already.
   void start(const T* rates);
 
-  /// Where elements lie in rows, as whole packs lie in memory: pack after pack, field after field, the elements' lanes.
-  /// @param copy_row  (row) -> address of the row, and of its twin or null  @param is_own  (element)
+  /// Where elements lie in rows. The message has the order of whole packs in memory: pack after
+  /// pack, in it field after field, in it the lanes of the elements.
+  /// @param copy_row  (row) -> two places of the row, the second may be null
+  /// @param is_own    (element) -> whether it is an own element of the part
   template <class CopyRow, class IsOwn>
-  HaloLayout layout(std::span<const std::size_t> elements, CopyRow&& copy_row, IsOwn&& is_own) const;
+  HaloLayout layout(std::span<const std::size_t> elements, CopyRow&& copy_row,
+                    IsOwn&& is_own) const;
 
 private:
   /// Calls visit(element, lane pointer to the first field) for elements [first, first + count).
   template <class Visit>
   void each_element(std::size_t first, std::size_t count, Visit&& visit);
-  /// Place of velocity and spin components: (index in the model's fields, index of their half-step velocities).
+  /// Calls visit(index in the model's fields, index of the half-step velocity) for each velocity
+  /// and spin component.
   template <class Visit>
   void each_velocity(Visit&& visit) const;
   const T* plain_lane(const T* plain, std::size_t r, int x) const {
-    const std::size_t pack = packed_.rows[r].pack_offset + std::size_t(x / W - packed_.rows[r].first_pack);
+    const std::size_t pack =
+        packed_.rows[r].pack_offset + std::size_t(x / W - packed_.rows[r].first_pack);
     return plain + pack * std::size_t(packed_.fields() * W) + x % W;
   }
 
-  /// Those of an element that the model has, as they are kept.
+  /// Gets the fields of an element that the model has.
   void fields_out(const T* lane, std::span<double> out) const;
-  /// A number in double, its low part included; and how it is kept. `f`: of the model's fields.
+  /// A number in double precision, including its low part. `f` is its index in the model's fields.
   double value(const T* lane, int f, int stored_at) const {
     return double(lane[stored_at * W]) + (storage_.is_compensated() ? double(*low(lane, f)) : 0);
   }
+  /// Stores a number, and its low part if there is one.
   void keep(double value, T* lane, int f, int stored_at) const {
     lane[stored_at * W] = T(value);
     if (storage_.is_compensated()) *low(lane, f) = T(value - double(T(value)));
@@ -87,7 +102,8 @@ private:
 
 template <class T, int W>
 template <class CopyRow, class IsOwn>
-HaloLayout StateRows<T, W>::layout(std::span<const std::size_t> elements, CopyRow&& copy_row, IsOwn&& is_own) const {
+HaloLayout StateRows<T, W>::layout(std::span<const std::size_t> elements, CopyRow&& copy_row,
+                                   IsOwn&& is_own) const {
   const std::size_t number = sizeof(T), fields = std::size_t(stored_fields());
   HaloLayout layout;
   const auto add = [&](T* at, std::size_t offset, std::size_t count) {

@@ -1,5 +1,6 @@
 #pragma once
-/// What a tried step leaves in rows of packs: maxima of its estimated error and of the state it leads to, and that state as the next one.
+/// Reads the result of a tried step from rows of packs: maxima of its estimated error and of its
+/// state. Makes that state the next one.
 #include "kernels/physics.hpp"
 #include "solver/numerics/step_control.hpp"
 #include "variants/engine/row_storage.hpp"
@@ -12,7 +13,7 @@
 
 namespace dss {
 
-/// Lanes of own elements, of every pack of all rows.
+/// Lanes of own elements in every pack of all rows.
 /// @param part  null for a whole problem
 template <class T, int W>
 std::vector<simd::LaneMask> own_lanes(const PackedRows<T, W>& packed, const Part* part) {
@@ -21,27 +22,31 @@ std::vector<simd::LaneMask> own_lanes(const PackedRows<T, W>& packed, const Part
     const PackedRow<T>& row = packed.rows[r];
     each_cell(packed.lattice, packed.lattice.rows[r], [&](std::size_t element, int x) {
       if (part == nullptr || part->layer[element] == 0)
-        lanes[row.pack_offset + std::size_t(x / W - row.first_pack)] |= simd::LaneMask(1u << (x % W));
+        lanes[row.pack_offset + std::size_t(x / W - row.first_pack)] |=
+            simd::LaneMask(1u << (x % W));
     });
   }
   return lanes;
 }
 
-/// Maxima over lanes of packs, lane by lane until they are asked for.
+/// Maxima over packs. They are kept for each lane and joined in maxima().
 template <class T, int W>
 class LaneMaxima {
 public:
-  /// @param error, state  first of `fields` fields of a pack each
+  /// Adds one pack.
+  /// @param error, state  the first of `fields` fields of a pack
+  /// @param own           lanes of own elements; others do not count
   void add(const T* error, const T* state, simd::LaneMask own, std::span<const Field> fields) {
     std::array<bool, W> counts;
     for (int l = 0; l < W; ++l) counts[std::size_t(l)] = own >> l & 1;
     for (std::size_t f = 0; f < fields.size(); ++f, error += W, state += W) {
       const std::size_t kind = StepMaxima::kind(fields[f]);
       for (std::size_t l = 0; l < std::size_t(W); ++l) {
-        const T e = counts[l] ? std::abs(error[l]) : T(0), y = counts[l] ? std::abs(state[l]) : T(0);
+        const T e = counts[l] ? std::abs(error[l]) : T(0),
+                y = counts[l] ? std::abs(state[l]) : T(0);
         error_[kind][l] = error_[kind][l] < e ? e : error_[kind][l];
         state_[kind][l] = state_[kind][l] < y ? y : state_[kind][l];
-        check_[l] += T(0) * e + T(0) * y; // 0 unless one is infinite or NaN
+        check_[l] += T(0) * e + T(0) * y; // stays 0 until a number is infinite or NaN
       }
     }
   }
@@ -63,8 +68,8 @@ private:
   Lanes check_{};
 };
 
-/// Makes `next`, which the last stage but one left for a row, the row's state. A compensated one has its increments behind the fields: the
-/// low parts of the sum are found as in kept_step.
+/// Makes `next`, the output of the last stage but one, the state of a row. In compensated precision
+/// increments follow the fields in `next`; the low parts of the sum are computed as in kept_step.
 template <class T>
 void accept_row(const RowStorage& storage, int packs, int lanes, const T* next, T* state) {
   const std::size_t pack_size = std::size_t(storage.stored() * lanes);
@@ -72,7 +77,8 @@ void accept_row(const RowStorage& storage, int packs, int lanes, const T* next, 
     std::copy_n(next, std::size_t(packs) * pack_size, state);
     return;
   }
-  const std::size_t low = std::size_t(storage.first_low() * lanes), fields = std::size_t(storage.fields * lanes);
+  const std::size_t low = std::size_t(storage.first_low() * lanes),
+                    fields = std::size_t(storage.fields * lanes);
   for (int p = 0; p < packs; ++p, next += pack_size, state += pack_size)
     for (std::size_t n = 0; n < fields; ++n) {
       const T y = state[n], s = state[low + n] + next[low + n], sum = next[n];

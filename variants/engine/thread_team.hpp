@@ -8,7 +8,8 @@
 
 namespace dss {
 
-/// Runs work(thread, synchronise) on a team of exactly `threads` threads; with fewer, blocks of rows would silently stay behind.
+/// Runs work(thread, synchronise) on a team of exactly `threads` threads. With fewer, some blocks
+/// of rows would silently not be computed.
 /// @throws InputError if OpenMP grants fewer
 template <class Work>
 void run_team(int threads, Work&& work) {
@@ -29,8 +30,8 @@ void run_team(int threads, Work&& work) {
     }
   }
   if (granted != threads)
-    throw InputError("--threads " + std::to_string(threads) + ": OpenMP grants only " + std::to_string(granted) +
-                     " (OMP_THREAD_LIMIT?); give at most that");
+    throw InputError("--threads " + std::to_string(threads) + ": OpenMP grants only " +
+                     std::to_string(granted) + " (OMP_THREAD_LIMIT?); give at most that");
 }
 
 } // namespace dss

@@ -11,7 +11,8 @@ template <class T, int W>
 std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts) {
   const int begin = packed.own_begin, end = packed.own_end;
   parts = std::clamp(parts, 1, end - begin);
-  const std::size_t first = packed.rows[std::size_t(begin)].pack_offset, packs = packed.packs_of(begin, end);
+  const std::size_t first = packed.rows[std::size_t(begin)].pack_offset,
+                    packs = packed.packs_of(begin, end);
   std::vector<int> cuts{begin};
   for (int p = 1; p < parts; ++p) {
     const std::size_t target = first + packs * std::size_t(p) / std::size_t(parts);
@@ -24,13 +25,15 @@ std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts) {
 }
 
 template <class T, int W>
-int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, const std::vector<int>& cuts) {
+int steps_a_pass(const PackedRows<T, W>& packed, const Method& method,
+                 const std::vector<int>& cuts) {
   if (!method.is_in_place() || packed.is_part()) return 1;
   const int rows = int(packed.rows.size());
   const auto recomputes_little = [&](int steps) {
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
       std::size_t more = 0;
-      for (int halo = packed.reach; halo <= (steps - 1) * packed.reach && halo > 0; halo += packed.reach)
+      for (int halo = packed.reach; halo <= (steps - 1) * packed.reach && halo > 0;
+           halo += packed.reach)
         more += packed.packs_of(std::max(0, cuts[b] - halo), cuts[b]) +
                 packed.packs_of(cuts[b + 1], std::min(rows, cuts[b + 1] + halo));
       if (16 * more > std::size_t(steps) * packed.packs_of(cuts[b], cuts[b + 1])) return false;
@@ -42,10 +45,11 @@ int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, const std
   return steps;
 }
 
-static row_action action_of(const Method& method, const RowStorage& storage, std::size_t increments, bool is_last) {
+static row_action action_of(const Method& method, const RowStorage& storage, std::size_t increments,
+                            bool is_last) {
   const bool is_kept = storage.is_compensated();
   if (method.has_error_stage && is_last) return is_kept ? kept_error : error_stage;
-  if (method.has_error_stage) is_last = false; // what is accepted is not known yet
+  if (method.has_error_stage) is_last = false; // a tried step is not accepted yet
   if (method.is_in_place()) {
     if (storage.is_predicted()) return is_kept ? kept_predicted : predicted_step;
     return is_kept ? kept_leapfrog : leapfrog_step;
@@ -55,7 +59,8 @@ static row_action action_of(const Method& method, const RowStorage& storage, std
 }
 
 template <class T>
-std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage, int lanes, double dt) {
+std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage,
+                                          int lanes, double dt) {
   if (method.has_error_stage) dt = 1;
   std::vector<StageUpdate<T>> updates;
   for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
@@ -69,7 +74,8 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage
     }
     update.is_last = int(s) + 1 == method.stages;
     update.action = action_of(method, storage, update.increments.size(), update.is_last);
-    if (method.has_error_stage) update.is_last = false; // StepMaxima says what is not finite
+    // StepMaxima tells whether the result is finite.
+    if (method.has_error_stage) update.is_last = false;
     update.low = storage.first_low() * lanes;
     if (storage.is_predicted())
       update.smoothing = T(method.smoothing), update.steps_ahead = T((1 - method.smoothing) / 2);
@@ -88,18 +94,19 @@ int last_reader(const Method& method, int s) {
 }
 
 template <class T, int W>
-Block<T, W>::Block(const PackedRows<T, W>& packed, const Method& method, int first, int last, int fields, int halo,
-                   int steps)
+Block<T, W>::Block(const PackedRows<T, W>& packed, const Method& method, int first, int last,
+                   int fields, int halo, int steps)
     : begin(first), end(last), stored_begin(steps == 1 ? begin : std::max(0, begin - halo)),
-      stored_end(steps == 1 ? end : std::min(int(packed.rows.size()), end + halo)), packed_(&packed),
-      pack_size_(std::size_t(fields) * std::size_t(W)), row_size_(std::size_t(packed.max_packs + 1) * pack_size_),
-      halo_(halo) {
-  state_ = Buffer<T>((packed.packs_of(stored_begin, stored_end) + 1) * pack_size_,
-                     packed.memory); // one pack more: rows look one pack ahead
+      stored_end(steps == 1 ? end : std::min(int(packed.rows.size()), end + halo)),
+      packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)),
+      row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo) {
+  // One pack more: rows look one pack ahead.
+  state_ = Buffer<T>((packed.packs_of(stored_begin, stored_end) + 1) * pack_size_, packed.memory);
   make_published();
   for (int s = 0; s < steps * method.stages; ++s) carry.emplace_back(packed);
   for (int stage = 0; stage + 1 < method.stages; ++stage) {
-    // Y_{s + 1} is written by stage s and last read (reader - s) reaches behind; priming reads two reaches back.
+    // Stage s writes Y_{s + 1}, and its last reader runs (reader - s) reaches behind. Priming, the
+    // computation of the links before a block's first row, reads two reaches back.
     const int reaches = std::max(last_reader(method, stage) - stage, begin > 0 ? 2 : 1);
     const int rows = std::min(reaches * packed.reach + 1, int(packed.rows.size()));
     rings_.emplace_back(std::size_t(rows) * row_size_ + pack_size_, packed.memory);
@@ -123,7 +130,8 @@ void Block<T, W>::make_published() {
     published_offset_.push_back(packs * pack_size_);
     if (is_published(r)) packs += std::size_t(packed_->rows[std::size_t(r)].packs);
   }
-  for (auto& copy : published_) copy = Buffer<T>(packs == 0 ? 0 : (packs + 1) * pack_size_, packed_->memory);
+  for (auto& copy : published_)
+    copy = Buffer<T>(packs == 0 ? 0 : (packs + 1) * pack_size_, packed_->memory);
 }
 
 template <class T, int W>
@@ -144,8 +152,8 @@ template <class T, int W>
 WavefrontStep<T, W>::WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt,
                                    const RowStorage& storage, std::size_t signal_count,
                                    std::vector<Block<T, W>>& blocks, std::size_t index, int steps)
-    : packed_(packed), fields_(storage.stored()), stages_(method.stages), steps_(steps), block_(blocks[index]),
-      signals_(signal_count, steps * method.stages) {
+    : packed_(packed), fields_(storage.stored()), stages_(method.stages), steps_(steps),
+      block_(blocks[index]), signals_(signal_count, steps * method.stages) {
   find_published_rows(blocks);
   const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, storage, W, dt);
   sweeps_[0] = make_sweeps(updates, 0);
@@ -159,7 +167,8 @@ void WavefrontStep<T, W>::find_published_rows(std::vector<Block<T, W>>& blocks) 
     std::vector<T*>& rows = published_rows_[std::size_t(parity)];
     rows.assign(packed_.rows.size(), nullptr);
     for (Block<T, W>& other : blocks)
-      for (int r = std::max(other.begin, block_.begin - halo); r < std::min(other.end, block_.end + halo); ++r)
+      for (int r = std::max(other.begin, block_.begin - halo);
+           r < std::min(other.end, block_.end + halo); ++r)
         if (&other != &block_) rows[std::size_t(r)] = other.published(r, parity);
   }
 }
@@ -171,13 +180,16 @@ void WavefrontStep<T, W>::fetch_halo(int parity) {
 }
 
 template <class T, int W>
-auto WavefrontStep<T, W>::make_sweeps(const std::vector<StageUpdate<T>>& updates, int parity) -> std::vector<Sweep> {
+auto WavefrontStep<T, W>::make_sweeps(const std::vector<StageUpdate<T>>& updates, int parity)
+    -> std::vector<Sweep> {
   std::vector<Sweep> sweeps;
   const int count = steps_ * stages_;
   for (int n = 0; n < count; ++n) {
     const int s = n % stages_, halo = (count - 1 - n) * packed_.reach;
     const bool is_last = s + 1 == stages_;
-    Sweep sweep{std::max(0, block_.begin - halo), std::min(int(packed_.rows.size()), block_.end + halo), {}};
+    Sweep sweep{std::max(0, block_.begin - halo),
+                std::min(int(packed_.rows.size()), block_.end + halo),
+                {}};
     sweep.rows.reserve(std::size_t(sweep.end - sweep.begin));
     for (int r = sweep.begin; r < sweep.end; ++r) {
       RowTask<T> task;
@@ -206,7 +218,8 @@ template <class T, int W>
 void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parity) {
   const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
   const int last = steps * stages_ - 1;
-  int count = last + 1; // sweeps that run; after a failure only those of earlier steps, which may fail as well
+  // Sweeps that run. After a failure only those of earlier steps, since these may fail too.
+  int count = last + 1;
   signals_.set(signals, count);
   fetch_halo(parity);
   bool is_watched = watched_row_ >= 0;
@@ -230,17 +243,20 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
       if (block_.is_published(r)) block_.publish(r, parity ^ 1);
       if (r == watched_row_) is_watched = false, watched_row_done_();
     }
-  if (is_watched) watched_row_done_(); // a failure ended the pass before; others wait for the row all the same
+  // A failure ended the pass before this row, but others wait for it.
+  if (is_watched) watched_row_done_();
 }
 
-#define DSS_INSTANTIATE(T, W)                                                                                          \
-  template std::vector<int> cut_rows(const PackedRows<T, W>&, int);                                                    \
-  template int steps_a_pass(const PackedRows<T, W>&, const Method&, const std::vector<int>&);                          \
-  template class Block<T, W>;                                                                                          \
+#define DSS_INSTANTIATE(T, W)                                                                      \
+  template std::vector<int> cut_rows(const PackedRows<T, W>&, int);                                \
+  template int steps_a_pass(const PackedRows<T, W>&, const Method&, const std::vector<int>&);      \
+  template class Block<T, W>;                                                                      \
   template class WavefrontStep<T, W>;
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE
-template std::vector<StageUpdate<double>> stage_updates(const Method&, const RowStorage&, int, double);
-template std::vector<StageUpdate<float>> stage_updates(const Method&, const RowStorage&, int, double);
+template std::vector<StageUpdate<double>> stage_updates(const Method&, const RowStorage&, int,
+                                                        double);
+template std::vector<StageUpdate<float>> stage_updates(const Method&, const RowStorage&, int,
+                                                       double);
 
 } // namespace dss

@@ -1,7 +1,8 @@
 #pragma once
-/// The wavefront over rows (DESIGN.md section 4): stage s runs `reach` rows behind stage s - 1, intermediate stages
-/// live in rings of a few rows, the state is updated in place. A pass is a step, or several of a method in place; threads recompute a halo of
-/// reach rows for each of its stages and meet once a pass.
+/// The wavefront over rows (DESIGN.md section 4). Stage s runs `reach` rows behind stage s - 1.
+/// Intermediate stages live in rings of a few rows, and the state is updated in place. A pass over
+/// the rows computes one step, or several steps of a method in place. Each thread recomputes a halo
+/// of `reach` rows for each stage of the pass. The threads meet once a pass.
 #include "variants/engine/row_storage.hpp"
 #include "variants/engine/schedule.hpp"
 
@@ -9,41 +10,50 @@
 
 namespace dss {
 
-/// A contiguous block of rows with its own storage. What other blocks need of it is published twice over, by parity of
-/// the pass, so that one synchronisation a pass is enough: while pass n reads one copy, the other is written for pass n
-/// + 1. Halo rows of a part beside its own rows are a remote block: published by messages, computed elsewhere.
+/// A contiguous block of rows with its own storage. The rows that other blocks read are published
+/// in two copies, one for each parity of the pass. So one synchronisation a pass is enough: pass n
+/// reads one copy and writes the other for pass n + 1. The halo rows of a part before or behind its
+/// own rows are a remote block: messages publish it, another part computes it.
 template <class T, int W = simd::lanes<T>>
 class Block {
 public:
-  /// @param halo  rows that other blocks read of this one, and this one of them  @param steps  of a pass: with more than one, copies of
-  /// the halo's rows are stored beside the block's own, to be stepped with them
-  Block(const PackedRows<T, W>& packed, const Method& method, int begin, int end, int fields, int halo, int steps);
-  /// A remote block.
+  /// @param fields  numbers that a pack holds for each element
+  /// @param halo    rows that other blocks read of this one, and this one of them
+  /// @param steps   steps of a pass; if more than one, the block also stores copies of the halo's
+  ///   rows and steps them
+  Block(const PackedRows<T, W>& packed, const Method& method, int begin, int end, int fields,
+        int halo, int steps);
+  /// Makes a remote block.
   Block(const PackedRows<T, W>& packed, int begin, int end, int fields, int halo);
 
   int begin, end;
-  int stored_begin, stored_end; ///< rows with a place here: own rows, and copies of the halo's
+  int stored_begin, stored_end; ///< rows that are stored here: own rows, and copies of the halo's
   bool is_remote() const { return state_.empty(); }
   T* row(int r) {
-    return state_.data() +
-           (packed_->rows[std::size_t(r)].pack_offset - packed_->rows[std::size_t(stored_begin)].pack_offset) *
-               pack_size_;
+    return state_.data() + (packed_->rows[std::size_t(r)].pack_offset -
+                            packed_->rows[std::size_t(stored_begin)].pack_offset) *
+                               pack_size_;
   }
-  /// Of a row [numbers].
-  std::size_t row_length(int r) const { return std::size_t(packed_->rows[std::size_t(r)].packs) * pack_size_; }
+  /// Length of a row [numbers].
+  std::size_t row_length(int r) const {
+    return std::size_t(packed_->rows[std::size_t(r)].packs) * pack_size_;
+  }
   bool owns(int r) const { return r >= begin && r < end; }
   bool is_published(int r) const {
-    return (r < begin + halo_ && begin > 0) || (r >= end - halo_ && end < int(packed_->rows.size()));
+    return (r < begin + halo_ && begin > 0) ||
+           (r >= end - halo_ && end < int(packed_->rows.size()));
   }
   T* published(int r, int parity) {
     return published_[std::size_t(parity)].data() + published_offset_[std::size_t(r - begin)];
   }
   void publish(int r, int parity);
-  /// Row r of Y_{stage + 1}, in a ring that holds what stages up to the last still read.
+  /// Row r of Y_{stage + 1}, the output of a stage, in a ring. The ring keeps a row until the last
+  /// stage that reads it.
   T* ring_row(int stage, int r) { return ring_rows_[std::size_t(stage)][std::size_t(r)]; }
 
-  std::vector<CarryRings<T>> carry;     ///< one a sweep
-  int failed_row = -1, failed_step = 0; ///< step: counted from the first of the pass
+  std::vector<CarryRings<T>> carry; ///< one for each sweep
+  /// The failed step counts from the first of the pass.
+  int failed_row = -1, failed_step = 0;
   std::size_t bytes() const;
 
 private:
@@ -53,20 +63,24 @@ private:
   int halo_;
   Buffer<T> state_;
   std::array<Buffer<T>, 2> published_;
-  std::vector<std::size_t> published_offset_; ///< row after row without gaps: neighbouring rows make one message
+  /// Published rows follow one another without gaps, so that neighbouring rows make one message.
+  std::vector<std::size_t> published_offset_;
   std::vector<Buffer<T>> rings_;
-  std::vector<std::vector<T*>>
-      ring_rows_; ///< stage, row of the lattice: looked up, since divisions cost as much as a short row
+  /// [stage][row of the lattice]. A table, because a division would cost as much as a short row.
+  std::vector<std::vector<T*>> ring_rows_;
 };
 
-/// Signals of some stages as the kernels take them: row s of stage s, in T, and a constant 1 behind them.
+/// Signals of some stages as the kernels take them: one row for each stage, in numbers of type T,
+/// followed by a constant 1.
 template <class T>
 class StepSignals {
 public:
-  StepSignals(std::size_t count, int stages) : count_(count), values_(std::size_t(stages) * (count + 1), T(1)) {}
+  StepSignals(std::size_t count, int stages)
+      : count_(count), values_(std::size_t(stages) * (count + 1), T(1)) {}
   void set(const double* rows, int stages) {
     for (std::size_t s = 0; s < std::size_t(stages); ++s)
-      for (std::size_t n = 0; n < count_; ++n) values_[s * (count_ + 1) + n] = T(rows[s * count_ + n]);
+      for (std::size_t n = 0; n < count_; ++n)
+        values_[s * (count_ + 1) + n] = T(rows[s * count_ + n]);
   }
   const T* stage(int s) const { return values_.data() + std::size_t(s) * (count_ + 1); }
 
@@ -75,17 +89,21 @@ private:
   std::vector<T> values_;
 };
 
-/// How a stage updates the state, in T: beta f plus terms alpha (Y_m - y), the later ones as ratios to the first
-/// (kernels/stage_row/row.hpp).
+/// How a stage updates the state: out = y + beta f + sum of alpha (Y_m - y). Later alphas are
+/// ratios to the first (kernels/stage_row/row.hpp).
 template <class T>
 struct StageUpdate {
   row_action action = plain_stage;
   bool is_last = false;
-  int low = 0; ///< as in RowTask
+  int low = 0; ///< as RowTask::low
   T beta = 0;
-  std::vector<std::pair<int, T>> increments; ///< (stage whose output Y_m is; alpha or ratio)
-  T smoothing = 0, steps_ahead = 0;          ///< of a leapfrog's prediction (RowTask)
-  /// The part of a task that it determines; `stage_output(m)` is the row of the output of stage m.
+  /// Pairs of the stage m whose output is Y_m, and of alpha or its ratio.
+  std::vector<std::pair<int, T>> increments;
+  T smoothing = 0, steps_ahead = 0; ///< of a leapfrog's prediction, see RowTask
+  /// Sets what this update determines of a task.
+  /// @param base, out     rows of the present state and of the result
+  /// @param stage_output  function from m to the row of the output of stage m
+  /// @param step          length of the step, if the method has an error stage [s]
   template <class StageOutput>
   void set(RowTask<T>& task, T* base, T* out, StageOutput&& stage_output, T step = 1) const {
     task.action = action;
@@ -103,29 +121,46 @@ struct StageUpdate {
     }
   }
 };
-/// One for each stage of the method; `lanes` of a pack. A method with an error stage has a step of 1 here, and each its own in `set`. @throws std::logic_error for more terms in a stage than a task holds.
+/// The update of each stage of the method. With a method with an error stage, these have a step of
+/// 1, and set() gets the length of each step.
+/// @param lanes  lanes of a pack
+/// @param dt     step [s]
+/// @throws std::logic_error if a stage has more increments than a task holds
 template <class T>
-std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage, int lanes, double dt);
-/// Some methods update in place, so a step can follow `reach` rows behind the one before: several steps for one trip through memory, and one
-/// meeting of the threads. Measured: eight for a plate; four where a link reaches over a plane of rows, of which eight leave L2. Of several
-/// blocks so few that none recomputes more than a sixteenth of its work. @param cuts  as cut_rows gives them
+std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage,
+                                          int lanes, double dt);
+/// Steps that a pass computes. Methods in place can let a step follow `reach` rows behind the one
+/// before it, so several steps need only one trip through memory and one meeting of the threads. Up
+/// to eight if links reach one row (a plate), else up to four, since more rows would leave the L2
+/// cache. With several blocks, only so many that no block recomputes more than a sixteenth of its
+/// work.
+/// @param cuts  from cut_rows
 template <class T, int W>
-int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, const std::vector<int>& cuts);
-/// The last stage of a method that reads the output of stage s.
+int steps_a_pass(const PackedRows<T, W>& packed, const Method& method,
+                 const std::vector<int>& cuts);
+/// The last stage that reads the output of stage s.
 int last_reader(const Method& method, int s);
 
-/// Steps one block; `blocks` are all blocks. A pass over the rows makes one sweep for each stage of a step or, with a method in place, for
-/// several steps. What a sweep does to a row is the same in every pass (but for the parity of what neighbours publish, if it reads that
-/// itself), so all row tasks are made once: making them anew would cost as much as several packs of a row.
+/// Steps one block. A pass makes one sweep over the rows for each stage of its steps. What a sweep
+/// does to a row is the same in every pass, except for the parity of the published rows that it
+/// reads. So all row tasks are made once: making them anew would cost as much as several packs of a
+/// row.
 template <class T, int W = simd::lanes<T>>
 class WavefrontStep {
 public:
-  /// @param steps  of a pass, as all its blocks have them
-  WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt, const RowStorage& storage,
-                std::size_t signal_count, std::vector<Block<T, W>>& blocks, std::size_t index, int steps);
-  /// One pass of at most `steps` of the constructor, with the signals of their stages (signal_rows.hpp); `parity` says which published
-  /// copies are current. The block's own rows end up updated in place and published under the other parity. Sets the block's
-  /// failed_row and failed_step to the first row that the first failing step leaves non-finite.
+  /// @param dt      step [s]
+  /// @param blocks  all blocks
+  /// @param index   of this block
+  /// @param steps   steps of a pass, the same for all blocks
+  WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt,
+                const RowStorage& storage, std::size_t signal_count,
+                std::vector<Block<T, W>>& blocks, std::size_t index, int steps);
+  /// Computes one pass. It updates the block's own rows in place and publishes them under the other
+  /// parity. Sets the block's failed_row and failed_step to the first row that is non-finite after
+  /// the first failing step.
+  /// @param signals  rows of the pass's stages (signal_rows.hpp)
+  /// @param steps    at most those of the constructor
+  /// @param parity   which published copies are current
   void operator()(const double* signals, int steps, int parity);
   /// Calls `done` in each pass as soon as this row is updated and published.
   void watch(int row, std::function<void()> done) {
@@ -133,23 +168,27 @@ public:
     watched_row_done_ = std::move(done);
   }
   std::size_t bytes() const;
-  /// Describes the pass of a parity to one who computes it elsewhere, sweep by sweep: sweep(begin, end), prime(row, task, axis) for what
-  /// must come before the first row, row(number, is_whole, task).
+  /// Describes the pass of a parity to code that computes it elsewhere, sweep by sweep:
+  /// on_sweep(begin, end); on_prime(row, task, axis) for links that must come before the first row;
+  /// on_row(row, is_whole, task).
   template <class OnSweep, class OnPrime, class OnRow>
   void describe(int parity, OnSweep&& on_sweep, OnPrime&& on_prime, OnRow&& on_row);
 
 private:
   struct RowStage {
-    bool is_whole; ///< else this stage needs no more of the row than its links to upper rows
+    bool is_whole; ///< false: this stage needs only the row's links to upper rows
     RowTask<T> task;
   };
-  /// One stage of one step over rows [begin, end): the block, and what later sweeps of the pass read on either side.
+  /// One stage of one step over rows [begin, end): those of the block, and rows on both sides that
+  /// later sweeps of the pass read.
   struct Sweep {
     int begin, end;
     std::vector<RowStage> rows;
   };
-  T* published_row(int r, int parity) const { return published_rows_[std::size_t(parity)][std::size_t(r)]; }
-  /// Where a pass has the state of a row: here, or with a neighbour who published it.
+  T* published_row(int r, int parity) const {
+    return published_rows_[std::size_t(parity)][std::size_t(r)];
+  }
+  /// The place of a row's state during a pass: in this block, or published by a neighbour.
   T* stepped_row(int r, int parity) {
     const bool is_here = r >= block_.stored_begin && r < block_.stored_end;
     return is_here ? block_.row(r) : published_row(r, parity);
@@ -165,16 +204,18 @@ private:
   const int fields_, stages_, steps_;
   Block<T, W>& block_;
   StepSignals<T> signals_;
-  std::array<std::vector<T*>, 2> published_rows_; ///< parity, row: those of other blocks that this one reads
-  std::array<std::vector<Sweep>, 2>
-      sweeps_; ///< parity, sweep; one parity is enough where all that is read is the block's
+  /// [parity][row]: rows of other blocks that this one reads.
+  std::array<std::vector<T*>, 2> published_rows_;
+  /// [parity][sweep]. One parity is enough if the block stores all rows that it reads.
+  std::array<std::vector<Sweep>, 2> sweeps_;
   int watched_row_ = -1;
   std::function<void()> watched_row_done_;
 };
 
 template <class T, int W>
 template <class OnSweep, class OnPrime, class OnRow>
-void WavefrontStep<T, W>::describe(int parity, OnSweep&& on_sweep, OnPrime&& on_prime, OnRow&& on_row) {
+void WavefrontStep<T, W>::describe(int parity, OnSweep&& on_sweep, OnPrime&& on_prime,
+                                   OnRow&& on_row) {
   const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
   for (std::size_t n = 0; n < sweeps.size(); ++n) {
     const Sweep& sweep = sweeps[n];

@@ -14,13 +14,15 @@ double median(std::vector<double> values) {
 
 std::vector<double> speeds(std::span<const std::size_t> elements, std::span<const double> step_s) {
   std::vector<double> speed;
-  for (std::size_t m = 0; m < elements.size(); ++m) speed.push_back(double(elements[m]) / step_s[m]);
+  for (std::size_t m = 0; m < elements.size(); ++m)
+    speed.push_back(double(elements[m]) / step_s[m]);
   return speed;
 }
 
 double slowest_step_s(std::span<const std::size_t> elements, std::span<const double> speed) {
   double slowest = 0;
-  for (std::size_t m = 0; m < elements.size(); ++m) slowest = std::max(slowest, double(elements[m]) / speed[m]);
+  for (std::size_t m = 0; m < elements.size(); ++m)
+    slowest = std::max(slowest, double(elements[m]) / speed[m]);
   return slowest;
 }
 
@@ -32,12 +34,14 @@ void Balance::add(std::vector<double> step_s) {
 }
 
 bool Balance::is_uneven() const {
-  const auto slowest = [](const std::vector<double>& block) { // -1: none
+  const auto slowest = [](const std::vector<double>& block) { // -1: no member is
     const auto [least, most] = std::ranges::minmax_element(block);
     return *least < (1 - tolerated) * *most ? most - block.begin() : std::ptrdiff_t(-1);
   };
   return blocks_.size() == blocks_needed && slowest(blocks_.front()) >= 0 &&
-         std::ranges::all_of(blocks_, [&](const auto& block) { return slowest(block) == slowest(blocks_.front()); });
+         std::ranges::all_of(blocks_, [&](const auto& block) {
+           return slowest(block) == slowest(blocks_.front());
+         });
 }
 
 std::vector<double> Balance::step_s() const {

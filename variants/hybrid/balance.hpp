@@ -1,5 +1,6 @@
 #pragma once
-/// Whether members of a hybrid have the right shares, from their own times of steps. Knows no clock.
+/// Decides from the members' own times of steps whether their shares of the elements fit. It reads
+/// no clock itself, so that tests can give it times.
 #include <cstddef>
 #include <deque>
 #include <span>
@@ -7,38 +8,50 @@
 
 namespace dss {
 
-/// The middle one, or the mean of the two in the middle; 0 of none.
+/// The middle value, or the mean of the two in the middle; 0 if there is none.
 double median(std::vector<double> values);
 
-/// Elements a second.
+/// Speed of each part [elements/s].
+/// @param elements  elements of each part
+/// @param step_s    time of a step of each part [s]
 std::vector<double> speeds(std::span<const std::size_t> elements, std::span<const double> step_s);
 
-/// Of all parts with these speeds: that of the slowest.
+/// Time of a step of the slowest part [s].
+/// @param elements  elements of each part
+/// @param speed     speed of each part [elements/s]
 double slowest_step_s(std::span<const std::size_t> elements, std::span<const double> speed);
 
-/// Evidence from blocks of steps.
+/// Collects times of blocks of steps, and decides when elements should move.
 class Balance {
 public:
-  static constexpr double tolerated = 0.05;  ///< of the slowest member's step
-  static constexpr double worthwhile = 0.02; ///< what a move must save of a step
-  static constexpr long least_steps = 10;    ///< of a block
+  /// Tolerated difference, as a fraction of the slowest member's step.
+  static constexpr double tolerated = 0.05;
+  static constexpr double worthwhile = 0.02; ///< fraction of a step that a move must save
+  static constexpr long least_steps = 10;    ///< shortest block [steps]
 
-  /// How long a block lasts [s]. Each move doubles it, so that noise cannot make elements move for ever.
+  /// Duration of a block [s]. Each move doubles it (up to 64 times), so that noise cannot make
+  /// elements move for ever.
   double block_s() const;
-  /// Each member's median over a block [s].
+  /// Adds a block: each member's median time of a step [s].
   void add(std::vector<double> step_s);
-  /// Whether members differ by more than is tolerated in each of the last blocks_needed blocks, with the same one the slowest.
+  /// Whether the members' times differ by more than `tolerated` in each of the last blocks_needed
+  /// blocks, with the same slowest member.
   bool is_uneven() const;
-  /// Each member's mean of these blocks [s].
+  /// Each member's mean over these blocks [s].
   std::vector<double> step_s() const;
-  /// Elements have moved.
+  /// Call it after elements have moved.
   void moved();
-  /// What saves gain_s a step of now_s for some steps more is worth moving_s.
+  /// Whether a move pays.
+  /// @param now_s     present time of a step [s]
+  /// @param gain_s    time that the move saves in a step [s]
+  /// @param steps     steps to come
+  /// @param moving_s  time of the move [s]
   static bool pays(double now_s, double gain_s, double steps, double moving_s);
 
 private:
   static constexpr std::size_t blocks_needed = 3;
-  std::deque<std::vector<double>> blocks_; ///< the last ones
+  /// The last blocks_needed blocks: each member's time of a step [s].
+  std::deque<std::vector<double>> blocks_;
   int moves_ = 0;
 };
 

@@ -1,14 +1,15 @@
 #include "variants/hybrid/exchange.hpp"
 
+#include "variants/engine/wake.hpp"
 #include "variants/hybrid/clock.hpp"
-#include "variants/wake.hpp"
 
 #include <sched.h>
 
 namespace dss {
 
-constexpr int most_spins = 2000; ///< 20 to 100 us: neighbours in step are no longer apart, and a nap costs as much
-constexpr std::uint32_t stopped = std::uint32_t(-1); ///< fills a slot in place of a message
+/// About 20 to 100 us: members in step differ by less, and sleeping costs as much.
+constexpr int most_spins = 2000;
+constexpr std::uint32_t stopped = std::uint32_t(-1); ///< fills a slot in place of a message number
 
 Channel& Exchange::channel(int from, int to) {
   const std::lock_guard lock(mutex_);
@@ -20,7 +21,8 @@ Channel& Exchange::channel(int from, int to) {
 void Exchange::await(const Channel::Slot& slot, std::uint32_t number) const {
   for (int spins = 0;; ++spins) {
     const std::uint32_t found = slot.filled.load(std::memory_order_acquire);
-    if (found == number || is_stopped()) return; // in this order: stop() changes the slot after the flag
+    if (found == number || is_stopped())
+      return; // in this order: stop() changes the slot after the flag
     if (!is_crowded_ && spins < most_spins)
       __builtin_ia32_pause();
     else if (is_crowded_ && spins == 0)
@@ -48,9 +50,9 @@ MemberHalo::MemberHalo(const Part& part, Exchange& exchange) : exchange_(exchang
 
 void MemberHalo::open(Executor& executor, bool is_mixed, std::size_t number_bytes) {
   for (Face& face : faces_) {
-    for (int copy = 0; copy < executor.halo_copies(); ++copy) {
-      face.send.push_back(executor.halo_layout(face.neighbour->send, copy));
-      face.receive.push_back(executor.halo_layout(face.neighbour->receive, copy));
+    for (int copy = 0; copy < halo_copies(executor); ++copy) {
+      face.send.push_back(halo_layout(executor, face.neighbour->send, copy));
+      face.receive.push_back(halo_layout(executor, face.neighbour->receive, copy));
     }
     for (Channel::Slot& slot : face.out->slots) slot.message.resize(face.send.front().size);
     if (is_mixed) face.out->order = message_order(executor, face.neighbour->send, 0, number_bytes);
@@ -62,10 +64,11 @@ void MemberHalo::connect(Executor& executor, std::size_t number_bytes) {
     if (face.in->slots[0].message.size() != face.receive.front().size)
       throw std::logic_error("halo: two members do not store the same numbers of an element");
     if (face.in->order.empty()) continue;
-    for (int copy = 0; copy < executor.halo_copies(); ++copy)
+    for (int copy = 0; copy < halo_copies(executor); ++copy)
       face.receive[std::size_t(copy)] =
           reordered(face.receive[std::size_t(copy)],
-                    message_order(executor, face.neighbour->receive, copy, number_bytes), face.in->order, number_bytes);
+                    message_order(executor, face.neighbour->receive, copy, number_bytes),
+                    face.in->order, number_bytes);
   }
 }
 

@@ -1,9 +1,10 @@
 #pragma once
-#include "variants/api.hpp"
+#include "variants/api/api.hpp"
 
 namespace dss {
 
-/// The executor of the variant `hybrid`, members as Setup says. @throws InputError: what is wrong with them
+/// The executor of the variant `hybrid`, with the members that Setup names.
+/// @throws InputError that says what is wrong with the members
 std::unique_ptr<Executor> create_hybrid(const Setup& setup);
 
 } // namespace dss

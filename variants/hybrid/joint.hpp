@@ -1,5 +1,6 @@
 #pragma once
-/// Several members compute one scene together, each in a thread of its own, and keep their shares in balance.
+/// Several members compute one scene together, each in a thread of its own. Elements move between
+/// them to keep their shares in balance.
 #include "variants/hybrid/balance.hpp"
 #include "variants/hybrid/member_part.hpp"
 #include "variants/hybrid/team.hpp"
@@ -10,24 +11,35 @@
 
 namespace dss {
 
-/// A step of a member's part, as a test would have it instead of as measured [s].
+/// Time of a step of a member's part [s], given by a test in place of a measurement.
 using StepTime = std::function<double(std::size_t member, std::size_t elements)>;
 
-class JointExecutor final : public Executor {
+/// The executor of two or more members.
+class JointExecutor final : public Executor,
+                            public StepTrials,
+                            public StateTransfer,
+                            public DeviceWork,
+                            public HybridMembers {
 public:
-  /// Shares are as the members' weights say; without weights they are calibrated by a few steps of all members at once.
-  /// @param setup  of the whole scene  @param participants  two or more, at most as many as rows; weights: all or none
-  /// @param step_time  null: as measured
+  /// First shares are the members' weights. Without weights a few steps of all members together
+  /// decide.
+  /// @param setup         of the whole scene
+  /// @param participants  two or more, at most as many as rows; all have weights or none
+  /// @param step_time     null: times are measured
   JointExecutor(const Setup& setup, std::vector<Participant> participants, StepTime step_time = {});
   ~JointExecutor() override;
 
   void write(std::size_t first, std::span<const double> fields) override;
   void read(std::size_t first, std::span<double> fields) override;
   void derivative(std::span<const double> signals, std::span<double> rates) override;
-  /// A member whose state fails goes on to the end of the block of steps; then the first failure of all counts. After an exception of
-  /// a member no more can be computed.
+  /// A member whose state fails continues to the end of the block of steps; then the first failure
+  /// of all members counts. After an exception of a member nothing more can be computed.
   Outcome advance(long steps, std::span<const double> signals) override;
-  /// With the shares as they are.
+  StepTrials* step_trials() override { return this; }
+  StateTransfer* state_transfer() override { return this; }
+  DeviceWork* device_work() override { return this; }
+  HybridMembers* hybrid_members() override { return this; }
+  /// Shares stay as they are.
   StepMaxima try_step(double dt, std::span<const double> signals) override;
   void accept_step() override;
   std::string schedule() const override;
@@ -41,16 +53,17 @@ public:
 
 private:
   using Act = std::function<void(MemberPart& member, std::size_t index)>;
-  /// In each member's thread. One that throws keeps no other waiting.
+  /// Calls `act` in each member's thread. If one throws, the others do not wait for it.
   void each_member(const Act& act);
   void build(Decomposition decomposition);
   void calibrate();
-  /// A block of steps, or less. @return the first failure of all members
+  /// Runs a block of steps, or fewer.
+  /// @return the first failure of all members
   Outcome run(long steps, std::span<const double> signals);
-  /// What the members' steps have taken in this block.
+  /// Takes the members' times of a step in this block.
   void take_times();
   void begin_block();
-  /// Decomposes anew if that pays for steps_ahead steps more.
+  /// Decomposes anew if that pays within the next steps_ahead steps.
   void rebalance(double steps_ahead);
   void move(Decomposition decomposition);
   long block_steps() const;
@@ -64,13 +77,13 @@ private:
   std::vector<std::unique_ptr<MemberPart>> parts_;
   DeviceUse past_use_; ///< by members before elements moved
   Balance balance_;
-  std::vector<double> step_s_; ///< of each member, as measured last
-  double build_s_ = 0;         ///< what the last decomposition took to set up
-  long block_done_ = 0;        ///< steps of the block at hand
+  std::vector<double> step_s_; ///< of each member, last measured [s]
+  double build_s_ = 0;         ///< time to set up the last decomposition [s]
+  long block_done_ = 0;        ///< steps of the present block
   double steps_done_ = 0;
   int rebalances_ = 0;
   bool is_broken_ = false;
-  Team team_; ///< last: ends first
+  Team team_; ///< last member of the class, so that it ends first
 };
 
 } // namespace dss

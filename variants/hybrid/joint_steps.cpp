@@ -1,4 +1,4 @@
-/// The steps of members together, and how their shares are kept in balance.
+/// The steps of members together, and the balance of their shares.
 #include "solver/numerics/signal_rows.hpp"
 #include "variants/hybrid/clock.hpp"
 #include "variants/hybrid/joint.hpp"
@@ -10,11 +10,13 @@
 namespace dss {
 
 Outcome JointExecutor::advance(long steps, std::span<const double> signals) {
-  const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
+  const std::size_t width = signal_count(setup_.problem),
+                    step_width = width * std::size_t(setup_.method.stages);
   for (long done = 0; done < steps;) {
     if (balance_.is_uneven()) rebalance(std::max(double(steps - done), steps_done_));
     const long at_once = std::min(steps - done, block_steps() - block_done_);
-    const auto own = signals.subspan(std::size_t(done) * step_width, std::size_t(at_once) * step_width + width);
+    const auto own =
+        signals.subspan(std::size_t(done) * step_width, std::size_t(at_once) * step_width + width);
     if (const Outcome outcome = run(at_once, own); !outcome.is_finite)
       return {false, done + outcome.step, outcome.element};
     done += at_once;
@@ -37,15 +39,17 @@ StepMaxima JointExecutor::try_step(double dt, std::span<const double> signals) {
 }
 
 void JointExecutor::accept_step() {
-  each_member([](MemberPart& member, std::size_t) { member.executor().accept_step(); });
+  each_member([](MemberPart& member, std::size_t) { adaptive(member.executor()).accept_step(); });
 }
 
 Outcome JointExecutor::run(long steps, std::span<const double> signals) {
   std::vector<Outcome> outcomes(parts_.size());
-  each_member([&](MemberPart& member, std::size_t m) { outcomes[m] = member.advance(steps, signals); });
+  each_member(
+      [&](MemberPart& member, std::size_t m) { outcomes[m] = member.advance(steps, signals); });
   Outcome first{true, steps, 0};
   for (const Outcome& one : outcomes)
-    if (!one.is_finite && (first.is_finite || std::pair(one.step, one.element) < std::pair(first.step, first.element)))
+    if (!one.is_finite && (first.is_finite ||
+                           std::pair(one.step, one.element) < std::pair(first.step, first.element)))
       first = one;
   return first;
 }
@@ -69,11 +73,14 @@ void JointExecutor::begin_block() {
 
 void JointExecutor::rebalance(double steps_ahead) {
   const std::vector<double> step_s = balance_.step_s(), speed = speeds(elements_, step_s);
-  if (kept_fields() == 0 || !std::ranges::all_of(speed, [](double v) { return std::isfinite(v) && v > 0; })) return;
+  if (kept_fields() == 0 ||
+      !std::ranges::all_of(speed, [](double v) { return std::isfinite(v) && v > 0; }))
+    return;
   Decomposition next = decompose(setup_.problem, "strips", decomposition_.parts, {speed, {}});
   const double now = *std::ranges::max_element(step_s);
   const double gain = now - slowest_step_s(part_elements(next, setup_.problem.lattice), speed);
-  if (next.shares == decomposition_.shares || !Balance::pays(now, gain, steps_ahead, build_s_)) return;
+  if (next.shares == decomposition_.shares || !Balance::pays(now, gain, steps_ahead, build_s_))
+    return;
   move(std::move(next));
   balance_.moved();
   ++rebalances_;
@@ -90,7 +97,8 @@ void JointExecutor::move(Decomposition decomposition) {
   build_s_ = now_s() - began_s;
 }
 
-/// Steps of the scene at rest, until the shares fit or three decompositions have been tried. The state is zero again afterwards.
+/// Does steps of the scene at rest until the shares fit, with at most three decompositions. The
+/// state is zero again afterwards.
 void JointExecutor::calibrate() {
   constexpr int rounds = 3, most_steps = 1 << 14;
   constexpr long least_steps = 4;

@@ -13,18 +13,19 @@ namespace {
 std::unique_ptr<Executor> make_executor(const Setup& whole, const Participant& participant,
                                         const PartSetup& part_setup) {
   const Member& member = participant.member;
-  auto executor = participant.plugin->create({part_setup.part.problem, whole.method, whole.model, whole.precision,
-                                              whole.dt, member.threads, &part_setup, nullptr, member.device});
-  if (executor->halo_copies() == 0)
-    throw InputError(fmt::format("hybrid: {}: {} does not compute parts; give one that does", name(member),
-                                 participant.plugin->name));
+  auto executor = participant.plugin->create({part_setup.part.problem, whole.method, whole.model,
+                                              whole.precision, whole.dt, member.threads,
+                                              &part_setup, nullptr, member.device});
+  if (halo_copies(*executor) == 0)
+    throw InputError(fmt::format("hybrid: {}: {} does not compute parts; give one that does",
+                                 name(member), participant.plugin->name));
   return executor;
 }
 
 } // namespace
 
-MemberPart::MemberPart(const Setup& whole, const Participant& participant, const Decomposition& decomposition,
-                       int index, Exchange& exchange)
+MemberPart::MemberPart(const Setup& whole, const Participant& participant,
+                       const Decomposition& decomposition, int index, Exchange& exchange)
     : part_(make_part(whole.problem, decomposition, index, whole.method.stages)),
       halo_(part_, exchange), part_setup_{part_, halo_, false, true},
       executor_(make_executor(whole, participant, part_setup_)) {}
@@ -42,7 +43,7 @@ Outcome MemberPart::advance(long steps, std::span<const double> signals) {
 
 StepMaxima MemberPart::try_step(double dt, std::span<const double> signals) {
   halo_.start_steps();
-  const StepMaxima maxima = executor_->try_step(dt, signals);
+  const StepMaxima maxima = adaptive(*executor_).try_step(dt, signals);
   halo_.end_steps();
   return maxima;
 }
@@ -50,13 +51,13 @@ StepMaxima MemberPart::try_step(double dt, std::span<const double> signals) {
 double MemberPart::step_s() {
   const double steps = double(std::max(1L, block_steps_));
   if (part_.neighbours.empty()) return block_s_ / steps;
-  const double computed_s = executor_->computing_s();
+  const double computed_s = dss::computing_s(*executor_);
   return computed_s < 0 ? median(halo_.step_s()) : (computed_s - computed_s_) / steps;
 }
 
 void MemberPart::begin_block() {
   halo_.step_s().clear();
-  computed_s_ = executor_->computing_s();
+  computed_s_ = dss::computing_s(*executor_);
   block_s_ = 0;
   block_steps_ = 0;
 }

@@ -5,7 +5,8 @@
 namespace dss {
 
 Team::Team(std::size_t members) {
-  for (std::size_t member = 0; member < members; ++member) threads_.emplace_back([this, member] { serve(member); });
+  for (std::size_t member = 0; member < members; ++member)
+    threads_.emplace_back([this, member] { serve(member); });
 }
 
 Team::~Team() {

@@ -1,5 +1,5 @@
 #pragma once
-/// One thread for each member of a hybrid, for as long as the members live.
+/// A thread for each member of a hybrid, for as long as the members live.
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -9,6 +9,7 @@
 
 namespace dss {
 
+/// The threads of the members.
 class Team {
 public:
   using Work = std::function<void(std::size_t member)>;
@@ -17,8 +18,9 @@ public:
   Team& operator=(const Team&) = delete;
   ~Team();
   std::size_t size() const { return threads_.size(); }
-  /// Does work(member) in the thread of each member; returns when all have. @throws what the first member that failed threw; work
-  /// that waits for other members must not wait for one that has thrown
+  /// Calls work(member) in each member's thread. Returns when all calls have ended. Work that waits
+  /// for other members must not wait for a member that has thrown.
+  /// @throws what the first failing member threw
   void run(const Work& work);
 
 private:

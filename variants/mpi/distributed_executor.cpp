@@ -1,7 +1,7 @@
 #include "variants/mpi/distributed_executor.hpp"
 
 #include "solver/error.hpp"
-#include "variants/loader.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace dss {
 
-/// Each text once, in the order of ranks.
+/// Each text once, in the order of ranks, separated by commas.
 static std::string joined(const std::vector<std::string>& texts) {
   std::vector<std::string> distinct;
   for (const std::string& text : texts)
@@ -22,7 +22,8 @@ const Plugin& DistributedExecutor::find_plugin(Setup& setup) {
   std::string variant = setup.distribution->variant;
   if (!setup.members.empty()) {
     if (setup.members == "auto")
-      throw InputError("--hybrid auto chooses among executors of one process; name the members of ranks");
+      throw InputError(
+          "--hybrid auto chooses among executors of one process; name the members of ranks");
     const std::vector<Member> members = parse_members(setup.members);
     const Member& own = members[std::size_t(world_.rank()) % members.size()];
     variant = own.variant;
@@ -51,16 +52,18 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   info_.halo = found.halo->name;
   info_.halo_reason = found.halo_reason;
   info_.network = found.network;
-  info_.imbalance =
-      world_.largest(double(part_->part().own_elements)) * world_.ranks() / double(setup.problem.lattice.element_count);
+  info_.imbalance = world_.largest(double(part_->part().own_elements)) * world_.ranks() /
+                    double(setup.problem.lattice.element_count);
   for (const double workers : world_.gather(part_->executor().workers())) workers_ += int(workers);
-  for (const double bytes : world_.gather(double(part_->executor().bytes()))) bytes_ += std::size_t(bytes);
+  for (const double bytes : world_.gather(double(part_->executor().bytes())))
+    bytes_ += std::size_t(bytes);
 }
 
 template <class Visit>
 void DistributedExecutor::each_own(std::size_t first, std::size_t count, Visit&& visit) const {
   for (const Run& run : part_->part().runs) {
-    const std::size_t begin = std::max(first, run.global), end = std::min(first + count, run.global + run.count);
+    const std::size_t begin = std::max(first, run.global),
+                      end = std::min(first + count, run.global + run.count);
     if (begin < end) visit(run.local + (begin - run.global), begin, end - begin);
   }
 }
@@ -73,19 +76,23 @@ std::size_t DistributedExecutor::global_of(std::size_t local) const {
 }
 
 void DistributedExecutor::write(std::size_t first, std::span<const double> fields) {
-  part_->executor().write(
-      0, {}); // a method that must stop for it stops on all ranks, whether they own any of these or not
-  each_own(first, fields.size() / field_count, [&](std::size_t local, std::size_t global, std::size_t count) {
-    part_->executor().write(local, fields.subspan((global - first) * field_count, count * field_count));
-  });
+  // A write stops leapfrog on all ranks, even on those that own none of these elements.
+  part_->executor().write(0, {});
+  each_own(first, fields.size() / field_count,
+           [&](std::size_t local, std::size_t global, std::size_t count) {
+             part_->executor().write(
+                 local, fields.subspan((global - first) * field_count, count * field_count));
+           });
 }
 
 void DistributedExecutor::read(std::size_t first, std::span<double> fields) {
-  part_->executor().read(0, {}); // collective for leapfrog
+  part_->executor().read(0, {}); // collective, since leapfrog needs halos for it
   std::fill(fields.begin(), fields.end(), 0.0);
-  each_own(first, fields.size() / field_count, [&](std::size_t local, std::size_t global, std::size_t count) {
-    part_->executor().read(local, fields.subspan((global - first) * field_count, count * field_count));
-  });
+  each_own(first, fields.size() / field_count,
+           [&](std::size_t local, std::size_t global, std::size_t count) {
+             part_->executor().read(
+                 local, fields.subspan((global - first) * field_count, count * field_count));
+           });
   world_.join(fields);
 }
 
@@ -94,7 +101,8 @@ void DistributedExecutor::derivative(std::span<const double> signals, std::span<
   part_->executor().derivative(signals, own);
   std::fill(rates.begin(), rates.end(), 0.0);
   for (const Run& run : part_->part().runs)
-    std::copy_n(&own[run.local * field_count], run.count * field_count, &rates[run.global * field_count]);
+    std::copy_n(&own[run.local * field_count], run.count * field_count,
+                &rates[run.global * field_count]);
   world_.join(rates);
 }
 
@@ -104,7 +112,8 @@ Outcome DistributedExecutor::advance(long steps, std::span<const double> signals
   const double step = world_.least(own.is_finite ? never : double(own.step));
   if (step == never) return {true, steps, 0};
   const bool is_first = !own.is_finite && double(own.step) == step;
-  return {false, long(step), std::size_t(world_.least(is_first ? double(global_of(own.element)) : never))};
+  return {false, long(step),
+          std::size_t(world_.least(is_first ? double(global_of(own.element)) : never))};
 }
 
 StepMaxima DistributedExecutor::try_step(double dt, std::span<const double> signals) {
@@ -120,8 +129,8 @@ StepMaxima DistributedExecutor::try_step(double dt, std::span<const double> sign
 }
 
 std::string DistributedExecutor::schedule() const {
-  return fmt::format("{} rank{}, {}, halo {}; {}", info_.ranks, info_.ranks == 1 ? "" : "s", info_.decomposition,
-                     info_.halo, part_->executor().schedule());
+  return fmt::format("{} rank{}, {}, halo {}; {}", info_.ranks, info_.ranks == 1 ? "" : "s",
+                     info_.decomposition, info_.halo, part_->executor().schedule());
 }
 
 } // namespace dss

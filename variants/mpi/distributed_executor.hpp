@@ -1,5 +1,6 @@
 #pragma once
-/// One problem on all ranks of a job: each computes its part by the executor of another variant.
+/// Computes one problem on all ranks of a job. Each rank computes its part with the executor of
+/// another variant.
 #include "variants/mpi/distributed_part.hpp"
 #include "variants/mpi/spread.hpp"
 
@@ -7,17 +8,20 @@
 
 namespace dss {
 
-class DistributedExecutor final : public Executor {
+/// All calls are collective, except rank_info, traffic, workers, bytes, schedule and work_alone.
+class DistributedExecutor final : public Executor, public StepTrials, public RankGroup {
 public:
   explicit DistributedExecutor(const Setup& setup);
   void write(std::size_t first, std::span<const double> fields) override;
   void read(std::size_t first, std::span<double> fields) override;
   void derivative(std::span<const double> signals, std::span<double> rates) override;
-  /// A rank whose state fails goes on to the end of the call, since others wait for it; then all agree on the first
-  /// failure.
+  /// A rank whose state fails continues to the end of the call, because others wait for it. Then
+  /// all ranks agree on the first failure.
   Outcome advance(long steps, std::span<const double> signals) override;
+  StepTrials* step_trials() override { return this; }
+  RankGroup* rank_group() override { return this; }
   StepMaxima try_step(double dt, std::span<const double> signals) override;
-  void accept_step() override { part_->executor().accept_step(); }
+  void accept_step() override { adaptive(part_->executor()).accept_step(); }
   std::string schedule() const override;
   int workers() const override { return workers_; }
   std::size_t bytes() const override { return bytes_; }
@@ -27,11 +31,13 @@ public:
   std::vector<double> gather(double value) override { return world_.gather(value); }
 
 private:
-  /// Calls visit(local first, global first, count) for the own elements among [first, first + count).
+  /// Calls visit(local first, global first, count) for the own elements among [first, first +
+  /// count).
   template <class Visit>
   void each_own(std::size_t first, std::size_t count, Visit&& visit) const;
   std::size_t global_of(std::size_t local) const;
-  /// This rank's, of what the setup asks for; all ranks' in info_.
+  /// Finds this rank's variant and puts its device and threads into the setup. Joins the names of
+  /// all ranks' variants in info_. Collective.
   const Plugin& find_plugin(Setup& setup);
 
   World& world_;

@@ -14,21 +14,24 @@
 namespace dss {
 namespace {
 
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 } // namespace
 
 Fault Fault::of_rank(int rank) {
   const char* text = std::getenv("DSSBENCH_FAULT");
   if (text == nullptr) return {};
-  static const std::map<std::string, Kind> kinds = {{"die", Kind::die}, {"hang", Kind::hang}, {"slow", Kind::slow}};
+  static const std::map<std::string, Kind> kinds = {
+      {"die", Kind::die}, {"hang", Kind::hang}, {"slow", Kind::slow}};
   char kind[8] = "";
   int faulty = 0;
   double number = 0;
   const bool is_read = std::sscanf(text, "%7[a-z]:%d:%lf", kind, &faulty, &number) == 3;
   if (!is_read || !kinds.contains(kind))
-    throw InputError(
-        fmt::format("DSSBENCH_FAULT={}: give die:RANK:EXCHANGE, hang:RANK:EXCHANGE or slow:RANK:FACTOR", text));
+    throw InputError(fmt::format(
+        "DSSBENCH_FAULT={}: give die:RANK:EXCHANGE, hang:RANK:EXCHANGE or slow:RANK:FACTOR", text));
   return faulty == rank ? Fault{kinds.at(kind), number} : Fault{};
 }
 
@@ -50,7 +53,7 @@ void FaultyHalo::receive(Side side, int copy) {
 
 void FaultyHalo::start() { computing_since_s_ = now_s(); }
 
-/// Between two calls a rank computes.
+/// A rank computes between two calls. Prolongs that time by the factor.
 void FaultyHalo::compute_slowly() const {
   const double start_s = now_s(), computed_s = start_s - computing_since_s_;
   if (fault_.kind != Fault::Kind::slow) return;

@@ -1,8 +1,8 @@
 #pragma once
-/// How the halos of parts on ranks are exchanged: one class a transport (variants/distribution.hpp names the
-/// strategies). Also compiled for simulated clusters.
-#include "variants/distribution.hpp"
-#include "variants/halo.hpp"
+/// The exchange of halos between ranks: one class for each transport (the strategies are in
+/// variants/api/distribution.hpp). This code is also compiled for simulated clusters.
+#include "variants/api/distribution.hpp"
+#include "variants/api/halo.hpp"
 
 #include <functional>
 #include <memory>
@@ -11,20 +11,22 @@
 
 namespace dss {
 
-/// One neighbour of a part: rank n computes part n.
+/// A face: one neighbour of a part. Rank n computes part n.
 struct Face {
   int rank = 0;
   Side side = Side::among;
-  std::size_t number = 0; ///< among the part's neighbours
+  std::size_t number = 0; ///< index among the part's neighbours
 };
 enum class Way { out, in };
 std::vector<Face> faces_of(const Part& part);
 
+/// Exchanges the halos of one rank's part with its neighbours. Implementations: transports.hpp.
 class HaloExchange : public Halo {
 public:
-  /// Where what a face sends or receives lies in a copy: Executor::halo_layout, or a stand-in for it.
+  /// Function that gives the layout of what a face sends or receives in a copy:
+  /// Executor::halo_layout, or a stand-in for it.
   using LayoutOf = std::function<HaloLayout(const Face& face, Way way, int copy)>;
-  /// Makes everything ready that needs to know the memory. Collective.
+  /// Prepares everything that depends on the executor's memory. Collective.
   virtual void attach(int copies, const LayoutOf& layout_of) = 0;
   const Traffic& traffic() const { return traffic_; }
   const std::vector<Face>& faces() const { return faces_; }
@@ -39,10 +41,10 @@ protected:
   Traffic traffic_;
 };
 
-/// Times what an exchange takes of its rank's time, copies included.
+/// Adds up the time of a rank in exchanges, including copies.
 class TimedHalo final : public Halo {
 public:
-  /// @param tell_alone  tells the other ranks what Halo::work_alone says
+  /// @param tell_alone  called with the argument of Halo::work_alone, to tell the other ranks
   TimedHalo(HaloExchange& exchange, std::function<void(bool)> tell_alone);
   void send(Side side, int copy) override;
   void receive(Side side, int copy) override;
@@ -52,11 +54,9 @@ public:
 private:
   HaloExchange& exchange_;
   const std::function<void(bool)> tell_alone_;
-  bool has_side_[std::size(all_sides)] = {}; ///< sides without neighbours are not worth a look at the clock
+  /// Sides without neighbours are skipped, since even reading the clock costs time.
+  bool has_side_[std::size(all_sides)] = {};
   double total_s_ = 0;
 };
-
-/// The exchange of a transport between the ranks of `comm`. Collective.
-std::unique_ptr<HaloExchange> make_exchange(HaloStrategy::Transport transport, std::vector<Face> faces, MPI_Comm comm);
 
 } // namespace dss

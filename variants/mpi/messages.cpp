@@ -6,10 +6,11 @@
 namespace dss {
 namespace {
 
-/// A message that is sent or received again and again, by one request.
+/// A message that one persistent request sends or receives many times.
 class PersistentMessage {
 public:
-  PersistentMessage(Way way, HaloLayout layout, int rank, MPI_Comm comm) : layout_(std::move(layout)) {
+  PersistentMessage(Way way, HaloLayout layout, int rank, MPI_Comm comm)
+      : layout_(std::move(layout)) {
     const int size = count_of(layout_.size);
     is_direct_ = layout_.is_stable && layout_.pieces.size() == 1;
     if (!is_direct_) buffer_.resize(layout_.size);
@@ -20,8 +21,8 @@ public:
       MPI_Recv_init(memory, size, MPI_BYTE, rank, 0, comm, &request_);
   }
   PersistentMessage(PersistentMessage&& other) noexcept
-      : layout_(std::move(other.layout_)), buffer_(std::move(other.buffer_)), is_direct_(other.is_direct_),
-        request_(std::exchange(other.request_, MPI_REQUEST_NULL)) {}
+      : layout_(std::move(other.layout_)), buffer_(std::move(other.buffer_)),
+        is_direct_(other.is_direct_), request_(std::exchange(other.request_, MPI_REQUEST_NULL)) {}
   PersistentMessage& operator=(PersistentMessage&&) = delete;
   ~PersistentMessage() {
     if (request_ != MPI_REQUEST_NULL) MPI_Request_free(&request_);
@@ -48,13 +49,15 @@ private:
 
 class MessageExchange final : public HaloExchange {
 public:
-  MessageExchange(std::vector<Face> faces, MPI_Comm comm) : HaloExchange(std::move(faces)), comm_(comm) {}
+  MessageExchange(std::vector<Face> faces, MPI_Comm comm)
+      : HaloExchange(std::move(faces)), comm_(comm) {}
 
   void attach(int copies, const LayoutOf& layout_of) override {
     for (const Face& face : faces_) {
       messages_.emplace_back();
       for (int copy = 0; copy < copies; ++copy) {
-        messages_.back().out.emplace_back(Way::out, layout_of(face, Way::out, copy), face.rank, comm_);
+        messages_.back().out.emplace_back(Way::out, layout_of(face, Way::out, copy), face.rank,
+                                          comm_);
         messages_.back().in.emplace_back(Way::in, layout_of(face, Way::in, copy), face.rank, comm_);
       }
     }
@@ -76,14 +79,15 @@ public:
       FaceMessages& messages = messages_[f];
       const Waiting waiting(faces_[f].rank);
       messages.in[std::size_t(copy)].finish_receiving();
-      // Large messages go on only inside MPI's calls: a rank that left with its own half sent would hold its neighbour up for a step.
+      // Large messages make progress only inside MPI calls. A rank that left with half of its
+      // message sent would delay its neighbour by a step.
       messages.out[std::size_t(copy)].finish();
     }
   }
 
 private:
   struct FaceMessages {
-    std::vector<PersistentMessage> out, in; ///< by copy
+    std::vector<PersistentMessage> out, in; ///< of each copy
   };
   MPI_Comm comm_;
   std::vector<FaceMessages> messages_;

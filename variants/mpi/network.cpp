@@ -9,9 +9,10 @@
 namespace dss {
 namespace {
 
-constexpr int repetitions = 20, small_bytes = 8, large_bytes = 256 * 1024, eager_message = 32 * 1024;
+constexpr int repetitions = 20, small_bytes = 8, large_bytes = 256 * 1024,
+              eager_message = 32 * 1024;
 
-/// Least time of a message one way [s].
+/// Least time of a message in one direction [s].
 double one_way_s(MPI_Comm comm, int rank, int partner, std::vector<std::byte>& message, int bytes) {
   double least = std::numeric_limits<double>::infinity();
   for (int n = 0; n < repetitions; ++n) {
@@ -25,18 +26,21 @@ double one_way_s(MPI_Comm comm, int rank, int partner, std::vector<std::byte>& m
   return least;
 }
 
-/// Least time that the processor is busy with sending a message [s].
-double overhead_s(MPI_Comm comm, int rank, int partner, std::vector<std::byte>& message, int bytes) {
+/// Least time that a processor is busy to send a message [s].
+double overhead_s(MPI_Comm comm, int rank, int partner, std::vector<std::byte>& message,
+                  int bytes) {
   double least = std::numeric_limits<double>::infinity();
   for (int n = 0; n < repetitions; ++n) {
     const Waiting waiting(partner);
     MPI_Request request = MPI_REQUEST_NULL;
-    if (rank > partner) MPI_Recv(message.data(), bytes, MPI_BYTE, partner, 0, comm, MPI_STATUS_IGNORE);
+    if (rank > partner)
+      MPI_Recv(message.data(), bytes, MPI_BYTE, partner, 0, comm, MPI_STATUS_IGNORE);
     const double start = MPI_Wtime();
     MPI_Isend(message.data(), bytes, MPI_BYTE, partner, 0, comm, &request);
     least = std::min(least, MPI_Wtime() - start);
     MPI_Wait(&request, MPI_STATUS_IGNORE);
-    if (rank < partner) MPI_Recv(message.data(), bytes, MPI_BYTE, partner, 0, comm, MPI_STATUS_IGNORE);
+    if (rank < partner)
+      MPI_Recv(message.data(), bytes, MPI_BYTE, partner, 0, comm, MPI_STATUS_IGNORE);
   }
   return least;
 }

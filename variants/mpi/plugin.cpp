@@ -1,10 +1,13 @@
-/// The variant `mpi`: ranks, each with the executor of another variant. Without mpirun it is one rank.
+/// The variant `mpi`: several ranks, each with the executor of another variant. Without mpirun
+/// there is one rank.
 #include "variants/mpi/distributed_executor.hpp"
 
 namespace dss {
 namespace {
 
-std::unique_ptr<Executor> create(const Setup& setup) { return std::make_unique<DistributedExecutor>(setup); }
+std::unique_ptr<Executor> create(const Setup& setup) {
+  return std::make_unique<DistributedExecutor>(setup);
+}
 
 void end(int exit_code, bool is_in_order) {
   if (World::is_started()) World::instance().end(exit_code, is_in_order);

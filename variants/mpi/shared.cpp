@@ -10,29 +10,35 @@
 namespace dss {
 namespace {
 
-/// A message in the sender's part of the window. Two take turns: when the sender fills one again, it has had an answer
-/// to the other, which the receiver gives only after it has read this one.
+/// A message in the sender's part of the window. Each face has two slots, used in turn, so messages
+/// n and n + 2 share one. The sender writes n + 2 after it has received the neighbour's message n +
+/// 1, which the neighbour sends only after it has read message n.
 struct alignas(64) Slot {
-  std::atomic<std::uint64_t> filled; ///< number of the message that is here, counted from 1
+  std::atomic<std::uint64_t> filled; ///< number of the message in the slot, counted from 1
 };
 
 constexpr std::size_t cache_line = 64;
-std::size_t slot_size(std::size_t bytes) { return sizeof(Slot) + (bytes + cache_line - 1) / cache_line * cache_line; }
+std::size_t slot_size(std::size_t bytes) {
+  return sizeof(Slot) + (bytes + cache_line - 1) / cache_line * cache_line;
+}
 
 class SharedExchange final : public HaloExchange {
 public:
-  SharedExchange(std::vector<Face> faces, MPI_Comm comm) : HaloExchange(std::move(faces)), comm_(comm) {
+  SharedExchange(std::vector<Face> faces, MPI_Comm comm)
+      : HaloExchange(std::move(faces)), comm_(comm) {
     const Waiting waiting(Waiting::for_all);
     int ranks = 1, node_ranks = 1;
     MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node_);
     MPI_Comm_size(comm, &ranks);
     MPI_Comm_size(node_, &node_ranks);
-    if (node_ranks != ranks) throw InputError("--halo shared: the ranks are on several nodes; give --halo deep");
+    if (node_ranks != ranks)
+      throw InputError("--halo shared: the ranks are on several nodes; give --halo deep");
     is_crowded_ = unsigned(ranks) > std::thread::hardware_concurrency();
   }
   SharedExchange(const SharedExchange&) = delete;
   SharedExchange& operator=(const SharedExchange&) = delete;
-  /// Collective, unless an error of this rank alone ends it: the others may never come here then.
+  /// Collective. If an error of this rank ends it, it does not wait, since the others may never
+  /// come here.
   ~SharedExchange() override {
     if (std::uncaught_exceptions() > 0) return;
     const Waiting waiting(Waiting::for_all);
@@ -41,7 +47,7 @@ public:
   }
 
   void attach(int copies, const LayoutOf& layout_of) override {
-    std::vector<std::size_t> starts; // of each face's slots in the window
+    std::vector<std::size_t> starts; // where each face's slots start in the window
     std::size_t bytes = cache_line;
     for (const Face& face : faces_) {
       channels_.emplace_back();
@@ -58,7 +64,8 @@ public:
     auto* const own = static_cast<std::byte*>(memory);
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (const int turn : {0, 1}) {
-        channels_[f].own[turn] = own + starts[f] + std::size_t(turn) * slot_size(channels_[f].out.front().size);
+        channels_[f].own[turn] =
+            own + starts[f] + std::size_t(turn) * slot_size(channels_[f].out.front().size);
         new (channels_[f].own[turn]) Slot{};
       }
     find_neighbours(starts);
@@ -88,7 +95,7 @@ public:
 
 private:
   struct Channel {
-    std::vector<HaloLayout> out, in; ///< by copy
+    std::vector<HaloLayout> out, in; ///< of each copy
     std::byte* own[2] = {};
     const std::byte* other[2] = {};
     std::uint64_t sent = 0, received = 0;
@@ -106,12 +113,13 @@ private:
       MPI_Aint size = 0;
       int unit = 0;
       void* memory = nullptr;
-      MPI_Win_shared_query(window_, rank, &size, &unit, &memory); // ranks of the one node are numbered as in comm
+      // Ranks of the only node are numbered as in comm.
+      MPI_Win_shared_query(window_, rank, &size, &unit, &memory);
       const std::size_t bytes = slot_size(channels_[f].in.front().size);
       for (const std::size_t turn : {0, 1})
         channels_[f].other[turn] = static_cast<std::byte*>(memory) + other_start + turn * bytes;
     }
-    MPI_Barrier(comm_); // all slots are made
+    MPI_Barrier(comm_); // all slots exist
   }
 
   void await(const Slot& slot, std::uint64_t number, int rank) const {
@@ -125,7 +133,7 @@ private:
     }
   }
 
-  static constexpr int most_spins = 2000; ///< 20 to 100 us
+  static constexpr int most_spins = 2000; ///< about 20 to 100 us
   MPI_Comm comm_, node_ = MPI_COMM_NULL;
   MPI_Win window_ = MPI_WIN_NULL;
   bool is_crowded_ = false;

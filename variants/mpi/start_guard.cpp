@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 constexpr double default_patience_s = 7;
 constexpr int exit_hung = 70;
 
-/// Value of a variable in the environment of a process, or empty.
+/// Value of a variable in the environment of a process; empty if it is not set.
 std::string variable_of(const fs::path& process, const std::string& name) {
   std::ifstream file(process / "environ", std::ios::binary);
   for (std::string line; std::getline(file, line, '\0');)
@@ -22,7 +22,7 @@ std::string variable_of(const fs::path& process, const std::string& name) {
   return {};
 }
 
-/// Rank of a process with this one's parent that is stopped, or empty.
+/// Rank of a stopped process that has the same parent as this one, or empty.
 std::string stopped_rank() {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator("/proc", error)) {
@@ -32,7 +32,8 @@ std::string stopped_rank() {
     char state = 0;
     int parent = 0;
     const std::size_t name_end = text.rfind(')');
-    if (name_end == std::string::npos || std::sscanf(text.c_str() + name_end + 1, " %c %d", &state, &parent) != 2)
+    if (name_end == std::string::npos ||
+        std::sscanf(text.c_str() + name_end + 1, " %c %d", &state, &parent) != 2)
       continue;
     if ((state == 'T' || state == 't') && parent == ::getppid())
       return variable_of(entry.path(), "OMPI_COMM_WORLD_RANK");
@@ -67,11 +68,13 @@ StartGuard::~StartGuard() {
 
 void StartGuard::look() {
   std::unique_lock lock(mutex_);
-  const char* ranks = std::getenv("OMPI_COMM_WORLD_SIZE"); // many processes need longer to start
-  const auto limit = std::chrono::duration<double>(patience_s() + 0.2 * (ranks == nullptr ? 0 : std::atoi(ranks)));
+  const char* ranks = std::getenv("OMPI_COMM_WORLD_SIZE"); // a start of many processes takes longer
+  const auto limit =
+      std::chrono::duration<double>(patience_s() + 0.2 * (ranks == nullptr ? 0 : std::atoi(ranks)));
   if (started_.wait_for(lock, limit, [&] { return is_started_; })) return;
   const std::string rank = stopped_rank();
-  end_job(rank.empty() ? fmt::format("MPI has not started in {:g} s: a rank is missing or hangs", patience_s())
+  end_job(rank.empty() ? fmt::format("MPI has not started in {:g} s: a rank is missing or hangs",
+                                     patience_s())
                        : fmt::format("rank {} is stopped, and MPI cannot start without it", rank));
 }
 

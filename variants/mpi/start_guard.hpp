@@ -1,5 +1,6 @@
 #pragma once
-/// Until MPI has started there is no board to read: a rank that stops before holds the others up in MPI_Init.
+/// Guards the start of MPI. Before MPI has started there is no board that shows who waits, and a
+/// stopped rank holds up the others in MPI_Init.
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -7,7 +8,8 @@
 
 namespace dss {
 
-/// Ends the process, with one line, if it lives longer than the patience for MPI's start.
+/// While it lives, the process ends with one line of error when the patience for MPI's start is
+/// used up.
 class StartGuard {
 public:
   StartGuard();
@@ -23,10 +25,10 @@ private:
   std::thread thread_;
 };
 
-/// Seconds that a rank waits for another: DSSBENCH_PATIENCE_S, or 7; with what mpirun takes to end the others, a hung job
-/// then lasts below 10 s.
+/// How long a rank waits for another [s]: DSSBENCH_PATIENCE_S, or 7. A hung job then ends within 10
+/// s, including mpirun's time to end the other ranks.
 double patience_s();
-/// Prints a line on standard error and ends this process, upon which mpirun ends the others.
+/// Prints one line on standard error and ends this process; mpirun then ends the other ranks.
 [[noreturn]] void end_job(const std::string& what);
 
 } // namespace dss

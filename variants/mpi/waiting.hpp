@@ -2,7 +2,8 @@
 
 namespace dss {
 
-/// While one lives, this rank waits for another (or for all): the watch knows for whom, and for how long.
+/// While an object lives, this rank waits for another rank, or for all. The watch then knows for
+/// whom and for how long.
 class Waiting {
 public:
   static constexpr int for_all = -2;
@@ -10,7 +11,7 @@ public:
   ~Waiting();
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
-  /// Time that this rank has waited in exchanges (not for all) so far [s].
+  /// Time that this rank has waited in exchanges so far, without waits for all [s].
   static double total_s();
 
 private:

@@ -1,7 +1,6 @@
 #include "variants/mpi/watch.hpp"
 
 #include "variants/mpi/start_guard.hpp"
-#include "variants/mpi/world.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -12,14 +11,16 @@ namespace dss {
 namespace {
 
 constexpr double patience_over_nodes_s = 60;
-constexpr double silence_s = 3; ///< of a watch, which speaks five times a second
-constexpr double grace_s = 1.5; ///< for those nearer to the culprit to speak first
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double waited_s = 0; ///< by this rank in exchanges
+constexpr double silence_s = 3; ///< a watch gives a sign of life five times a second
+constexpr double grace_s = 1.5; ///< time for ranks nearer to the culprit to report it first
 
 } // namespace
+
+Watch* Watch::current_ = nullptr;
+
+double Watch::now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 Watch::Watch(MPI_Comm comm, MPI_Comm node) : patience_s_(patience_s()), idle_since_s_(now_s()) {
   MPI_Comm_rank(comm, &rank_);
@@ -27,8 +28,9 @@ Watch::Watch(MPI_Comm comm, MPI_Comm node) : patience_s_(patience_s()), idle_sin
   int node_rank = 0, node_size = 1;
   MPI_Comm_rank(node, &node_rank);
   MPI_Comm_size(node, &node_size);
-  // Ranks of other nodes cannot be seen at work: they are given more time.
-  if (node_size < ranks_ && std::getenv("DSSBENCH_PATIENCE_S") == nullptr) patience_s_ = patience_over_nodes_s;
+  // Ranks of other nodes have no entry on this node's board, so they get more time.
+  if (node_size < ranks_ && std::getenv("DSSBENCH_PATIENCE_S") == nullptr)
+    patience_s_ = patience_over_nodes_s;
   node_ranks_.resize(std::size_t(node_size));
   MPI_Allgather(&rank_, 1, MPI_INT, node_ranks_.data(), 1, MPI_INT, node);
   const MPI_Aint bytes = node_rank == 0 ? MPI_Aint(sizeof(Post)) * node_size : 0;
@@ -41,9 +43,11 @@ Watch::Watch(MPI_Comm comm, MPI_Comm node) : patience_s_(patience_s()), idle_sin
   own_ = new (&posts_[node_rank]) Post{nobody, 0.0, 0, false, now_s()};
   MPI_Barrier(node);
   thread_ = std::thread([this] { look(); });
+  current_ = this;
 }
 
 Watch::~Watch() {
+  current_ = nullptr;
   {
     const std::lock_guard lock(mutex_);
     is_stopped_ = true;
@@ -70,7 +74,9 @@ Watch::Post* Watch::post_of(int rank) const {
   return found == node_ranks_.end() ? nullptr : &posts_[found - node_ranks_.begin()];
 }
 
-bool Watch::is_silent(const Post& post) { return now_s() - post.beat_s.load(std::memory_order_relaxed) > silence_s; }
+bool Watch::is_silent(const Post& post) {
+  return now_s() - post.beat_s.load(std::memory_order_relaxed) > silence_s;
+}
 
 int Watch::culprit() const {
   for (const int rank : node_ranks_)
@@ -81,19 +87,21 @@ int Watch::culprit() const {
     if (post == nullptr) return rank;
     int next = post->waits_for.load(std::memory_order_acquire);
     if (next == nobody) return rank;
-    if (next == Waiting::for_all) { // who has not come to this call yet?
+    if (next == Waiting::for_all) { // which rank has not reached this call yet?
       const auto late = std::min_element(node_ranks_.begin(), node_ranks_.end(), [&](int a, int b) {
-        return post_of(a)->calls.load(std::memory_order_relaxed) < post_of(b)->calls.load(std::memory_order_relaxed);
+        return post_of(a)->calls.load(std::memory_order_relaxed) <
+               post_of(b)->calls.load(std::memory_order_relaxed);
       });
-      if (*late == rank || post_of(*late)->calls.load() >= post->calls.load()) return nobody; // on another node
+      if (*late == rank || post_of(*late)->calls.load() >= post->calls.load())
+        return nobody; // it is on another node
       next = *late;
     }
     rank = next;
   }
-  return nobody; // they wait for one another
+  return nobody; // the ranks wait for one another
 }
 
-/// One rank speaks: the first on this node of those who wait for the culprit itself.
+/// Only one rank reports: the first of this node that waits for the culprit itself.
 bool Watch::is_speaker(int culprit) const {
   for (const int rank : node_ranks_) {
     if (rank == culprit) continue;
@@ -104,9 +112,10 @@ bool Watch::is_speaker(int culprit) const {
 }
 
 std::string Watch::message(int rank) const {
-  if (rank == nobody) return fmt::format("rank {} of {} has waited too long for all others", rank_, ranks_);
-  return fmt::format("rank {} of {} has not answered for {:.0f} s (rank {} waits for it)", rank, ranks_,
-                     now_s() - own_->since_s.load(std::memory_order_relaxed), rank_);
+  if (rank == nobody)
+    return fmt::format("rank {} of {} has waited too long for all others", rank_, ranks_);
+  return fmt::format("rank {} of {} has not answered for {:.0f} s (rank {} waits for it)", rank,
+                     ranks_, now_s() - own_->since_s.load(std::memory_order_relaxed), rank_);
 }
 
 void Watch::look() {
@@ -119,22 +128,11 @@ void Watch::look() {
     if (over_s < 0) continue;
     const int found = culprit();
     const Post* const post = found == nobody ? nullptr : post_of(found);
-    if (post != nullptr && post->is_alone.load(std::memory_order_relaxed) && !is_silent(*post)) continue;
+    if (post != nullptr && post->is_alone.load(std::memory_order_relaxed) && !is_silent(*post))
+      continue;
     if (found == rank_ || (!is_speaker(found) && over_s < grace_s)) continue;
     end_job(message(found));
   }
 }
-
-Waiting::Waiting(int rank) : start_s_(now_s()), rank_(rank) {
-  if (const auto& watch = World::instance().watch_) watch->begin_waiting(rank, start_s_);
-}
-
-Waiting::~Waiting() {
-  const double end_s = now_s();
-  if (rank_ != for_all) waited_s += end_s - start_s_;
-  if (const auto& watch = World::instance().watch_) watch->end_waiting(end_s);
-}
-
-double Waiting::total_s() { return waited_s; }
 
 } // namespace dss

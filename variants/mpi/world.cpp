@@ -20,9 +20,11 @@ bool is_started_by_mpirun() {
   return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr;
 }
 
-/// Without mpirun a process is a job of its own, which needs no daemon.
+/// Sets variables that MPI reads when it starts. Without mpirun a process is a job of its own, and
+/// needs no daemon.
 void prepare_environment() {
-  ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0); // fails in containers without ptrace
+  // Copies from another process' memory fail in containers without ptrace.
+  ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   if (!is_started_by_mpirun()) ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
 }
 
@@ -31,7 +33,7 @@ void prepare_environment() {
 bool World::is_started() { return world != nullptr; }
 
 World& World::instance() {
-  if (world == nullptr) world = new World; // ends with the program, by end()
+  if (world == nullptr) world = new World; // lives until the program ends, see end()
   return *world;
 }
 
@@ -39,7 +41,7 @@ World::World() {
   prepare_environment();
   std::optional<StartGuard> guard;
   if (is_started_by_mpirun()) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL); // mpirun gone, rank gone
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL); // a rank ends with its mpirun
     guard.emplace();
   }
   int provided = 0;
@@ -68,7 +70,8 @@ std::vector<std::string> World::gather(const std::string& text) {
   MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, comm_);
   std::exclusive_scan(sizes.begin(), sizes.end(), places.begin(), 0);
   std::string all(std::size_t(places.back() + sizes.back()), ' ');
-  MPI_Allgatherv(text.data(), size, MPI_CHAR, all.data(), sizes.data(), places.data(), MPI_CHAR, comm_);
+  MPI_Allgatherv(text.data(), size, MPI_CHAR, all.data(), sizes.data(), places.data(), MPI_CHAR,
+                 comm_);
   std::vector<std::string> texts;
   for (std::size_t r = 0; r < sizes.size(); ++r)
     texts.push_back(all.substr(std::size_t(places[r]), std::size_t(sizes[r])));
@@ -77,11 +80,11 @@ std::vector<std::string> World::gather(const std::string& text) {
 
 void World::join(std::span<double> values) {
   if (ranks_ == 1) return;
-  constexpr std::size_t most = std::size_t(1) << 24; // MPI counts in int
+  constexpr std::size_t most = std::size_t(1) << 24; // MPI counts with int
   for (std::size_t first = 0; first < values.size(); first += most) {
     const Waiting waiting(Waiting::for_all);
-    MPI_Allreduce(MPI_IN_PLACE, &values[first], int(std::min(most, values.size() - first)), MPI_UINT64_T, MPI_BOR,
-                  comm_);
+    MPI_Allreduce(MPI_IN_PLACE, &values[first], int(std::min(most, values.size() - first)),
+                  MPI_UINT64_T, MPI_BOR, comm_);
   }
 }
 
@@ -111,7 +114,7 @@ void World::end(int exit_code, bool is_in_order) {
   if (is_ended_) return;
   is_ended_ = true;
   if (!is_in_order && ranks_ > 1) MPI_Abort(comm_, exit_code);
-  if (ranks_ > 1) meet(); // under the watch; MPI_Finalize is not
+  if (ranks_ > 1) meet(); // under the watch, which does not cover MPI_Finalize
   watch_.reset();
   MPI_Finalize();
 }

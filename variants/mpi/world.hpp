@@ -1,5 +1,6 @@
 #pragma once
-/// The ranks of a job, and the watch over them: a rank that dies or hangs must end the job, not hold it up.
+/// The ranks of a job, and the watch over them: a rank that dies or hangs must end the job, not
+/// delay it for ever.
 #include "variants/mpi/waiting.hpp"
 
 #include <mpi.h>
@@ -14,29 +15,35 @@ namespace dss {
 
 class Watch;
 
-/// MPI from its first use to the end of the program. Collective calls, unless said otherwise.
+/// MPI from its first use to the end of the program. Calls are collective unless they say
+/// otherwise.
 class World {
 public:
-  /// Starts MPI on the first call. @throws InputError if it cannot be started
+  /// Starts MPI in the first call.
+  /// @throws InputError if MPI cannot start
   static World& instance();
   static bool is_started();
 
   MPI_Comm comm() const { return comm_; }
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
-  /// Whether all ranks share one node's memory.
+  /// Whether all ranks are on one node.
   bool is_one_node() const { return node_ranks_ == ranks_; }
 
+  /// The value, or text, of every rank, in the order of ranks.
   std::vector<double> gather(double value);
   std::vector<std::string> gather(const std::string& text);
-  /// Bitwise or over all ranks, for all: joins what each rank filled in where the others left zeros.
+  /// Bitwise or over all ranks; every rank gets the result. It joins values that each rank has
+  /// filled in where the others left zeros.
   void join(std::span<double> values);
+  /// The smallest, or largest, value of all ranks.
   double least(double value);
   double largest(double value);
-  /// Of each value, for all.
+  /// Replaces each value by the largest of all ranks.
   void largest(std::span<double> values);
+  /// Returns when all ranks have called it.
   void meet();
-  /// See Executor::work_alone.
+  /// See Executor::work_alone. Not collective.
   void work_alone(bool is_alone);
 
   /// See end_variants.

@@ -1,13 +1,15 @@
 #pragma once
-/// Memory of the engine's buffers in one piece, so that a device can take them all and tasks can say offsets.
+/// One piece of memory for all buffers of the engine. A device can take it as a whole, and tasks
+/// can give offsets in place of addresses.
 #include "variants/engine/buffer.hpp"
 
 namespace dss::opencl {
 
-/// A reserved range of addresses that grows as buffers are made; untouched pages cost nothing. Nothing is released before its end.
+/// A reserved range of addresses, used from its start as buffers are made. Untouched pages cost
+/// nothing. Memory is released only when the arena ends.
 class Arena final : public Memory {
 public:
-  /// @throws std::bad_alloc if no addresses can be had
+  /// @throws std::bad_alloc if no range of addresses is free
   Arena();
   ~Arena() override;
   Arena(const Arena&) = delete;
@@ -20,7 +22,8 @@ public:
 private:
   std::byte *mapped_ = nullptr, *start_ = nullptr;
   std::size_t reserved_ = 0;
-  std::size_t used_ = page; ///< rows look before and behind themselves, where no lane counts
+  /// Not zero: rows also read in front of themselves; these numbers do not count.
+  std::size_t used_ = page;
 };
 
 } // namespace dss::opencl

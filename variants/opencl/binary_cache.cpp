@@ -10,16 +10,21 @@
 namespace dss::opencl {
 namespace {
 
-/// The same in every process of one build of the C++ library; another build only finds no binaries.
-std::string hash(std::string_view text) { return fmt::format("{:016x}", std::hash<std::string_view>{}(text)); }
+/// The same in every process of one build of the C++ library. With another build no binaries are
+/// found.
+std::string hash(std::string_view text) {
+  return fmt::format("{:016x}", std::hash<std::string_view>{}(text));
+}
 
 std::string file_of(std::string_view key) {
   const std::string directory = cache_directory();
   return directory.empty() ? "" : fmt::format("{}/{}.bin", directory, hash(key));
 }
 
-/// The whole key is in the file, so that no two programs with equal hashes are confused.
-std::string head_of(std::string_view key) { return fmt::format("dssbench binary 1\n{}\n{}\n", key.size(), key); }
+/// The file holds the whole key, so that programs with equal hashes are not confused.
+std::string head_of(std::string_view key) {
+  return fmt::format("dssbench binary 1\n{}\n{}\n", key.size(), key);
+}
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -34,7 +39,8 @@ bool is_cache_asked_for() { return !environment(own_directory).empty(); }
 
 std::string cache_directory() {
   if (is_cache_asked_for()) return environment(own_directory);
-  if (const std::string caches = environment("XDG_CACHE_HOME"); !caches.empty()) return caches + "/dssbench/opencl";
+  if (const std::string caches = environment("XDG_CACHE_HOME"); !caches.empty())
+    return caches + "/dssbench/opencl";
   const std::string home = environment("HOME");
   return home.empty() ? "" : home + "/.cache/dssbench/opencl";
 }
@@ -66,7 +72,7 @@ void store_binary(std::string_view key, std::string_view binary) {
     file.write(hash(binary));
     file.write(binary);
     file.commit();
-  } catch (const InputError&) { // works without
+  } catch (const InputError&) { // the program works without it
   }
 }
 

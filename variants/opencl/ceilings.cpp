@@ -10,29 +10,34 @@
 namespace dss::opencl {
 namespace {
 
-constexpr int chains = 12;            ///< more than latency times throughput of any unit known
-constexpr int least_timings = 5;      ///< the best of which counts
-constexpr double least_total_s = 0.4; ///< of all timings of a kernel: other work on the machine must not last longer
+constexpr int chains = 12;       ///< more than latency times throughput of any known unit
+constexpr int least_timings = 5; ///< the best one counts
+/// Shortest total of the timings of a kernel; other work on the machine must end within it [s].
+constexpr double least_total_s = 0.4;
 constexpr double least_timing_s = 5e-3;
-constexpr double largest_triad_bytes = double(1u << 30); ///< of its three arrays
+constexpr double largest_triad_bytes = double(1u << 30); ///< of its three arrays together [bytes]
 constexpr std::size_t group = 256;                       ///< work-items of a group on GPUs
 
-/// Work-items as the device wants them: on a CPU one for each compute unit, with vectors and contiguous shares; else many.
+/// Kernels with the work-items that suit the device. A CPU gets one for each compute unit, with
+/// vectors and contiguous shares; a GPU gets many.
 class Bench {
 public:
   Bench(Queue& queue, Precision precision)
       : queue_(queue), precision_(precision),
-        program_(
-            build_program(queue.device(), std::string(embedded("variants/opencl/device/ceilings.cl")), options())) {}
+        program_(build_program(queue.device(),
+                               std::string(embedded("variants/opencl/device/ceilings.cl")),
+                               options())) {}
 
   double triad_bytes_per_s() const {
     const DeviceEntry& entry = queue_.device().entry;
-    const double bytes = std::min({largest_triad_bytes, entry.memory_bytes / 4, 3 * entry.largest_buffer_bytes});
+    const double bytes =
+        std::min({largest_triad_bytes, entry.memory_bytes / 4, 3 * entry.largest_buffer_bytes});
     const std::size_t count = std::size_t(bytes / 3) / real_bytes() / group * group;
-    const Buffer a = queue_.make_buffer(count * real_bytes()), b = queue_.make_buffer(count * real_bytes()),
+    const Buffer a = queue_.make_buffer(count * real_bytes()),
+                 b = queue_.make_buffer(count * real_bytes()),
                  c = queue_.make_buffer(count * real_bytes());
     Kernel kernel = queue_.make_kernel(program_, "triad");
-    for (const Buffer& buffer : {a, b, c}) { // by the kernel, so that pages lie where it computes
+    for (const Buffer& buffer : {a, b, c}) { // the kernel touches pages first, where it computes
       kernel.set(buffer, buffer, buffer, cl_ulong(count));
       launch(kernel);
       queue_.clear(buffer);
@@ -46,8 +51,9 @@ public:
     Kernel kernel = queue_.make_kernel(program_, "chains");
     int rounds = 1 << 10;
     kernel.set(out, cl_int(rounds));
-    time_s(kernel); // the first compiles
-    while (time_s(kernel) < least_timing_s && rounds < 1 << 28) kernel.set(out, cl_int(rounds *= 2));
+    time_s(kernel); // the first launch compiles
+    while (time_s(kernel) < least_timing_s && rounds < 1 << 28)
+      kernel.set(out, cl_int(rounds *= 2));
     return 2.0 * chains * rounds * double(items()) * width() / best_s(kernel);
   }
 
@@ -65,9 +71,10 @@ private:
     const char* scalar = precision_ == Precision::f64 ? "double" : "float";
     return fmt::format("-DSCALAR={} -DREAL={}{} -DCHAINS={} {}", scalar, scalar,
                        width() > 1 ? fmt::format("{}", width()) : "", chains,
-                       is_cpu() ? "-DFIRST=(count*get_global_id(0)/get_global_size(0)) "
-                                  "-DLAST=(count*(get_global_id(0)+1)/get_global_size(0)) -DSTRIDE=1"
-                                : "-DFIRST=get_global_id(0) -DLAST=count -DSTRIDE=get_global_size(0)");
+                       is_cpu()
+                           ? "-DFIRST=(count*get_global_id(0)/get_global_size(0)) "
+                             "-DLAST=(count*(get_global_id(0)+1)/get_global_size(0)) -DSTRIDE=1"
+                           : "-DFIRST=get_global_id(0) -DLAST=count -DSTRIDE=get_global_size(0)");
   }
 
   void launch(const Kernel& kernel) const {
@@ -83,7 +90,7 @@ private:
   }
 
   double best_s(const Kernel& kernel) const {
-    time_s(kernel); // the first compiles
+    time_s(kernel); // the first launch compiles
     double best = std::numeric_limits<double>::infinity(), total = 0;
     for (int timing = 0; timing < least_timings || total < least_total_s; ++timing) {
       const double time = time_s(kernel);
@@ -106,7 +113,8 @@ DeviceCeilings measure_ceilings(const std::string& device) {
   DeviceCeilings ceilings;
   ceilings.f32_flops_per_s = f32.flops_per_s();
   ceilings.triad_bytes_per_s = f32.triad_bytes_per_s();
-  if (queue.device().entry.has_f64) ceilings.f64_flops_per_s = Bench(queue, Precision::f64).flops_per_s();
+  if (queue.device().entry.has_f64)
+    ceilings.f64_flops_per_s = Bench(queue, Precision::f64).flops_per_s();
   return ceilings;
 }
 

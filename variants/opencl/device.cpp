@@ -19,7 +19,7 @@ std::vector<cl::Platform> platforms() {
   std::vector<cl::Platform> found;
   try {
     cl::Platform::get(&found);
-  } catch (const cl::Error&) { // the loader calls it an error that there is none
+  } catch (const cl::Error&) { // no platform at all: the loader reports it as an error
   }
   return found;
 }
@@ -28,12 +28,12 @@ std::vector<cl::Device> devices_of(const cl::Platform& platform) {
   std::vector<cl::Device> found;
   try {
     platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
-  } catch (const cl::Error&) { // and so do platforms without devices
+  } catch (const cl::Error&) { // a platform without devices reports an error too
   }
   return found;
 }
 
-/// Drivers end and pad their names with blanks and zeros.
+/// Removes the blanks and zeros that drivers append to names.
 std::string trimmed(std::string text) {
   constexpr std::string_view blanks(" \t\n\0", 4);
   text.erase(text.find_last_not_of(blanks) + 1);
@@ -49,14 +49,15 @@ const char* kind_of(cl_device_type type) {
 
 std::string why_device_unusable(const cl::Device& device, const std::string& version) {
   int major = 0, minor = 0;
-  std::sscanf(version.c_str(), "OpenCL %d.%d", &major, &minor); // this layout is in the standard
+  std::sscanf(version.c_str(), "OpenCL %d.%d", &major, &minor); // the standard fixes this layout
   if (major < 1 || (major == 1 && minor < 2)) return fmt::format("it has {}, not 1.2", version);
   if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "its driver says that it is not available";
   if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "its driver has no compiler";
   return {};
 }
 
-DeviceEntry entry_of(const cl::Platform& platform, const cl::Device& device, const std::string& id) {
+DeviceEntry entry_of(const cl::Platform& platform, const cl::Device& device,
+                     const std::string& id) {
   DeviceEntry entry;
   entry.id = id;
   try {
@@ -64,7 +65,8 @@ DeviceEntry entry_of(const cl::Platform& platform, const cl::Device& device, con
     entry.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
     entry.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
     const std::string version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
-    entry.version = fmt::format("{}, driver {}", version, trimmed(device.getInfo<CL_DRIVER_VERSION>()));
+    entry.version =
+        fmt::format("{}, driver {}", version, trimmed(device.getInfo<CL_DRIVER_VERSION>()));
     entry.compute_units = int(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
     entry.memory_bytes = double(device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>());
     entry.largest_buffer_bytes = double(device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
@@ -121,11 +123,13 @@ Device find_device(const std::string& text, Precision precision) {
   return guarded(device.entry.name, [&] {
     const cl::Device& handle = device.handle;
     device.is_cpu = device.entry.kind == "cpu";
-    device.is_unified = handle.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != 0 && !is_taken_for("discrete");
+    device.is_unified =
+        handle.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != 0 && !is_taken_for("discrete");
     device.compute_units = std::max(1, device.entry.compute_units);
     device.is_correctly_rounded_f32 =
         (handle.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
-    device.width_f64 = std::max(1, int(handle.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE>())); // 0: no double
+    // 0: no double precision.
+    device.width_f64 = std::max(1, int(handle.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE>()));
     device.width_f32 = std::max(1, int(handle.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>()));
     return device;
   });
@@ -134,7 +138,8 @@ Device find_device(const std::string& text, Precision precision) {
 Device narrowed(const Device& device, int compute_units) {
   if (!device.is_cpu || compute_units >= device.compute_units) return device;
   static std::mutex mutex;
-  static auto& known = *new std::map<std::pair<cl_device_id, int>, cl::Device>; // drivers may end before statics do
+  // Never destroyed: drivers may end before statics do.
+  static auto& known = *new std::map<std::pair<cl_device_id, int>, cl::Device>;
   const std::lock_guard lock(mutex);
   Device part = device;
   part.compute_units = compute_units;
@@ -149,7 +154,7 @@ Device narrowed(const Device& device, int compute_units) {
     cl::Device handle = device.handle;
     handle.createSubDevices(counts, &parts);
     part.handle = parts.front();
-  } catch (const cl::Error&) { // then its runtime spreads over all
+  } catch (const cl::Error&) { // then its runtime uses all processors
     part.handle = device.handle;
   }
   known.emplace(std::pair{device.handle(), compute_units}, part.handle);

@@ -17,17 +17,17 @@ Layout layout_on(const Device& device, Precision precision, int threads) {
 }
 
 template <class T, int W>
-DeviceProblem<T, W>::DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device,
-                                   const Layout& where)
-    : packed(problem, model, part, memory), layout(where), queue(device), problem_(problem), model_(model), part_(part),
-      is_shared_(device.is_unified && !where.has_items) {}
+DeviceProblem<T, W>::DeviceProblem(const Problem& problem, Model model, const Part* part,
+                                   const Device& device, const Layout& where)
+    : packed(problem, model, part, memory), layout(where), queue(device), problem_(problem),
+      model_(model), part_(part), is_shared_(device.is_unified && !where.has_items) {}
 
 template <class T, int W>
 DeviceProblem<T, W>::~DeviceProblem() {
   mapping_.reset();
   try {
     queue.finish();
-  } catch (const InputError&) { // told by whoever met it first
+  } catch (const InputError&) { // the call that met the error first has reported it
   }
 }
 
@@ -39,16 +39,19 @@ int DeviceProblem<T, W>::shape_of(const Terms& terms) {
   return int(terms_.size()) - 1;
 }
 
-/// Where a lower row is read beside row r: rows that items read lie one after the other, in the order of their numbers.
+/// Offset at which row r finds its lower row. The rows that work-items read follow one another in
+/// memory, in the order of their numbers.
 template <class T, int W>
 long DeviceProblem<T, W>::lower(long in, int r, int lower, int fields) const {
   if (lower < 0) return -1;
   const PackedRow<T>&from = packed.rows[std::size_t(lower)], &to = packed.rows[std::size_t(r)];
-  return in + (long(from.pack_offset) - long(to.pack_offset) + to.first_pack - from.first_pack) * fields * W;
+  return in + (long(from.pack_offset) - long(to.pack_offset) + to.first_pack - from.first_pack) *
+                  fields * W;
 }
 
 template <class T, int W>
-int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, int fields, const T* published) {
+int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, int fields,
+                             const T* published) {
   const PackedRow<T>& packed_row = packed.rows[std::size_t(r)];
   Row row{};
   row.in = offset(task.in);
@@ -99,8 +102,10 @@ void DeviceProblem<T, W>::make_constant_tables() {
   std::vector<ushort> free_lanes;
   for (std::size_t r = 0; r < packed.rows.size(); ++r) {
     const PackedRow<T>& row = packed.rows[r];
-    static_assert(sizeof(typename K::body_constants) == sizeof(BodyConstants<T>)); // members of one header
-    std::memcpy(&bodies[std::size_t(packed.lattice.rows[r].body)], row.body, sizeof(BodyConstants<T>));
+    // Both are made of one header.
+    static_assert(sizeof(typename K::body_constants) == sizeof(BodyConstants<T>));
+    std::memcpy(&bodies[std::size_t(packed.lattice.rows[r].body)], row.body,
+                sizeof(BodyConstants<T>));
     for (int p = 0; p < row.packs; ++p) {
       const PackMasks& m = row.masks[p];
       masks.push_back({m.link_x, m.link_y, m.link_z, m.below_y, m.below_z, own[masks.size()]});
@@ -110,17 +115,19 @@ void DeviceProblem<T, W>::make_constant_tables() {
     applied[r] = {a.first, a.packs, int(patterns.size()), a.pattern_count,
                   a.free_lanes == nullptr ? -1 : int(free_lanes.size())};
     for (int n = 0; n < a.pattern_count; ++n)
-      patterns.push_back(
-          {offset(a.patterns[n].values), a.patterns[n].signal, a.patterns[n].first, a.patterns[n].packs});
+      patterns.push_back({offset(a.patterns[n].values), a.patterns[n].signal, a.patterns[n].first,
+                          a.patterns[n].packs});
     if (a.free_lanes != nullptr)
       free_lanes.insert(free_lanes.end(), a.free_lanes,
                         a.free_lanes + std::size_t(a.packs) * packed.layout.wrench.size());
   }
-  bodies_ = table(bodies), masks_ = table(masks), applied_ = table(applied), patterns_ = table(patterns);
+  bodies_ = table(bodies), masks_ = table(masks), applied_ = table(applied),
+  patterns_ = table(patterns);
   free_lanes_ = table(free_lanes);
 }
 
-/// What is compiled together: all that Runge-Kutta methods may ask for, so that they, and rates, share one program.
+/// The actions to compile. All that Runge-Kutta methods may need are compiled together, so that
+/// they share one program with the rates.
 static std::set<row_action> compiled_actions(std::set<row_action> actions) {
   if (actions.contains(plain_stage)) actions.insert({combined_stage, wide_stage});
   if (actions.contains(kept_step)) actions.insert(kept_stage);
@@ -130,9 +137,12 @@ static std::set<row_action> compiled_actions(std::set<row_action> actions) {
 template <class T, int W>
 void DeviceProblem<T, W>::finish() {
   const Device& device = queue.device();
-  const ProgramKind kind{
-      model_, sizeof(T) == 8 ? Precision::f64 : Precision::f32, W, layout.has_items, compiled_actions(actions_),
-      terms_};
+  const ProgramKind kind{model_,
+                         sizeof(T) == 8 ? Precision::f64 : Precision::f32,
+                         W,
+                         layout.has_items,
+                         compiled_actions(actions_),
+                         terms_};
   program_ = build_program(device, row_program(kind));
   build_s_ += program_.build_s, is_cached_ &= program_.is_cached;
   if (has_extra_links()) {
@@ -143,7 +153,8 @@ void DeviceProblem<T, W>::finish() {
   }
   make_constant_tables();
   row_table_ = table(rows_);
-  arena_ = is_shared_ ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, memory.start())
+  arena_ = is_shared_ ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
+                                          memory.start())
                       : queue.make_buffer(memory.bytes());
   if (!is_shared_) queue.write(arena_, 0, {memory.start(), memory.bytes()});
   if (!layout.has_items) return;
@@ -152,18 +163,22 @@ void DeviceProblem<T, W>::finish() {
   items_across_ = (items + group_size_ - 1) / group_size_ * group_size_;
 }
 
-constexpr std::size_t group_of_rows = 128; ///< measured on an H100: 64 are as good on small scenes, 256 on large ones
+/// 64 are as good on small scenes, 256 on large ones (README.md).
+constexpr std::size_t group_of_rows = 128;
 
-/// A multiple of the lanes that the kernel can have.
+/// Work-items of a group: at most what the kernel allows, in multiples of the lanes of a pack.
 template <class T, int W>
 std::size_t DeviceProblem<T, W>::largest_group() const {
-  const std::size_t most = std::min(
-      group_of_rows, guarded(queue.device().entry.name, [&] {
-        return kernel("run_rows").handle().template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(queue.device().handle);
-      }));
+  const std::size_t most =
+      std::min(group_of_rows, guarded(queue.device().entry.name, [&] {
+                 return kernel("run_rows")
+                     .handle()
+                     .template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(queue.device().handle);
+               }));
   if (most < W)
-    throw InputError("opencl: " + queue.device().entry.name + ": its work-groups hold " + std::to_string(most) +
-                     " work-items of these kernels, fewer than the 16 lanes of a pack; take another device");
+    throw InputError(
+        "opencl: " + queue.device().entry.name + ": its work-groups hold " + std::to_string(most) +
+        " work-items of these kernels, fewer than the 16 lanes of a pack; take another device");
   return most / W * W;
 }
 
@@ -175,7 +190,8 @@ Kernel DeviceProblem<T, W>::kernel(const char* name) const {
 }
 
 template <class T, int W>
-cl::Event DeviceProblem<T, W>::launch(Queue& by, const Kernel& kernel, int bands, const Events& after) {
+cl::Event DeviceProblem<T, W>::launch(Queue& by, const Kernel& kernel, int bands,
+                                      const Events& after) {
   const auto count = std::size_t(bands);
   cl::Event end;
   if (!layout.has_items)
@@ -194,7 +210,7 @@ void DeviceProblem<T, W>::launch_rows(const Kernel& kernel, int bands) {
     queue.launch(kernel, cl::NDRange(items_across_, count), cl::NDRange(group_size_, 1));
 }
 
-/// The queue is in order: who waits for the last transfer has waited for all.
+/// The queue is in order: a wait for the last transfer is a wait for all.
 static Wait wait_for(bool is_last) { return is_last ? Wait::yes : Wait::no; }
 
 template <class T, int W>
@@ -207,7 +223,8 @@ void DeviceProblem<T, W>::to_host(std::span<const Range> ranges) {
   for (const Range& range : ranges) {
     auto* const from = reinterpret_cast<std::byte*>(const_cast<T*>(range.from));
     const std::size_t bytes = std::size_t(range.to - range.from) * sizeof(T);
-    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes}, wait_for(&range == &ranges.back()));
+    queue.read(arena_, std::size_t(from - memory.start()), {from, bytes},
+               wait_for(&range == &ranges.back()));
   }
 }
 
@@ -217,7 +234,8 @@ void DeviceProblem<T, W>::to_device(std::span<const Range> ranges) {
   if (is_shared_) return;
   for (const Range& range : ranges) {
     const auto* const from = reinterpret_cast<const std::byte*>(range.from);
-    queue.write(arena_, std::size_t(from - memory.start()), {from, std::size_t(range.to - range.from) * sizeof(T)},
+    queue.write(arena_, std::size_t(from - memory.start()),
+                {from, std::size_t(range.to - range.from) * sizeof(T)},
                 wait_for(&range == &ranges.back()));
   }
 }
@@ -240,7 +258,9 @@ void DeviceProblem<T, W>::add_extra_links(const Problem& problem, int fields) {
   for (const ExtraLink& link : problem.extra_links) {
     const ExtraLinkConstants<T> c = extra_link_constants<T>(problem, link);
     const Place i = place_of(packed, link.i), j = place_of(packed, link.j);
-    const auto lane = [](const Place& place, int numbers) { return place.pack * numbers * W + place.lane; };
+    const auto lane = [](const Place& place, int numbers) {
+      return place.pack * numbers * W + place.lane;
+    };
     typename Tables<T>::extra_link entry{};
     entry.is_material = c.is_material, entry.axis = c.axis;
     entry.row_i = int(i.row), entry.row_j = int(j.row);
@@ -259,10 +279,10 @@ void DeviceProblem<T, W>::evaluate_extra_links(const Buffer& row_starts) {
   queue.launch(extra_kernel_, cl::NDRange(1), cl::NDRange(1));
 }
 
-#define DSS_INSTANTIATE(T, W)                                                                                          \
-  template class DeviceProblem<T, W>;                                                                                  \
-  template Buffer DeviceProblem<T, W>::table(const std::vector<cl_int2>&) const;                                       \
-  template Buffer DeviceProblem<T, W>::table(const std::vector<cl_long>&) const;                                       \
+#define DSS_INSTANTIATE(T, W)                                                                      \
+  template class DeviceProblem<T, W>;                                                              \
+  template Buffer DeviceProblem<T, W>::table(const std::vector<cl_int2>&) const;                   \
+  template Buffer DeviceProblem<T, W>::table(const std::vector<cl_long>&) const;                   \
   template Buffer DeviceProblem<T, W>::table(const std::vector<Tables<T>::sweep>&) const;
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE

@@ -1,5 +1,6 @@
 #pragma once
-/// A problem on a device: rows of packs in an arena, tables of what to do with them, and the program that does it.
+/// A problem on a device: rows of packs in an arena, tables of the tasks on them, and the program
+/// that does the tasks.
 #include "variants/engine/packed_rows.hpp"
 #include "variants/engine/staged.hpp"
 #include "variants/opencl/arena.hpp"
@@ -23,7 +24,8 @@ struct Tables {
 #undef NUMBER
 };
 
-/// Where rows are computed. A GPU gets a work-item for each element, a CPU one for each band of rows.
+/// Where rows are computed. A GPU gets a work-item for each element, a CPU one for each band of
+/// rows.
 struct Layout {
   bool has_items = false;
   int lanes = 1;
@@ -32,38 +34,54 @@ struct Layout {
 /// For a device.
 Layout layout_on(const Device& device, Precision precision, int threads);
 
+/// A problem on a device, in packs of W lanes and numbers of type T.
 template <class T, int W>
 class DeviceProblem {
 public:
   using Row = typename Tables<T>::row_stage;
-  DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device, const Layout& layout);
+  DeviceProblem(const Problem& problem, Model model, const Part* part, const Device& device,
+                const Layout& layout);
   /// Waits for the device, which may still use the arena after an error.
   ~DeviceProblem();
   DeviceProblem(const DeviceProblem&) = delete;
   DeviceProblem& operator=(const DeviceProblem&) = delete;
 
-  Arena memory; ///< of all buffers that rows and tasks name
+  Arena memory; ///< of all buffers that rows and tasks refer to
   PackedRows<T, W> packed;
   const Layout layout;
   mutable Queue queue;
 
-  long offset(const T* at) const { return at == nullptr ? -1 : at - reinterpret_cast<const T*>(memory.start()); }
-  /// Adds to the table of row stages. @return its place there
-  int add(const RowTask<T>& task, int row, row_action action, int fields, const T* published = nullptr);
+  /// Offset of an address in the arena [numbers of T]; -1 for null.
+  long offset(const T* at) const {
+    return at == nullptr ? -1 : at - reinterpret_cast<const T*>(memory.start());
+  }
+  /// Adds a row task to the table of row stages.
+  /// @param row        number of the row
+  /// @param action     what to do with it
+  /// @param fields     numbers that a pack holds for each element
+  /// @param published  null, or where the new state is also stored
+  /// @return its place in the table
+  int add(const RowTask<T>& task, int row, row_action action, int fields,
+          const T* published = nullptr);
   int next_place() const { return int(rows_.size()); }
-  /// Everything is in the arena and the tables: makes the program, gives the device its memory.
+  /// Call it when the arena and the tables are complete. Builds the program and gives the device
+  /// its memory.
   void finish();
   /// A kernel with the tables as its first arguments.
   Kernel kernel(const char* name) const;
-  static constexpr cl_uint table_arguments = 8, step_argument = 7; ///< the last: see tables_of_device.h
+  static constexpr cl_uint table_arguments = 8,
+                           step_argument = 7; ///< the last: see tables_of_device.h
 
-  /// Work-items that compute a band.
+  /// Work-items that compute one band.
   std::size_t group_size() const { return group_size_; }
-  /// Launches a kernel over bands, by a queue of the device and after these events. @return its event
+  /// Launches a kernel over bands, in a queue of the device and after some events.
+  /// @return the event at its end
   cl::Event launch(Queue& by, const Kernel& kernel, int bands, const Events& after = {});
-  /// Launches, in the problem's queue, a kernel whose work-items need no others: on a GPU one for each element across.
+  /// Launches a kernel whose work-items need no others, in the problem's queue. A GPU gets a
+  /// work-item for each element across.
   void launch_rows(const Kernel& kernel, int bands);
-  /// The host may use the arena until to_device(). Without shared memory [from, to) of these ranges are copied.
+  /// to_host() lets the host use the arena until to_device(). If the memory is not shared, both
+  /// copy [from, to) of these ranges.
   struct Range {
     const T *from, *to;
   };
@@ -72,10 +90,11 @@ public:
   void to_device(std::span<const Range> ranges);
   const opencl::Buffer& arena() const { return arena_; }
 
-  /// Signals of some stages, with a constant 1 behind each (StepSignals).
+  /// Sets the signals of some stages, each followed by a constant 1 (StepSignals).
   void set_signals(std::span<const double> rows, std::size_t width);
   const opencl::Buffer& signals() const { return signals_; }
-  /// Links outside the grid, with the rows of a copy as they are at their place in `row_starts`; then kernel(...)s add them.
+  /// Prepares the extra links. evaluate_extra_links() then adds their forces for the rows whose
+  /// offsets `row_starts` gives.
   void add_extra_links(const Problem& problem, int fields);
   bool has_extra_links() const { return !extra_.empty(); }
   void evaluate_extra_links(const opencl::Buffer& row_starts);
@@ -84,6 +103,7 @@ public:
 
   double build_s() const { return build_s_; }
   bool is_cached() const { return is_cached_; }
+  /// Memory of the arena and of the table of row stages [bytes].
   std::size_t bytes() const { return memory.bytes() + rows_.size() * sizeof(Row); }
 
 private:
@@ -94,29 +114,38 @@ private:
   const Problem& problem_;
   const Model model_;
   const Part* part_;
-  const bool is_shared_; ///< arena and device are one memory
+  const bool is_shared_; ///< the device uses the arena itself
   std::vector<Terms> terms_;
   std::vector<Row> rows_;
-  std::set<row_action> actions_; ///< of them
+  std::set<row_action> actions_; ///< actions of rows_
   std::vector<typename Tables<T>::extra_link> extra_;
-  opencl::Buffer arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_, extra_table_, signals_;
+  opencl::Buffer arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_,
+      extra_table_, signals_;
   Program program_, extra_program_;
   Kernel extra_kernel_;
-  std::unique_ptr<Mapping> mapping_; ///< while the host has the arena of a device that shares the host's memory
+  /// Set while the host uses the arena of a device that shares the host's memory.
+  std::unique_ptr<Mapping> mapping_;
   std::vector<T> signal_values_;
-  std::size_t group_size_ = 1, items_across_ = 1; ///< work-items of a group, and of a row
+  std::size_t group_size_ = 1, items_across_ = 1; ///< work-items of a group and of a row
   double build_s_ = 0;
   bool is_cached_ = true;
 };
 
-/// @param counts  of all queues
+/// What was used of the device.
+/// @param counts  sum over all queues
 template <class T, int W>
 DeviceUse use_of(const DeviceProblem<T, W>& problem, const Counts& counts) {
-  return {problem.queue.device().entry, problem.build_s(),        problem.is_cached(), counts.launches,
-          counts.to_device_bytes,       counts.from_device_bytes, counts.transfer_s,   problem.queue.empty_launch_s()};
+  return {problem.queue.device().entry,
+          problem.build_s(),
+          problem.is_cached(),
+          counts.launches,
+          counts.to_device_bytes,
+          counts.from_device_bytes,
+          counts.transfer_s,
+          problem.queue.empty_launch_s()};
 }
 
-/// Calls visit(std::integral_constant<int, W>) for the lanes of a layout.
+/// Calls visit(std::integral_constant<int, W>) with the lanes of a layout.
 template <class T, class Visit>
 auto with_lanes(int lanes, Visit&& visit) {
   if constexpr (sizeof(T) == 8)

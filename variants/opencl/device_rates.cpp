@@ -5,11 +5,12 @@
 namespace dss::opencl {
 
 template <class T, int W>
-DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* part, const Device& device,
-                               const Layout& layout, bool is_scaled)
+DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* part,
+                               const Device& device, const Layout& layout, bool is_scaled)
     : device_(problem, model, part, device, layout) {
   PackedRows<T, W>& packed = device_.packed;
-  packed.own_begin = 0, packed.own_end = int(packed.rows.size()); // of the halo too: whoever asks knows what counts
+  packed.own_begin = 0,
+  packed.own_end = int(packed.rows.size()); // halo rows too: the caller knows which rates are valid
   const int fields = packed.fields();
   const std::size_t pack_size = std::size_t(fields * W);
   plain_ = dss::Buffer<T>(packed.readable_packs() * pack_size, packed.memory);
@@ -19,9 +20,11 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
     return rows.data() + packed.rows[std::size_t(r)].pack_offset * pack_size;
   };
   const auto in = [&](int r) { return row_of(plain_, r); };
-  const std::vector<int> cuts = cut_rows(packed, layout.has_items ? int(packed.rows.size()) : layout.bands);
+  const std::vector<int> cuts =
+      cut_rows(packed, layout.has_items ? int(packed.rows.size()) : layout.bands);
   for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
-    if (b == 0 || !layout.has_items) carry_.emplace_back(packed); // items need none
+    // Work-items use no carry buffers, so all rows name the same ones.
+    if (b == 0 || !layout.has_items) carry_.emplace_back(packed);
     CarryRings<T>& carry = carry_.back();
     const int begin = device_.next_place();
     if (cuts[b] > 0 && !layout.has_items)
@@ -55,18 +58,20 @@ void DeviceRates<T, W>::launch() {
   kernel_.set_one(n++, list_table_);
   kernel_.set_one(n++, device_.signals());
   kernel_.set_one(n++, failed_);
-  for (const cl_int value : {0, 0}) kernel_.set_one(n++, value); // first signal, step
+  for (const cl_int value : {0, 0}) kernel_.set_one(n++, value); // first signal and step
   device_.launch_rows(kernel_, bands());
 }
 
 template <class T, int W>
 void DeviceRates<T, W>::put(const dss::Buffer<T>& buffer, const T* numbers) {
-  device_.queue.write(device_.arena(), place(buffer), {reinterpret_cast<const std::byte*>(numbers), buffer.bytes()});
+  device_.queue.write(device_.arena(), place(buffer),
+                      {reinterpret_cast<const std::byte*>(numbers), buffer.bytes()});
 }
 
 template <class T, int W>
 void DeviceRates<T, W>::get_rates(T* rates) {
-  device_.queue.read(device_.arena(), place(rates_), {reinterpret_cast<std::byte*>(rates), rates_.bytes()});
+  device_.queue.read(device_.arena(), place(rates_),
+                     {reinterpret_cast<std::byte*>(rates), rates_.bytes()});
 }
 
 template <class T, int W>

@@ -1,23 +1,28 @@
 #pragma once
-/// The right-hand side on a device: rates of plain rows, band by band.
+/// The right-hand side on a device: computes rates of plain rows, band by band.
 #include "variants/opencl/device_problem.hpp"
 
 namespace dss::opencl {
 
+/// Evaluates the right-hand side of a problem on a device.
 template <class T, int W>
 class DeviceRates {
 public:
-  /// @param is_scaled  rates as the state's, else forces and moments as sums for a host that updates  @param part  null, or of which
-  /// `problem` is one
-  DeviceRates(const Problem& problem, Model model, const Part* part, const Device& device, const Layout& layout,
-              bool is_scaled);
+  /// @param part       null, or the part that `problem` is
+  /// @param is_scaled  true: rates as of the state. false: sums of forces and moments, for a host
+  ///   that updates
+  DeviceRates(const Problem& problem, Model model, const Part* part, const Device& device,
+              const Layout& layout, bool is_scaled);
   DeviceProblem<T, W>& device() { return device_; }
   const DeviceProblem<T, W>& device() const { return device_; }
   int bands() const { return int(lists_.size()); }
-  std::size_t size() const { return plain_.size(); } ///< numbers of plain rows (StateRows::plain_size)
-  /// To the device, evaluation there, and back. Plain rows in, plain rows out. @param signals  one row
+  /// Numbers in plain rows (StateRows::plain_size).
+  std::size_t size() const { return plain_.size(); }
+  /// Copies plain rows to the device, evaluates there, and copies plain rates back.
+  /// @param signals  one row
   void evaluate(const T* plain, std::span<const double> signals, T* rates);
-  /// The last evaluation as many times again, then back unless `rates` is null; of these launches alone, since the old rates are cleared.
+  /// Repeats the last evaluation `times` times, and then copies the rates back unless `rates` is
+  /// null. Old rates are cleared first, so the result comes from these launches alone.
   void repeat(long times, T* rates);
 
 private:

@@ -13,14 +13,15 @@ HaloRows<T, W>::~HaloRows() {
   mappings_.clear();
   try {
     queue().finish();
-  } catch (const InputError&) { // told by whoever met it first
+  } catch (const InputError&) { // the call that met the error first has reported it
   }
 }
 
-// CL_MEM_ALLOC_HOST_PTR is what drivers of GPUs give as pinned memory.
+// With CL_MEM_ALLOC_HOST_PTR drivers of GPUs give pinned memory.
 template <class T, int W>
 void HaloRows<T, W>::make_images(std::vector<Row> rows) {
-  std::erase_if(rows, [&](const Row& row) { return problem_.is_shared() || images_.contains(row.numbers); });
+  std::erase_if(
+      rows, [&](const Row& row) { return problem_.is_shared() || images_.contains(row.numbers); });
   if (rows.empty()) return;
   std::ranges::sort(rows);
   rows.erase(std::ranges::unique(rows).begin(), rows.end());
@@ -28,7 +29,8 @@ void HaloRows<T, W>::make_images(std::vector<Row> rows) {
   for (const Row& row : rows) bytes += row.count * sizeof(T);
   pinned_.push_back(queue().make_buffer(bytes, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR));
   queue().set_counting(false);
-  mappings_.emplace_back(new Mapping(queue().map(pinned_.back(), 0, bytes, CL_MAP_READ | CL_MAP_WRITE)));
+  mappings_.emplace_back(
+      new Mapping(queue().map(pinned_.back(), 0, bytes, CL_MAP_READ | CL_MAP_WRITE)));
   queue().set_counting(true);
   T* image = mappings_.back()->template as<T>().data();
   for (const Row& row : rows) {
@@ -40,14 +42,16 @@ void HaloRows<T, W>::make_images(std::vector<Row> rows) {
 template <class T, int W>
 void HaloRows<T, W>::add(Ranges& ranges, Range range) {
   const auto touches = [&](const Range& known) {
-    return known.from <= range.to && range.from <= known.to && known.image - range.image == known.from - range.from;
+    return known.from <= range.to && range.from <= known.to &&
+           known.image - range.image == known.from - range.from;
   };
   for (auto known = ranges.begin(); known != ranges.end();) {
     if (!touches(*known)) {
       ++known;
       continue;
     }
-    range = {std::min(range.from, known->from), std::max(range.to, known->to), std::min(range.image, known->image)};
+    range = {std::min(range.from, known->from), std::max(range.to, known->to),
+             std::min(range.image, known->image)};
     known = ranges.erase(known);
   }
   ranges.push_back(range);
@@ -61,7 +65,8 @@ cl::Event HaloRows<T, W>::fetch(const Ranges& ranges) {
   else
     for (const Range& range : ranges)
       done = queue().read(problem_.arena(), place(range.from),
-                          std::as_writable_bytes(std::span(range.image, range.to - range.from)), Wait::no);
+                          std::as_writable_bytes(std::span(range.image, range.to - range.from)),
+                          Wait::no);
   return done;
 }
 
@@ -71,8 +76,8 @@ void HaloRows<T, W>::bring(const Ranges& ranges) {
     problem_.to_device({});
   else
     for (const Range& range : ranges)
-      queue().write(problem_.arena(), place(range.from), std::as_bytes(std::span(range.image, range.to - range.from)),
-                    Wait::no);
+      queue().write(problem_.arena(), place(range.from),
+                    std::as_bytes(std::span(range.image, range.to - range.from)), Wait::no);
 }
 
 template <class T, int W>

@@ -1,5 +1,5 @@
 #pragma once
-/// The halo of a part on a device: what is transferred with it, and where the host sees it.
+/// The halo of a part on a device: which ranges are transferred, and where the host sees them.
 #include "variants/opencl/device_problem.hpp"
 
 #include <map>
@@ -9,18 +9,19 @@
 
 namespace dss::opencl {
 
-/// What neighbours are sent lies in rows of the arena, and so does what they send. Where the device has memory of its own, these rows have
-/// an image in pinned memory of the host. Elsewhere the arena itself is the image.
+/// What neighbours receive from this part, and what they send, lies in rows of the arena. If the
+/// device has memory of its own, these rows have an image in the host's pinned memory. Else the
+/// arena itself is the image.
 template <class T, int W>
 class HaloRows {
 public:
   explicit HaloRows(DeviceProblem<T, W>& problem) : problem_(problem) {}
-  /// Waits for transfers, which may still use the images after an error.
+  /// Waits for transfers, since after an error they may still use the images.
   ~HaloRows();
   HaloRows(const HaloRows&) = delete;
   HaloRows& operator=(const HaloRows&) = delete;
 
-  /// Numbers that lie together in the arena and in the images.
+  /// A range of the arena and its image, contiguous in both.
   struct Range {
     T *from, *to, *image;
   };
@@ -30,25 +31,27 @@ public:
     std::size_t count;
     auto operator<=>(const Row&) const = default;
   };
-  /// Makes images of those rows of the arena that have none, as the rows are now. Those that follow one another in the arena do so as images.
+  /// Makes images of those rows that have none, with the rows' present numbers. Rows that follow
+  /// one another in the arena do so as images too.
   void make_images(std::vector<Row> rows);
   T* image(T* row) const { return problem_.is_shared() ? row : images_.at(row); }
-  /// Ranges that touch or overlap become one.
+  /// Adds a range, and joins ranges that touch or overlap.
   static void add(Ranges& ranges, Range range);
 
-  /// From now on by a queue of its own, beside that of the problem.
+  /// From now on transfers use a queue of their own, beside that of the problem.
   void go_beside() { own_queue_.emplace(problem_.queue.device()); }
-  /// Transfers are done in its order.
+  /// The queue that orders the transfers.
   Queue& queue() { return own_queue_ ? *own_queue_ : problem_.queue; }
-  /// From the device to the images. @return comes when it is done; none if it is
+  /// Copies ranges from the device to the images.
+  /// @return the event at the end; null if nothing is left to wait for
   cl::Event fetch(const Ranges& ranges);
-  /// From the images, which must not change until it is done, to the device.
+  /// Copies ranges from the images to the device. The images must not change until it is done.
   void bring(const Ranges& ranges);
-  /// While the host has the arena: between its rows and the images.
+  /// Copies between the arena's rows and the images, while the host has the arena.
   void fetch_from_arena(const Ranges& ranges) const;
   void bring_to_arena(const Ranges& ranges) const;
 
-  /// Of the own queue.
+  /// Counts of the own queue; zeros if there is none.
   Counts counts() { return own_queue_ ? own_queue_->counts() : Counts{}; }
 
 private:
@@ -57,7 +60,7 @@ private:
   }
   DeviceProblem<T, W>& problem_;
   std::optional<Queue> own_queue_;
-  std::map<const T*, T*> images_; ///< by row
+  std::map<const T*, T*> images_; ///< from a row to its image
   std::vector<Buffer> pinned_;
   std::vector<std::unique_ptr<Mapping>> mappings_;
 };

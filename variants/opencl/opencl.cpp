@@ -6,7 +6,8 @@
 namespace dss::opencl {
 namespace {
 
-constexpr cl_int platform_not_found = -1001; ///< CL_PLATFORM_NOT_FOUND_KHR of the loader (cl_khr_icd)
+/// CL_PLATFORM_NOT_FOUND_KHR, an error of the loader (cl_khr_icd).
+constexpr cl_int platform_not_found = -1001;
 
 const char* advice(cl_int status) {
   switch (status) {
@@ -14,7 +15,8 @@ const char* advice(cl_int status) {
   case CL_OUT_OF_RESOURCES:
   case CL_OUT_OF_HOST_MEMORY:
   case CL_INVALID_BUFFER_SIZE:
-    return "its memory does not suffice; take a smaller scene, --precision f32, or another --device";
+    return "its memory does not suffice; take a smaller scene, --precision f32, or another "
+           "--device";
   case CL_DEVICE_NOT_AVAILABLE:
   case CL_DEVICE_NOT_FOUND:
     return "the device is in use or gone; `dssbench list devices` shows what is there";
@@ -36,8 +38,8 @@ const char* advice(cl_int status) {
 
 std::string status_name(cl_int status) {
   switch (status) {
-#define DSS_STATUS(name)                                                                                               \
-  case name:                                                                                                           \
+#define DSS_STATUS(name)                                                                           \
+  case name:                                                                                       \
     return #name
     DSS_STATUS(CL_SUCCESS);
     DSS_STATUS(CL_DEVICE_NOT_FOUND);
@@ -99,8 +101,8 @@ std::string status_name(cl_int status) {
 }
 
 void fail(std::string_view device, const cl::Error& error) {
-  throw InputError(
-      fmt::format("opencl: {} on {}: {}: {}", error.what(), device, status_name(error.err()), advice(error.err())));
+  throw InputError(fmt::format("opencl: {} on {}: {}: {}", error.what(), device,
+                               status_name(error.err()), advice(error.err())));
 }
 
 } // namespace dss::opencl

@@ -1,5 +1,5 @@
 #pragma once
-/// OpenCL 1.2 through Khronos' C++ bindings, whose exceptions become the program's own.
+/// OpenCL 1.2 through Khronos' C++ bindings. Their exceptions become the program's own.
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #define CL_HPP_ENABLE_EXCEPTIONS
@@ -10,13 +10,15 @@
 
 namespace dss::opencl {
 
-/// "CL_INVALID_VALUE"; "OpenCL status -9999" for one that OpenCL 1.2 does not have.
+/// Name of a status, for example "CL_INVALID_VALUE"; "OpenCL status -9999" if OpenCL 1.2 does not
+/// define it.
 std::string status_name(cl_int status);
 
 /// @throws InputError always: "opencl: clFinish on NAME: CL_OUT_OF_RESOURCES: what would be right"
 [[noreturn]] void fail(std::string_view device, const cl::Error& error);
 
-/// What body() returns; the bindings check every cl_int, and any error becomes the InputError of fail().
+/// Returns what body() returns. The bindings check every cl_int, and every error becomes the
+/// InputError of fail().
 template <class Body>
 decltype(auto) guarded(std::string_view device, Body&& body) {
   try {

@@ -1,5 +1,6 @@
-/// Entry point of both variants: DSS_OPENCL_EXECUTOR is the executor of each, from CMake.
-#include "variants/api.hpp"
+/// Entry point of the variants `opencl` and `opencl-rhs`. CMake defines DSS_OPENCL_EXECUTOR, the
+/// executor of each.
+#include "variants/api/api.hpp"
 #include "variants/opencl/ceilings.hpp"
 #include "variants/opencl/resident_executor.hpp"
 #include "variants/opencl/rhs_executor.hpp"
@@ -8,14 +9,16 @@ namespace dss {
 namespace {
 
 template <class T>
-std::unique_ptr<Executor> create_for(const Setup& setup, const opencl::Device& device, const opencl::Layout& layout) {
+std::unique_ptr<Executor> create_for(const Setup& setup, const opencl::Device& device,
+                                     const opencl::Layout& layout) {
   return opencl::with_lanes<T>(layout.lanes, [&](auto lanes) -> std::unique_ptr<Executor> {
     return std::make_unique<opencl::DSS_OPENCL_EXECUTOR<T, lanes>>(setup, device, layout);
   });
 }
 
 std::unique_ptr<Executor> create(const Setup& setup) {
-  const opencl::Device device = opencl::narrowed(opencl::find_device(setup.device, setup.precision), setup.threads);
+  const opencl::Device device =
+      opencl::narrowed(opencl::find_device(setup.device, setup.precision), setup.threads);
   const opencl::Layout layout = opencl::layout_on(device, setup.precision, setup.threads);
   if (is_single(setup.precision)) return create_for<float>(setup, device, layout);
   return create_for<double>(setup, device, layout);

@@ -17,7 +17,8 @@ constexpr double gibibyte = 1024.0 * 1024 * 1024;
 /// Bytes that this process has allocated on a device.
 std::atomic<std::size_t>& allocated_on(const Device& device) {
   static std::mutex mutex;
-  static auto& of_devices = *new std::map<cl_device_id, std::atomic<std::size_t>>; // outlives every buffer
+  // Never destroyed: buffers may live longer than statics.
+  static auto& of_devices = *new std::map<cl_device_id, std::atomic<std::size_t>>;
   const std::lock_guard lock(mutex);
   return of_devices[device.handle()];
 }
@@ -25,7 +26,8 @@ std::atomic<std::size_t>& allocated_on(const Device& device) {
 /// Counts bytes as allocated while it lives.
 class Reservation {
 public:
-  Reservation(std::atomic<std::size_t>& allocated, std::size_t bytes) : allocated_(allocated), bytes_(bytes) {
+  Reservation(std::atomic<std::size_t>& allocated, std::size_t bytes)
+      : allocated_(allocated), bytes_(bytes) {
     allocated_ += bytes_;
   }
   Reservation(const Reservation&) = delete;
@@ -39,9 +41,10 @@ private:
 
 void require_memory(const DeviceEntry& device, double bytes, double allocated) {
   const auto refuse = [&](const std::string& what, double there) {
-    throw InputError(fmt::format("opencl: device {} ({}): {} {:.3g} GiB, {:.3g} GiB are there; take a smaller scene, "
-                                 "--precision f32, or another --device",
-                                 device.id, device.name, what, bytes / gibibyte, there / gibibyte));
+    throw InputError(fmt::format(
+        "opencl: device {} ({}): {} {:.3g} GiB, {:.3g} GiB are there; take a smaller scene, "
+        "--precision f32, or another --device",
+        device.id, device.name, what, bytes / gibibyte, there / gibibyte));
   };
   if (bytes > device.largest_buffer_bytes) refuse("one buffer needs", device.largest_buffer_bytes);
   bytes += allocated;
@@ -96,7 +99,8 @@ Kernel Queue::make_kernel(const Program& program, const char* name) const {
 }
 
 template <class Enqueue>
-cl::Event Queue::transfer(std::size_t bytes, Wait wait, double Counts::*counter, Enqueue&& enqueue) {
+cl::Event Queue::transfer(std::size_t bytes, Wait wait, double Counts::*counter,
+                          Enqueue&& enqueue) {
   cl::Event done;
   guarded(device_.entry.name, [&] { enqueue(wait == Wait::yes ? CL_TRUE : CL_FALSE, &done); });
   if (!is_counting_) return done;
@@ -106,7 +110,7 @@ cl::Event Queue::transfer(std::size_t bytes, Wait wait, double Counts::*counter,
   return done;
 }
 
-// The device's own times, so that kernels before a transfer are not counted.
+// Uses the device's own times, so that kernels in front of a transfer do not count.
 void Queue::count_transfers(Wait wait) {
   guarded(device_.entry.name, [&] {
     for (; !uncounted_.empty(); uncounted_.pop_front()) {
@@ -125,46 +129,57 @@ const Counts& Queue::counts() {
   return counts_;
 }
 
-cl::Event Queue::write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data, Wait wait) {
+cl::Event Queue::write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> data,
+                       Wait wait) {
   if (data.empty()) return {};
-  return transfer(data.size(), wait, &Counts::to_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
-    queue_.enqueueWriteBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), nullptr, done);
-  });
+  return transfer(data.size(), wait, &Counts::to_device_bytes,
+                  [&](cl_bool is_blocking, cl::Event* done) {
+                    queue_.enqueueWriteBuffer(buffer.handle(), is_blocking, offset, data.size(),
+                                              data.data(), nullptr, done);
+                  });
 }
 
-cl::Event Queue::read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data, Wait wait) {
+cl::Event Queue::read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data,
+                      Wait wait) {
   if (data.empty()) return {};
-  return transfer(data.size(), wait, &Counts::from_device_bytes, [&](cl_bool is_blocking, cl::Event* done) {
-    queue_.enqueueReadBuffer(buffer.handle(), is_blocking, offset, data.size(), data.data(), nullptr, done);
-  });
+  return transfer(data.size(), wait, &Counts::from_device_bytes,
+                  [&](cl_bool is_blocking, cl::Event* done) {
+                    queue_.enqueueReadBuffer(buffer.handle(), is_blocking, offset, data.size(),
+                                             data.data(), nullptr, done);
+                  });
 }
 
-void Queue::copy(const Buffer& from, std::size_t from_offset, const Buffer& to, std::size_t to_offset,
-                 std::size_t bytes) {
+void Queue::copy(const Buffer& from, std::size_t from_offset, const Buffer& to,
+                 std::size_t to_offset, std::size_t bytes) {
   if (bytes == 0) return;
-  guarded(device_.entry.name,
-          [&] { queue_.enqueueCopyBuffer(from.handle(), to.handle(), from_offset, to_offset, bytes); });
+  guarded(device_.entry.name, [&] {
+    queue_.enqueueCopyBuffer(from.handle(), to.handle(), from_offset, to_offset, bytes);
+  });
 }
 
 void Queue::clear(const Buffer& buffer) {
-  guarded(device_.entry.name, [&] { queue_.enqueueFillBuffer(buffer.handle(), cl_uchar(0), 0, buffer.bytes()); });
+  guarded(device_.entry.name,
+          [&] { queue_.enqueueFillBuffer(buffer.handle(), cl_uchar(0), 0, buffer.bytes()); });
 }
 
-Mapping Queue::map(const Buffer& buffer, std::size_t offset, std::size_t bytes, cl_map_flags flags) {
+Mapping Queue::map(const Buffer& buffer, std::size_t offset, std::size_t bytes,
+                   cl_map_flags flags) {
   return guarded(device_.entry.name, [&] {
     void* data = queue_.enqueueMapBuffer(buffer.handle(), CL_TRUE, flags, offset, bytes);
     if (is_counting_ && !device_.is_unified) {
       if ((flags & CL_MAP_READ) != 0) counts_.from_device_bytes += double(bytes);
-      if ((flags & (CL_MAP_WRITE | CL_MAP_WRITE_INVALIDATE_REGION)) != 0) counts_.to_device_bytes += double(bytes);
+      if ((flags & (CL_MAP_WRITE | CL_MAP_WRITE_INVALIDATE_REGION)) != 0)
+        counts_.to_device_bytes += double(bytes);
     }
     return Mapping(queue_, buffer.handle(), data, bytes);
   });
 }
 
-void Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local, const Events* after,
-                   cl::Event* end) {
-  guarded(kernel.device_,
-          [&] { queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local, after, end); });
+void Queue::launch(const Kernel& kernel, const cl::NDRange& global, const cl::NDRange& local,
+                   const Events* after, cl::Event* end) {
+  guarded(kernel.device_, [&] {
+    queue_.enqueueNDRangeKernel(kernel.handle(), cl::NullRange, global, local, after, end);
+  });
   if (is_counting_) ++counts_.launches;
 }
 
@@ -187,15 +202,17 @@ double Queue::empty_launch_s() {
   static std::mutex mutex;
   static std::map<cl_device_id, double> known_s;
   const std::lock_guard lock(mutex);
-  if (const auto found = known_s.find(device_.handle()); found != known_s.end()) return found->second;
+  if (const auto found = known_s.find(device_.handle()); found != known_s.end())
+    return found->second;
   return known_s[device_.handle()] = measured_launch_s();
 }
 
 double Queue::measured_launch_s() {
-  const Kernel nothing = make_kernel(build_program(device_, "__kernel void nothing() {}"), "nothing");
+  const Kernel nothing =
+      make_kernel(build_program(device_, "__kernel void nothing() {}"), "nothing");
   std::array<double, 11> times{};
   const bool was_counting = std::exchange(is_counting_, false);
-  launch(nothing, cl::NDRange(1)); // the first compiles
+  launch(nothing, cl::NDRange(1)); // the first launch compiles
   finish();
   for (double& time : times) {
     const auto start = std::chrono::steady_clock::now();

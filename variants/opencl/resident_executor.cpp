@@ -8,17 +8,22 @@
 namespace dss::opencl {
 
 template <class T, int W>
-ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout)
+ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& device,
+                                         const Layout& layout)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
-      problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device, layout),
+      problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device,
+               layout),
       rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }),
       halo_rows_(problem_) {
   const PartWorksAlone alone(part_);
-  // On a GPU more work-items than rows compute at once, and a wavefront over all of them would not stay in its caches.
-  const bool is_staged = layout.has_items || setup_.method.has_error_stage || !setup_.problem.extra_links.empty() ||
+  // A GPU computes more work-items at once than there are rows, and a wavefront over all of them
+  // would not stay in its caches.
+  const bool is_staged = layout.has_items || setup_.method.has_error_stage ||
+                         !setup_.problem.extra_links.empty() ||
                          (is_part() && part_->is_every_stage);
   if (is_staged)
-    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(), layout.bands, part_);
+    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(),
+                    layout.bands, part_);
   else
     make_blocks();
   if (staged_) add_stages();
@@ -32,9 +37,12 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
 
 template <class T, int W>
 std::vector<int> ResidentExecutor<T, W>::cut_blocks() {
-  const int begin = packed_.own_begin, end = packed_.own_end, halo = setup_.method.stages * packed_.reach;
-  // With shared memory there is nothing to hide, and PoCL takes 20 us for each command. Own rows with halo elements in them are no edges.
-  is_split_ = is_part() && part_->is_overlapped && !problem_.is_shared() && end - begin >= 4 * halo &&
+  const int begin = packed_.own_begin, end = packed_.own_end,
+            halo = setup_.method.stages * packed_.reach;
+  // With shared memory there is no transfer to hide, and each command costs time (README.md). Own
+  // rows that contain halo elements cannot be edges.
+  is_split_ = is_part() && part_->is_overlapped && !problem_.is_shared() &&
+              end - begin >= 4 * halo &&
               std::ranges::none_of(part_->part.neighbours, [&](const Neighbour& neighbour) {
                 return side_of(part_->part, neighbour) == Side::among;
               });
@@ -64,8 +72,8 @@ void ResidentExecutor<T, W>::make_blocks() {
   for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
     if (blocks[b].is_remote()) continue;
     add_neighbours(cuts, int(band++), halo);
-    WavefrontStep<T, W> step(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem), blocks, b,
-                             steps_a_pass_);
+    WavefrontStep<T, W> step(packed_, method, setup_.dt, rows_.storage(),
+                             signal_count(setup_.problem), blocks, b, steps_a_pass_);
     for (const int parity : {0, 1}) {
       int n = 0;
       const auto is_last = [&] { return n % method.stages == 0; }; // n counts from 1 here
@@ -81,15 +89,16 @@ void ResidentExecutor<T, W>::make_blocks() {
           },
           [&](int r, bool is_whole, const RowTask<T>& task) {
             const bool is_published = is_last() && blocks[b].is_published(r) && blocks[b].owns(r);
-            const int place = problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields(),
-                                           is_published ? blocks[b].published(r, parity ^ 1) : nullptr);
+            const int place =
+                problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields(),
+                             is_published ? blocks[b].published(r, parity ^ 1) : nullptr);
             if (sweeps_.back().rows < 0) sweeps_.back().rows = place;
           });
     }
   }
 }
 
-/// Bands with rows in the halo of this one.
+/// Finds the bands with rows in the halo of this band.
 template <class T, int W>
 void ResidentExecutor<T, W>::add_neighbours(const std::vector<int>& cuts, int band, int halo) {
   const int begin = cuts[std::size_t(band)] - halo, end = cuts[std::size_t(band) + 1] + halo;
@@ -99,7 +108,7 @@ void ResidentExecutor<T, W>::add_neighbours(const std::vector<int>& cuts, int ba
   neighbours_.push_back({{first, last + 1}});
 }
 
-/// Lists of row tasks: one a band, on a GPU one a row.
+/// Makes the lists of row tasks: one for each band, or on a GPU for each row.
 template <class T, int W>
 void ResidentExecutor<T, W>::add_stages() {
   const int stages = setup_.method.stages, parities = staged_->is_swapped() ? 2 : 1;
@@ -110,8 +119,9 @@ void ResidentExecutor<T, W>::add_stages() {
       for (int band = 0; band < staged_->threads(); ++band) {
         const int begin = problem_.next_place();
         staged_->each_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& task) {
-          if (has_items && !is_whole) return; // computed at both ends
-          const int place = problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields());
+          if (has_items && !is_whole) return; // work-items compute links at both ends
+          const int place =
+              problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields());
           if (has_items) lists.push_back({{place, place + 1}});
         });
         if (!has_items) lists.push_back({{begin, problem_.next_place()}});
@@ -120,8 +130,8 @@ void ResidentExecutor<T, W>::add_stages() {
     }
     if (parities == 2) staged_->swap();
   }
-  for (auto& lists : lists_)
-    lists.resize(std::size_t(bands_)); // a part computes the less of its halo the later the stage
+  // A part computes less of its halo in later stages.
+  for (auto& lists : lists_) lists.resize(std::size_t(bands_));
 }
 
 template <class T, int W>
@@ -136,7 +146,8 @@ void ResidentExecutor<T, W>::make_kernels() {
   }
   if (setup_.method.has_error_stage) make_error_kernels();
   for (const auto& lists : lists_) list_tables_.push_back(problem_.table(lists));
-  for (int parity = 0; problem_.has_extra_links() && parity < (staged_->is_swapped() ? 2 : 1); ++parity) {
+  for (int parity = 0; problem_.has_extra_links() && parity < (staged_->is_swapped() ? 2 : 1);
+       ++parity) {
     for (int stage = 0; stage < setup_.method.stages; ++stage) {
       std::vector<cl_long> starts;
       for (int r = 0; r < int(packed_.rows.size()); ++r)
@@ -151,7 +162,8 @@ template <class T, int W>
 void ResidentExecutor<T, W>::warm_up() {
   const opencl::Buffer nothing = problem_.table(std::vector<cl_int2>(std::size_t(bands_)));
   problem_.queue.set_counting(false);
-  problem_.set_signals(std::vector<double>(signal_count(setup_.problem)), signal_count(setup_.problem));
+  problem_.set_signals(std::vector<double>(signal_count(setup_.problem)),
+                       signal_count(setup_.problem));
   forget_failures();
   if (staged_) {
     if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_.front());
@@ -177,7 +189,7 @@ std::pair<T*, T*> ResidentExecutor<T, W>::copy_row(int copy, int r) {
   return blocks_.copy_row(copy, r);
 }
 
-/// Of whole rows; rows that follow one another in memory are one range.
+/// Ranges of all stored rows. Rows that follow one another in memory are one range.
 template <class T, int W>
 auto ResidentExecutor<T, W>::state_ranges() -> std::vector<Range> {
   std::vector<Range> ranges;
@@ -197,7 +209,7 @@ auto ResidentExecutor<T, W>::state_ranges() -> std::vector<Range> {
 template <class T, int W>
 void ResidentExecutor<T, W>::to_host() {
   if (is_on_host_) return;
-  problem_.queue.set_counting(false); // transfers of whole states are not the method's
+  problem_.queue.set_counting(false); // transfers of whole states do not count as the method's
   problem_.to_host(state_ranges());
   problem_.queue.set_counting(true);
   is_on_host_ = true;
@@ -213,7 +225,8 @@ void ResidentExecutor<T, W>::to_device() {
   is_on_host_ = is_changed_ = false;
 }
 
-/// States are written in pieces, of thousands of elements each: what bands publish is copied once, behind the last.
+/// Publishes the rows that bands read. A state is written in pieces of thousands of elements, so
+/// this is done once, after the last piece.
 template <class T, int W>
 void ResidentExecutor<T, W>::publish_changed() {
   if (is_changed_) blocks_.publish_all(parity_);
@@ -249,17 +262,19 @@ void ResidentExecutor<T, W>::restore(std::size_t first, std::span<const double> 
   is_changed_ = true;
 }
 
-/// Rates of plain rows, at the present state, which is on the host.
+/// Rates of plain rows at the present state, which the host has.
 template <class T, int W>
 std::vector<T> ResidentExecutor<T, W>::evaluate(std::span<const double> signals) {
-  const PartWorksAlone alone(rates_ == nullptr ? part_ : nullptr); // some drivers compile at the first launch
+  // Some drivers compile at the first launch.
+  const PartWorksAlone alone(rates_ == nullptr ? part_ : nullptr);
   if (is_part()) {
     const int copy = staged_ ? staged_->current_copy() : parity_;
     send(copy);
     receive(copy);
   }
   if (rates_ == nullptr)
-    rates_ = std::make_unique<DeviceRates<T, W>>(setup_.problem, setup_.model, is_part() ? &part_->part : nullptr,
+    rates_ = std::make_unique<DeviceRates<T, W>>(setup_.problem, setup_.model,
+                                                 is_part() ? &part_->part : nullptr,
                                                  problem_.queue.device(), problem_.layout, true);
   std::vector<T> plain(rows_.plain_size()), rates(plain.size());
   rows_.copy_plain(plain.data());
@@ -297,9 +312,11 @@ template <class T, int W>
 std::string ResidentExecutor<T, W>::schedule() const {
   const std::string& device = problem_.queue.device().entry.name;
   if (problem_.layout.has_items)
-    return fmt::format("on {}: a work-item an element, in packs of {} lanes; stage by stage", device, W);
+    return fmt::format("on {}: a work-item an element, in packs of {} lanes; stage by stage",
+                       device, W);
   return fmt::format("on {}: {} bands of rows, work-items of {} lanes; {}", device, bands_, W,
-                     staged_ ? "stage by stage" : fmt::format("wavefront, reach {}, in place", packed_.reach));
+                     staged_ ? "stage by stage"
+                             : fmt::format("wavefront, reach {}, in place", packed_.reach));
 }
 
 template <class T, int W>

@@ -1,7 +1,8 @@
 #pragma once
-/// The variant `opencl`: the state stays on the device, which does whole steps. Schedules, blocks of rows and their memory are the engine's.
+/// The executor of the variant `opencl`. The state stays on the device, which computes whole steps.
+/// Schedules, blocks of rows and their memory come from the engine.
 #include "solver/numerics/signal_rows.hpp"
-#include "variants/api.hpp"
+#include "variants/api/api.hpp"
 #include "variants/engine/blocks.hpp"
 #include "variants/engine/state_rows.hpp"
 #include "variants/opencl/device_rates.hpp"
@@ -11,8 +12,15 @@
 
 namespace dss::opencl {
 
+/// Computes a problem, or a part of one, on a device, with packs of W lanes of T. The schedule is a
+/// wavefront over bands of rows (blocks_) or stage by stage (staged_). A band is a block of rows
+/// that one work-group computes.
 template <class T, int W>
-class ResidentExecutor final : public Executor {
+class ResidentExecutor final : public Executor,
+                               public StepTrials,
+                               public PartHalos,
+                               public StateTransfer,
+                               public DeviceWork {
 public:
   ResidentExecutor(const Setup& setup, const Device& device, const Layout& layout);
   void write(std::size_t first, std::span<const double> fields) override;
@@ -20,6 +28,10 @@ public:
   void derivative(std::span<const double> signals, std::span<double> rates) override;
   bool repeat_derivative(long times, std::span<double> rates) override;
   Outcome advance(long steps, std::span<const double> signals) override;
+  StepTrials* step_trials() override { return this; }
+  PartHalos* part_halos() override { return this; }
+  StateTransfer* state_transfer() override { return this; }
+  DeviceWork* device_work() override { return this; }
   StepMaxima try_step(double dt, std::span<const double> signals) override;
   void accept_step() override;
   std::string schedule() const override;
@@ -35,9 +47,10 @@ public:
   double computing_s() const override { return is_split_ ? computing_s_ : -1; }
 
 private:
-  /// Places of those arguments of run_passes that change from launch to launch (device/passes.cl).
+  /// Indices of those arguments of run_passes that change between launches (device/passes.cl).
   static constexpr cl_uint last_pass_argument = DeviceProblem<T, W>::table_arguments + 7,
-                           patience_argument = last_pass_argument + 6, first_block_argument = patience_argument + 1,
+                           patience_argument = last_pass_argument + 6,
+                           first_block_argument = patience_argument + 1,
                            block_stride_argument = first_block_argument + 1;
   using Range = typename DeviceProblem<T, W>::Range;
   bool is_part() const { return part_ != nullptr; }
@@ -48,7 +61,8 @@ private:
   void make_kernels();
   void set_pass_arguments(long steps);
   void set_stage_arguments(const opencl::Buffer& lists, int stage, long step);
-  /// Some drivers compile a kernel when it is first launched, PoCL for one: launches that do nothing.
+  /// Launches all kernels with nothing to do: some drivers, such as PoCL, compile a kernel at its
+  /// first launch.
   void warm_up();
   T* row(int r);
   std::pair<T*, T*> copy_row(int copy, int r);
@@ -59,10 +73,10 @@ private:
   std::vector<Range> state_ranges();
   void make_images(std::span<const std::size_t> elements, int copy);
   void add_to_halo(int r, std::span<const std::size_t> elements, int copy, HaloLayout& layout);
-  /// The state, halo included, is in the arena for the host, until to_device().
+  /// Gives the arena to the host, with the state and its halo, until to_device().
   void to_host();
   void to_device();
-  /// Part: sends or receives on all sides, and moves what is exchanged between device and host.
+  /// Parts: sends or receives on all sides, and moves the halo between device and host.
   void send(int copy);
   void receive(int copy);
   void send_all_sides(int copy);
@@ -70,20 +84,25 @@ private:
   std::vector<T> evaluate(std::span<const double> signals);
   void stop_leapfrog();
   Outcome run_passes(long steps);
-  /// All bands to the end of this pass. Together: without a launch for each, if all bands are computed at the same time.
+  /// Computes all bands up to the end of a pass.
+  /// @param is_together  one launch for all passes; needs bands that are computed at the same time
   void run_to(long last_pass, bool is_together);
-  /// Of every stride-th block, counted without remote ones.
-  cl::Event launch_blocks(Queue& by, int first, int count, const Events& after = {}, int stride = 1);
-  /// One step of a part that is split: halo, edges and what is sent of them in one queue, the rest in the other.
+  /// Launches every stride-th block, counted without remote ones.
+  cl::Event launch_blocks(Queue& by, int first, int count, const Events& after = {},
+                          int stride = 1);
+  /// One step of a part that is split. One queue has the halo, the edges and what is sent of them;
+  /// the other queue has all other rows.
   void step_overlapped(long pass, bool is_last);
   void count_computing();
-  /// Rows of each block, and whether edges that neighbours wait for are blocks of their own.
+  /// The first row of each block, then the end. Edges that neighbours wait for are blocks of their
+  /// own in a part that is split; sets is_split_.
   std::vector<int> cut_blocks();
   long least_progress();
-  /// Passes up to and with the one that failed, at most `passes`.
+  /// Passes to do: all up to the one that failed, at most `passes`.
   long passes_to_do(long passes);
   Outcome run_stages(long steps);
-  /// All stages of a step, with their halos. `is_last`: nobody waits for the halo of its result.
+  /// Launches all stages of a step and exchanges their halos. `is_last`: the halo of its result is
+  /// not sent.
   void launch_step(long step, bool is_last);
   void make_error_kernels();
   void warm_up_error_kernels(const opencl::Buffer& nothing);
@@ -92,34 +111,41 @@ private:
   Outcome outcome(long steps);
 
   const Setup setup_;
-  const PartSetup* part_; ///< null for a whole problem, or a part that has no neighbours
+  const PartSetup* part_; ///< null for a whole problem and for a part without neighbours
   DeviceProblem<T, W> problem_;
   PackedRows<T, W>& packed_ = problem_.packed;
   StateRows<T, W> rows_;
-  Blocks<T, W> blocks_;                    ///< wavefront
-  std::optional<StagedRows<T, W>> staged_; ///< or stage by stage
+  Blocks<T, W> blocks_;                    ///< of the wavefront
+  std::optional<StagedRows<T, W>> staged_; ///< stage by stage, in place of blocks_
   int bands_ = 1, steps_a_pass_ = 1, most_sweeps_ = 0;
-  bool is_split_ = false; ///< part: the edges that neighbours wait for are blocks of their own, first and last
+  /// Parts: the edges that neighbours wait for are blocks of their own, first and last.
+  bool is_split_ = false;
   bool has_lower_edge_ = false, has_upper_edge_ = false;
-  Events rest_, edges_; ///< split: launches of the last step
+  Events rest_, edges_; ///< if split: launches of the last step
+  /// Compute time of a split part [s].
   double computing_s_ = 0;
   int parity_ = 0;
-  bool is_on_host_ = false, is_changed_ = false; ///< by the host, since the device had it; published when it goes there
-  int trials_left_ =
-      0; ///< of bands that wait for one another, until they are found not to be computed at the same time
+  /// is_changed_: the host has changed the state since the device had it; it is published when it
+  /// goes to the device.
+  bool is_on_host_ = false, is_changed_ = false;
+  /// How often advance() may still try bands that wait for one another. A try fails if the bands
+  /// are not computed at the same time.
+  int trials_left_ = 0;
   std::vector<typename Tables<T>::sweep> sweeps_;
-  std::vector<std::vector<cl_int2>> lists_; ///< parity * stages + stage: of each band
-  std::vector<cl_int2> neighbours_;         ///< of each band: bands whose rows it reads
+  std::vector<std::vector<cl_int2>> lists_; ///< [parity * stages + stage]: list of each band
+  std::vector<cl_int2> neighbours_;         ///< of each band: the bands whose rows it reads
   opencl::Buffer sweep_table_, neighbour_table_, failed_, progress_;
   std::vector<opencl::Buffer> list_tables_, row_starts_;
   Kernel kernel_;
-  Kernel maxima_kernel_, accept_kernel_;                         ///< of a method with an error stage
-  opencl::Buffer maxima_;                                        ///< the same: of each band, see device/step_error.cl
-  mutable HaloRows<T, W> halo_rows_;                             ///< as the problem's queue: counts wait for transfers
-  std::vector<typename HaloRows<T, W>::Ranges> sent_, received_; ///< by copy
-  bool is_started_ = false; ///< leapfrog: stored velocities are those of the half step before
+  Kernel maxima_kernel_, accept_kernel_; ///< of methods with an error stage
+  opencl::Buffer maxima_; ///< the same; numbers of each band as in device/step_error.cl
+  /// Mutable like the problem's queue, since counting waits for transfers.
+  mutable HaloRows<T, W> halo_rows_;
+  std::vector<typename HaloRows<T, W>::Ranges> sent_, received_; ///< of each copy
+  bool is_started_ = false; ///< leapfrog: the stored velocities are those of the last half step
   std::vector<double> end_signals_;
-  std::vector<T> end_rates_; ///< leapfrog: rates at the end of the last advance, made when first read
+  /// Leapfrog: rates at the end of the last advance, computed when first read.
+  std::vector<T> end_rates_;
   std::unique_ptr<DeviceRates<T, W>> rates_;
 };
 

@@ -1,4 +1,5 @@
-/// The halo of a part in the resident executor: where its elements lie for the host, and how they come and go.
+/// The halo of a part in the resident executor: where its elements lie for the host, and how they
+/// are transferred.
 #include "variants/engine/packs.hpp"
 #include "variants/opencl/resident_executor.hpp"
 
@@ -16,7 +17,8 @@ HaloLayout ResidentExecutor<T, W>::halo_layout(std::span<const std::size_t> elem
     while (to < elements.size() && row_at(to) == r) ++to;
     add_to_halo(r, elements.subspan(from, to - from), copy, layout);
   }
-  return layout; // not stable: images change when the device's rows are fetched, all copies' alike with a shared arena
+  // Not stable: images change when rows are fetched, with a shared arena those of all copies.
+  return layout;
 }
 
 template <class T, int W>
@@ -31,9 +33,10 @@ void ResidentExecutor<T, W>::make_images(std::span<const std::size_t> elements, 
   halo_rows_.make_images(std::move(rows));
 }
 
-/// Elements of one row: their places in its image, and what is transferred of it.
+/// Adds the elements of one row to a layout: their places in its image, and the ranges to transfer.
 template <class T, int W>
-void ResidentExecutor<T, W>::add_to_halo(int r, std::span<const std::size_t> elements, int copy, HaloLayout& layout) {
+void ResidentExecutor<T, W>::add_to_halo(int r, std::span<const std::size_t> elements, int copy,
+                                         HaloLayout& layout) {
   const auto is_own = [&](std::size_t element) { return part_->part.layer[element] == 0; };
   const bool own = is_own(elements.front());
   auto& ranges = (own ? sent_ : received_)[std::size_t(copy)];
@@ -48,10 +51,11 @@ void ResidentExecutor<T, W>::add_to_halo(int r, std::span<const std::size_t> ele
     const bool is_twin = twin != nullptr && at >= twin && at < twin + row_size(r);
     const auto range = range_of(is_twin ? twin : first, at, piece.count / sizeof(T));
     HaloRows<T, W>::add(ranges, range);
-    layout.pieces.push_back({reinterpret_cast<std::byte*>(range.image), layout.size + piece.offset, piece.count});
+    layout.pieces.push_back(
+        {reinterpret_cast<std::byte*>(range.image), layout.size + piece.offset, piece.count});
   }
   layout.size += of_row.size;
-  // Whole rows that nobody else writes: few transfers.
+  // A row that has no other writer is transferred whole, which makes fewer transfers.
   const bool is_remote = staged_ ? !packed_.is_computed(r, 0) : blocks_.of(r).is_remote();
   if (T* const whole = own ? (staged_ ? first : twin) : is_remote ? first : nullptr)
     HaloRows<T, W>::add(ranges, range_of(whole, whole, row_size(r)));
@@ -90,12 +94,12 @@ void ResidentExecutor<T, W>::receive(int copy) {
     halo_rows_.bring(ranges);
 }
 
-// What the other files call; the rest of the class is in resident_executor.cpp and resident_steps.cpp.
-#define DSS_INSTANTIATE(T, W)                                                                                          \
-  template HaloLayout ResidentExecutor<T, W>::halo_layout(std::span<const std::size_t>, int);                          \
-  template void ResidentExecutor<T, W>::send_all_sides(int);                                                           \
-  template void ResidentExecutor<T, W>::receive_all_sides(int);                                                        \
-  template void ResidentExecutor<T, W>::send(int);                                                                     \
+// What other files call. The other functions are in resident_executor.cpp and resident_steps.cpp.
+#define DSS_INSTANTIATE(T, W)                                                                      \
+  template HaloLayout ResidentExecutor<T, W>::halo_layout(std::span<const std::size_t>, int);      \
+  template void ResidentExecutor<T, W>::send_all_sides(int);                                       \
+  template void ResidentExecutor<T, W>::receive_all_sides(int);                                    \
+  template void ResidentExecutor<T, W>::send(int);                                                 \
   template void ResidentExecutor<T, W>::receive(int);
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE

@@ -1,7 +1,7 @@
-/// Steps of the resident executor: launches, halos between them, and what became of them.
+/// Steps of the resident executor: launches, the halos between them, and their outcome.
+#include "variants/api/tried_steps.hpp"
 #include "variants/engine/packs.hpp"
 #include "variants/opencl/resident_executor.hpp"
-#include "variants/tried_steps.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -38,11 +38,12 @@ void ResidentExecutor<T, W>::set_pass_arguments(long steps) {
   const std::vector<cl_int> none(std::size_t(bands_), 0);
   problem_.queue.write(progress_, 0, std::as_bytes(std::span(none)));
   cl_uint n = DeviceProblem<T, W>::table_arguments;
-  for (const opencl::Buffer& table : {sweep_table_, neighbour_table_, problem_.signals(), failed_, progress_})
+  for (const opencl::Buffer& table :
+       {sweep_table_, neighbour_table_, problem_.signals(), failed_, progress_})
     kernel_.set_one(n++, table);
   const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
-  for (const int value :
-       {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages, packed_.reach, width, 0, 0, 1}) // 0: see run_to
+  for (const int value : {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages,
+                          packed_.reach, width, 0, 0, 1}) // 0: set in run_to
     kernel_.set_one(n++, cl_int(value));
 }
 
@@ -71,10 +72,11 @@ Outcome ResidentExecutor<T, W>::run_passes(long steps) {
       run_to(passes, true);
       const long before = std::exchange(done, least_progress());
       if (done - before >= std::min(passes_to_do(passes) - before, 2L)) continue;
-      --trials_left_; // bands came one after the other
+      --trials_left_; // bands were computed one after the other
       break;
     }
-    for (long pass = done, last = passes_to_do(passes); pass < last; ++pass) run_to(pass + 1, false);
+    for (long pass = done, last = passes_to_do(passes); pass < last; ++pass)
+      run_to(pass + 1, false);
     parity_ = parity_after(passes);
   }
   return outcome(steps);
@@ -82,40 +84,46 @@ Outcome ResidentExecutor<T, W>::run_passes(long steps) {
 
 template <class T, int W>
 void ResidentExecutor<T, W>::run_to(long last_pass, bool is_together) {
-  constexpr int patience = 1 << 24; // some 10 ms: what it may take a sleeping thread to come
+  // Looks at a counter, some 10 ms: what a sleeping thread may need to wake up.
+  constexpr int patience = 1 << 24;
   kernel_.set_one(last_pass_argument, cl_int(last_pass));
   kernel_.set_one(patience_argument, cl_int(is_together ? patience : 0));
   launch_blocks(problem_.queue, 0, bands_);
 }
 
 template <class T, int W>
-cl::Event ResidentExecutor<T, W>::launch_blocks(Queue& by, int first, int count, const Events& after, int stride) {
+cl::Event ResidentExecutor<T, W>::launch_blocks(Queue& by, int first, int count,
+                                                const Events& after, int stride) {
   kernel_.set_one(first_block_argument, cl_int(first));
   kernel_.set_one(block_stride_argument, cl_int(stride));
   return problem_.launch(by, kernel_, count, after);
 }
 
-// Edges and the rest read what the others published in the step before, and overwrite what they read the step before that: each waits for
-// the others' last step. So a step of the rest may be computed while edges are computed and fetched, and while the next halo is under way.
+// Edges and the rest of the rows read what the others published in the last step, and overwrite
+// what the others read in the step before. So each waits for the others' last step. The rest of a
+// step can then be computed while edges are computed and fetched, and while the next halo travels.
 template <class T, int W>
 void ResidentExecutor<T, W>::step_overlapped(long pass, bool is_last) {
   receive_all_sides(parity_);
   halo_rows_.bring(received_[std::size_t(parity_)]);
   parity_ ^= 1;
   kernel_.set_one(last_pass_argument, cl_int(pass + 1));
-  const int edges = int(has_lower_edge_) + int(has_upper_edge_), first_edge = has_lower_edge_ ? 0 : bands_ - 1;
-  const cl::Event edges_done = launch_blocks(halo_rows_.queue(), first_edge, edges, rest_, bands_ - 1);
+  const int edges = int(has_lower_edge_) + int(has_upper_edge_),
+            first_edge = has_lower_edge_ ? 0 : bands_ - 1;
+  const cl::Event edges_done =
+      launch_blocks(halo_rows_.queue(), first_edge, edges, rest_, bands_ - 1);
   const cl::Event fetched = is_last ? cl::Event() : halo_rows_.fetch(sent_[std::size_t(parity_)]);
-  const cl::Event rest_done = launch_blocks(problem_.queue, int(has_lower_edge_), bands_ - edges, edges_);
+  const cl::Event rest_done =
+      launch_blocks(problem_.queue, int(has_lower_edge_), bands_ - edges, edges_);
   halo_rows_.queue().flush();
   problem_.queue.flush();
   problem_.queue.await({edges_done, fetched});
-  count_computing(); // of the step before, whose rest the edges waited for
+  count_computing(); // of the last step: the edges have waited for its rest
   rest_ = {rest_done}, edges_ = {edges_done};
   if (!is_last) send_all_sides(parity_);
 }
 
-/// Of the last step: the time in which edges, the rest, or both were computed.
+/// Adds the time of the last step in which edges, the rest, or both were computed.
 template <class T, int W>
 void ResidentExecutor<T, W>::count_computing() {
   if (edges_.empty()) return;
@@ -128,7 +136,8 @@ void ResidentExecutor<T, W>::count_computing() {
     const auto [begin, end] = time(rest_.front());
     const auto [edges_begin, edges_end] = time(edges_.front());
     const cl_ulong from = std::max(begin, edges_begin), to = std::min(end, edges_end);
-    computing_s_ += 1e-9 * double(end - begin + edges_end - edges_begin - (from < to ? to - from : 0));
+    computing_s_ +=
+        1e-9 * double(end - begin + edges_end - edges_begin - (from < to ? to - from : 0));
   });
 }
 
@@ -149,14 +158,16 @@ long ResidentExecutor<T, W>::passes_to_do(long passes) {
 template <class T, int W>
 void ResidentExecutor<T, W>::launch_stage(int stage, long step) {
   const int stages = setup_.method.stages;
-  const std::size_t table = std::size_t((staged_->is_swapped() ? staged_->current_copy() : 0) * stages + stage);
+  const std::size_t table =
+      std::size_t((staged_->is_swapped() ? staged_->current_copy() : 0) * stages + stage);
   if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_[table]);
   set_stage_arguments(list_tables_[table], stage, step);
   problem_.launch_rows(kernel_, bands_);
 }
 
 template <class T, int W>
-void ResidentExecutor<T, W>::set_stage_arguments(const opencl::Buffer& lists, int stage, long step) {
+void ResidentExecutor<T, W>::set_stage_arguments(const opencl::Buffer& lists, int stage,
+                                                 long step) {
   const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
   cl_uint n = DeviceProblem<T, W>::table_arguments;
   kernel_.set_one(n++, lists);
@@ -191,7 +202,8 @@ constexpr std::size_t maxima_of_band = 2 * StepMaxima::kinds + 1;
 
 template <class T, int W>
 void ResidentExecutor<T, W>::make_error_kernels() {
-  constexpr cl_uint lists = DeviceProblem<T, W>::table_arguments; // set by warm_up_error_kernels
+  // warm_up_error_kernels sets this argument.
+  constexpr cl_uint lists = DeviceProblem<T, W>::table_arguments;
   maxima_ = problem_.queue.make_buffer(std::size_t(bands_) * maxima_of_band * sizeof(T));
   maxima_kernel_ = problem_.kernel("step_maxima");
   maxima_kernel_.set_one(lists + 1, maxima_);
@@ -242,7 +254,8 @@ Outcome ResidentExecutor<T, W>::outcome(long steps) {
   problem_.queue.read(failed_, 0, std::as_writable_bytes(std::span(failed)));
   count_computing();
   if (failed[0] == INT_MAX) return {true, steps, 0};
-  if (staged_ && staged_->is_swapped() && (steps - 1 - failed[0]) % 2 != 0) staged_->swap(); // later ones were not done
+  if (staged_ && staged_->is_swapped() && (steps - 1 - failed[0]) % 2 != 0)
+    staged_->swap(); // later steps were not done
   to_host();
   std::optional<std::size_t> first;
   for (int band = 0; band < bands_; ++band) {
@@ -254,16 +267,16 @@ Outcome ResidentExecutor<T, W>::outcome(long steps) {
   return {false, failed[0], first.value_or(0)};
 }
 
-// What the rest of the class, in resident_executor.cpp, calls.
-#define DSS_INSTANTIATE(T, W)                                                                                          \
-  template Outcome ResidentExecutor<T, W>::advance(long, std::span<const double>);                                     \
-  template StepMaxima ResidentExecutor<T, W>::try_step(double, std::span<const double>);                               \
-  template void ResidentExecutor<T, W>::accept_step();                                                                 \
-  template void ResidentExecutor<T, W>::make_error_kernels();                                                          \
-  template void ResidentExecutor<T, W>::warm_up_error_kernels(const opencl::Buffer&);                                  \
-  template void ResidentExecutor<T, W>::forget_failures();                                                             \
-  template void ResidentExecutor<T, W>::set_pass_arguments(long);                                                      \
-  template void ResidentExecutor<T, W>::run_to(long, bool);                                                            \
+// What resident_executor.cpp calls.
+#define DSS_INSTANTIATE(T, W)                                                                      \
+  template Outcome ResidentExecutor<T, W>::advance(long, std::span<const double>);                 \
+  template StepMaxima ResidentExecutor<T, W>::try_step(double, std::span<const double>);           \
+  template void ResidentExecutor<T, W>::accept_step();                                             \
+  template void ResidentExecutor<T, W>::make_error_kernels();                                      \
+  template void ResidentExecutor<T, W>::warm_up_error_kernels(const opencl::Buffer&);              \
+  template void ResidentExecutor<T, W>::forget_failures();                                         \
+  template void ResidentExecutor<T, W>::set_pass_arguments(long);                                  \
+  template void ResidentExecutor<T, W>::run_to(long, bool);                                        \
   template void ResidentExecutor<T, W>::set_stage_arguments(const opencl::Buffer&, int, long);
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE

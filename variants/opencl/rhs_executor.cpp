@@ -2,8 +2,8 @@
 
 #include "kernels/rk_update/update.hpp"
 #include "solver/numerics/denormals.hpp"
+#include "variants/api/tried_steps.hpp"
 #include "variants/engine/packs.hpp"
-#include "variants/tried_steps.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -26,7 +26,8 @@ RhsExecutor<T, W>::RhsExecutor(const Setup& setup, const Device& device, const L
 
 template <class T, int W>
 T* RhsExecutor<T, W>::row_of(dss::Buffer<T>& rows, int r) {
-  return rows.data() + packed_.rows[std::size_t(r)].pack_offset * std::size_t(rows_.stored_fields() * W);
+  return rows.data() +
+         packed_.rows[std::size_t(r)].pack_offset * std::size_t(rows_.stored_fields() * W);
 }
 
 template <class T, int W>
@@ -57,7 +58,8 @@ void RhsExecutor<T, W>::stop_leapfrog() {
   rows_.write(0, state);
 }
 
-/// Factors from the sums that the device leaves to the rates of the fields, and how many fields each has.
+/// Factors that turn the sums of the device into the rates of the fields, and the number of fields
+/// that each factor has.
 template <class T>
 struct RateScales {
   struct Part {
@@ -111,7 +113,7 @@ int RhsExecutor<T, W>::each_row(Update&& update) {
   return failed == rows ? -1 : failed;
 }
 
-// The engine's own update, lane by lane.
+// Uses the engine's own update, lane by lane.
 template <class T, int W>
 template <class Physics>
 int RhsExecutor<T, W>::update_stage(int stage) {
@@ -120,7 +122,8 @@ int RhsExecutor<T, W>::update_stage(int stage) {
     const PackedRow<T>& packed_row = packed_.rows[std::size_t(r)];
     RowTask<T> task;
     updates_[std::size_t(stage)].set(
-        task, row(r), is_last ? row(r) : stage_row(stage, r), [&](int m) { return stage_row(m, r); }, step_);
+        task, row(r), is_last ? row(r) : stage_row(stage, r),
+        [&](int m) { return stage_row(m, r); }, step_);
     task.body = packed_row.body;
     RowUpdate<Physics, T, W> update(task, scales_of(packed_, r).parts[3].factor);
     const T* const in = stage == 0 ? row(r) : stage_row(stage - 1, r);
@@ -132,7 +135,8 @@ int RhsExecutor<T, W>::update_stage(int stage) {
     };
     for (int lane = 0; lane < packed_row.packs * W; ++lane) {
       const std::ptrdiff_t at = lane / W * rows_.stored_fields() * W + lane % W;
-      const auto sum = element_at(sums + lane / W * packed_.fields() * W + lane % W); // in the place of the rates
+      const auto sum = element_at(sums + lane / W * packed_.fields() * W +
+                                  lane % W); // the sums lie in the place of the rates
       update(at, element_at(in + at), sum.v, sum.w);
     }
     return update.check.passed() || !packed_.first_failed(r, row(r), rows_.stored_fields());
@@ -148,7 +152,8 @@ int RhsExecutor<T, W>::step(std::span<const double> signals) {
     const bool is_plain = rows_.stored_fields() == packed_.fields();
     if (!is_plain) rows_.copy_plain(plain_.data(), [&](int r) { return row_of(in, r); });
     evaluate(is_plain ? in.data() : plain_.data(), signals.subspan(std::size_t(s) * width, width));
-    failed = with_physics<T>(setup_.model, [&]<class Physics>() { return update_stage<Physics>(s); });
+    failed =
+        with_physics<T>(setup_.model, [&]<class Physics>() { return update_stage<Physics>(s); });
   }
   return failed;
 }
@@ -180,8 +185,10 @@ template <class T, int W>
 Outcome RhsExecutor<T, W>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
   if (setup_.method.has_error_stage) return advance_by_tries(*this, setup_, steps, signals);
-  const std::size_t width = signal_count(setup_.problem), step_width = width * std::size_t(setup_.method.stages);
-  if (rows_.is_staggered() && !is_started_) rows_.start(scaled_rates(signals.first(width)).data()), is_started_ = true;
+  const std::size_t width = signal_count(setup_.problem),
+                    step_width = width * std::size_t(setup_.method.stages);
+  if (rows_.is_staggered() && !is_started_)
+    rows_.start(scaled_rates(signals.first(width)).data()), is_started_ = true;
   end_rates_.clear();
   end_signals_.assign(signals.end() - std::ptrdiff_t(width), signals.end());
   for (long n = 0; n < steps; ++n)

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view device_folder = "variants/opencl/device/";
 
-/// A file with what it includes put in its place.
+/// The text of a file, with the text of all files that it includes.
 std::string text_of(std::string_view path) {
   constexpr std::string_view include = "#include \"";
   std::string text(embedded(path));
@@ -20,7 +20,9 @@ std::string text_of(std::string_view path) {
   }
   return text;
 }
-std::string device_text(std::string_view name) { return text_of(fmt::format("{}{}", device_folder, name)); }
+std::string device_text(std::string_view name) {
+  return text_of(fmt::format("{}{}", device_folder, name));
+}
 
 std::string numbered(std::string_view format, int first, int last) {
   std::string list;
@@ -29,7 +31,7 @@ std::string numbered(std::string_view format, int first, int last) {
   return list;
 }
 
-/// A REAL of several lanes, and how lanes move to the next.
+/// Defines a REAL of several lanes, and shifts of lanes to the next element.
 std::string vector_words(const ProgramKind& kind) {
   const int w = kind.lanes;
   const char* const bits = kind.precision == Precision::f64 ? "long" : "int";
@@ -40,11 +42,11 @@ std::string vector_words(const ProgramKind& kind) {
                      "#define SPLAT(a) ((REAL)((NUMBER)(a)))\n"
                      "#define SHIFT_UP(below, a) ((REAL)((below).s{4}{5}))\n"
                      "#define SHIFT_DOWN(a, above) ((REAL)({6}(above).s0))\n",
-                     kind.precision == Precision::f64 ? "double" : "float", w, bits, lane_bits, last,
-                     numbered(", (a).s{}", 0, w - 2), numbered("(a).s{}, ", 1, w - 1));
+                     kind.precision == Precision::f64 ? "double" : "float", w, bits, lane_bits,
+                     last, numbered(", (a).s{}", 0, w - 2), numbered("(a).s{}, ", 1, w - 1));
 }
 
-/// The components of a tuple, whose first field and last are these, that the model has.
+/// Defines the components of a tuple that the model has, between two fields of a full state.
 std::string tuple_words(const ModelLayout& layout, std::string_view name, Field first, Field last) {
   const std::string_view letters = last - first == 3 ? "sxyz" : "xyz";
   std::string components, each;
@@ -53,16 +55,18 @@ std::string tuple_words(const ModelLayout& layout, std::string_view name, Field 
       components += fmt::format(" act({})", letters[std::size_t(field - first)]);
       each += fmt::format(" act(t.{})", letters[std::size_t(field - first)]);
     }
-  return fmt::format("#define COMPONENTS_OF_{0}(act){1}\n#define EACH_OF_{0}(act, t){2}\n", name, components, each);
+  return fmt::format("#define COMPONENTS_OF_{0}(act){1}\n#define EACH_OF_{0}(act, t){2}\n", name,
+                     components, each);
 }
 
 std::string model_words(Model model) {
   const ModelLayout layout = model_layout(model);
-  return fmt::format("#define AXES {}\n#define VEC_SIZE {}\n#define SPIN_SIZE {}\n#define FIELDS {}\n{}{}{}{}{}",
-                     layout.axes, layout.vec_size, int(layout.wrench.size()) - layout.vec_size, layout.fields.size(),
-                     tuple_words(layout, "VEC", ux, uz), tuple_words(layout, "ROTOR", qs, qz),
-                     tuple_words(layout, "SPIN", wx, wz), is_of_plane(model) ? "#define PLANAR\n" : "",
-                     is_linear(model) ? "#define LINEAR\n" : "");
+  return fmt::format(
+      "#define AXES {}\n#define VEC_SIZE {}\n#define SPIN_SIZE {}\n#define FIELDS {}\n{}{}{}{}{}",
+      layout.axes, layout.vec_size, int(layout.wrench.size()) - layout.vec_size,
+      layout.fields.size(), tuple_words(layout, "VEC", ux, uz),
+      tuple_words(layout, "ROTOR", qs, qz), tuple_words(layout, "SPIN", wx, wz),
+      is_of_plane(model) ? "#define PLANAR\n" : "", is_linear(model) ? "#define LINEAR\n" : "");
 }
 
 std::string head(const ProgramKind& kind, bool has_items) {
@@ -71,16 +75,19 @@ std::string head(const ProgramKind& kind, bool has_items) {
   text += fmt::format(
       "#pragma OPENCL FP_CONTRACT OFF\n#define NUMBER {}\n#define W {}\n#define ALL_LANES {}u\n"
       "#define FMA(a, b, c) fma(a, b, c)\n"
-      "#undef inline\n#define inline inline __attribute__((always_inline))\n", // structs of packs must stay in registers
+      // Structs of packs must stay in registers.
+      "#undef inline\n#define inline inline __attribute__((always_inline))\n",
       is_f64 ? "double" : "float", kind.lanes, (1u << kind.lanes) - 1);
   if (has_items)
-    text += "#define REAL NUMBER\n#define SPLAT(a) ((NUMBER)(a))\n" + device_text("words_of_items.h");
+    text +=
+        "#define REAL NUMBER\n#define SPLAT(a) ((NUMBER)(a))\n" + device_text("words_of_items.h");
   else
     text += vector_words(kind) + device_text("words_of_vectors.h");
   text += model_words(kind.model) + text_of(fmt::format("kernels/algebra/{}.h", name(kind.model))) +
           text_of("kernels/laws.h");
   text += text_of("kernels/stage_row/row_action.h");
-  for (const char* file : {"tables.h", "tables_of_device.h", "tuples.cl"}) text += device_text(file);
+  for (const char* file : {"tables.h", "tables_of_device.h", "tuples.cl"})
+    text += device_text(file);
   return text;
 }
 
@@ -89,29 +96,36 @@ std::string head(const ProgramKind& kind, bool has_items) {
 std::string row_program(const ProgramKind& kind) {
   std::string text = head(kind, kind.has_items);
   std::string actions;
-  for (const row_action action : kind.actions) actions += fmt::format(" | ((action) == {})", int(action));
+  for (const row_action action : kind.actions)
+    actions += fmt::format(" | ((action) == {})", int(action));
   text += fmt::format("#define HAS(action) ((0{}) != 0)\n", actions);
   if (!kind.has_items) text += device_text("shifts_of_vectors.cl");
   text += device_text("row_update.cl");
   std::string cases;
   for (std::size_t n = 0; n < kind.terms.size(); ++n) {
     const Terms& t = kind.terms[n];
-    text += fmt::format("#define FLAGS ((term_flags){{{}, {}, {}, {}, {}, {}}})\n#define NAME(f) f##_{}\n",
-                        int(t.is_material), int(t.is_damped), int(t.is_bending), int(t.is_gyroscopic), int(t.is_tied),
-                        int(t.is_oblong), n);
-    text += device_text("row.cl") + device_text(kind.has_items ? "row_of_items.cl" : "row_of_vectors.cl") +
+    text += fmt::format(
+        "#define FLAGS ((term_flags){{{}, {}, {}, {}, {}, {}}})\n#define NAME(f) f##_{}\n",
+        int(t.is_material), int(t.is_damped), int(t.is_bending), int(t.is_gyroscopic),
+        int(t.is_tied), int(t.is_oblong), n);
+    text += device_text("row.cl") +
+            device_text(kind.has_items ? "row_of_items.cl" : "row_of_vectors.cl") +
             "#undef FLAGS\n#undef NAME\n";
     cases += fmt::format("  if (task->shape == {0}) return run_{0}(d, task, signals);\n", n);
   }
-  text += fmt::format("static int run_task(device d, global const row_stage* task, global const NUMBER* signals) {{\n"
+  text += fmt::format("static int run_task(device d, global const row_stage* task, global const "
+                      "NUMBER* signals) {{\n"
                       "{}  return 1;\n}}\n",
                       cases);
   text += device_text("rows.cl");
   if (!kind.has_items) text += device_text("passes.cl");
-  if (kind.actions.contains(error_stage) || kind.actions.contains(kept_error)) text += device_text("step_error.cl");
+  if (kind.actions.contains(error_stage) || kind.actions.contains(kept_error))
+    text += device_text("step_error.cl");
   return text;
 }
 
-std::string extra_link_program(const ProgramKind& kind) { return head(kind, true) + device_text("extra_links.cl"); }
+std::string extra_link_program(const ProgramKind& kind) {
+  return head(kind, true) + device_text("extra_links.cl");
+}
 
 } // namespace dss::opencl

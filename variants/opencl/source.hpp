@@ -1,7 +1,8 @@
 #pragma once
-/// Programs for a device: the shared physics, words for it, and the loops over rows of this folder's device/.
+/// The text of programs for a device: the shared physics, definitions of its words (REAL, FMA,
+/// LOAD, ...), and the loops over rows in device/.
+#include "kernels/model.hpp"
 #include "kernels/physics.hpp"
-#include "solver/model/model.hpp"
 
 #include "kernels/stage_row/row.hpp"
 #include <set>
@@ -15,14 +16,15 @@ struct ProgramKind {
   Model model = Model::spatial;
   Precision precision = Precision::f64;
   int lanes = 1;
-  bool has_items = false;       ///< a work-item is a lane (GPUs), else a work-item goes along rows of packs (CPUs)
-  std::set<row_action> actions; ///< what rows ask for: nothing else is compiled
-  std::vector<Terms> terms;     ///< the combinations that rows name by their place here
+  /// true (GPUs): a work-item computes a lane. false (CPUs): a work-item goes along rows of packs.
+  bool has_items = false;
+  std::set<row_action> actions; ///< the actions that rows need; others are not compiled
+  std::vector<Terms> terms;     ///< the combinations that rows refer to by index
 };
 
-/// Kernels run_passes and run_rows.
+/// Text of a program with the kernels run_passes and run_rows.
 std::string row_program(const ProgramKind& kind);
-/// Kernel evaluate_extra_links.
+/// Text of a program with the kernel evaluate_extra_links.
 std::string extra_link_program(const ProgramKind& kind);
 
 } // namespace dss::opencl

@@ -1,25 +1,28 @@
-/// The variant `reference`: the oracle behind the interface of variants. Straightforward code, one thread, no SIMD by
-/// hand.
+/// The variant `reference`: the oracle behind the interface of variants. Straightforward code, one
+/// thread, no SIMD by hand.
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
-#include "variants/tried_steps.hpp"
+#include "variants/api/tried_steps.hpp"
 
 namespace dss {
 namespace {
 
-/// Models of fewer degrees of freedom run the equations of the larger one: where they suffice, the other fields stay zero.
+/// Models with fewer degrees of freedom run the equations of the larger model. Where they suffice,
+/// the other fields stay zero.
 Rotation rotation_of(const Setup& setup) {
   return setup.rotation != Rotation::quaternion ? setup.rotation : dss::rotation_of(setup.model);
 }
 
 template <class T>
-class ReferenceExecutor final : public Executor {
+class ReferenceExecutor final : public Executor, public StepTrials {
 public:
   explicit ReferenceExecutor(const Setup& setup)
       : setup_(setup), oracle_(setup.problem, setup.method, setup.dt, rotation_of(setup)),
         row_width_(signal_count(setup.problem)), stages_(setup.method.stages) {}
 
-  void write(std::size_t first, std::span<const double> fields) override { oracle_.write(fields, first); }
+  void write(std::size_t first, std::span<const double> fields) override {
+    oracle_.write(fields, first);
+  }
   void read(std::size_t first, std::span<double> fields) override { oracle_.read(fields, first); }
   void derivative(std::span<const double> signals, std::span<double> rates) override {
     oracle_.derivative(signals, rates);
@@ -32,7 +35,10 @@ public:
     if (breakdown) return {false, breakdown->step, breakdown->element, breakdown->what};
     return {true, steps, 0};
   }
-  StepMaxima try_step(double dt, std::span<const double> signals) override { return oracle_.try_step(dt, signals); }
+  StepTrials* step_trials() override { return this; }
+  StepMaxima try_step(double dt, std::span<const double> signals) override {
+    return oracle_.try_step(dt, signals);
+  }
   void accept_step() override { oracle_.accept_step(); }
   std::string schedule() const override { return "stage by stage: straightforward code"; }
   int workers() const override { return 1; }

@@ -10,7 +10,7 @@
 namespace dss {
 namespace {
 
-/// Numbers for keys, in the order in which they are met.
+/// Numbers keys in the order in which they first appear.
 template <class Key>
 class Numbers {
 public:
@@ -21,25 +21,30 @@ private:
   std::map<Key, int> numbers_;
 };
 
-/// What an element is to the equations along x, links left out: elements of equal colour have the same clamp, loads and start.
+/// Colour of each element without its links: elements of one colour have the same clamp, loads and
+/// start in the equations along x.
 std::vector<int> element_colours(const Problem& problem) {
   std::vector<int> colours(problem.lattice.element_count, 0);
   const auto refine = [&](const auto& elements, const auto& mark_of) {
     Numbers<std::pair<int, decltype(mark_of(0))>> numbers;
     const int offset = *std::ranges::max_element(colours);
-    for (const std::size_t e : elements) colours[e] = offset + 1 + numbers.of({colours[e], mark_of(e)});
+    for (const std::size_t e : elements)
+      colours[e] = offset + 1 + numbers.of({colours[e], mark_of(e)});
   };
   std::vector<std::size_t> clamped;
   for (const Clamp& clamp : problem.clamps)
     if (clamp.dofs & dof_ux) clamped.push_back(clamp.element);
   refine(clamped, [](std::size_t) { return 1; });
   for (const Load& load : problem.loads)
-    if (load.force[0] != 0 && !is_zero_always(load.signal)) refine(load.elements, [](std::size_t) { return 1; });
+    if (load.force[0] != 0 && !is_zero_always(load.signal))
+      refine(load.elements, [](std::size_t) { return 1; });
   if (problem.initial_motions.empty()) return colours;
   std::vector<std::size_t> all(colours.size());
   for (std::size_t e = 0; e < all.size(); ++e) all[e] = e;
   const std::vector<double> state = initial_state(problem);
-  refine(all, [&](std::size_t e) { return std::pair(state[e * field_count + ux], state[e * field_count + vx]); });
+  refine(all, [&](std::size_t e) {
+    return std::pair(state[e * field_count + ux], state[e * field_count + vx]);
+  });
   return colours;
 }
 
@@ -50,8 +55,9 @@ struct Cell {
 
 Cell cell_of(const Problem& problem, std::size_t element) {
   const std::vector<Row>& rows = problem.lattice.rows;
-  const auto after = std::upper_bound(rows.begin(), rows.end(), element,
-                                      [](std::size_t e, const Row& row) { return e < row.first_element; });
+  const auto after =
+      std::upper_bound(rows.begin(), rows.end(), element,
+                       [](std::size_t e, const Row& row) { return e < row.first_element; });
   const Row& row = *(after - 1);
   std::size_t e = row.first_element;
   int x = row.x_begin;
@@ -65,8 +71,9 @@ LinkConstants constants_of(const ExtraLink& link) {
           link.constants.d_shear};
 }
 
-/// Classes of rows, such that rows of one class have the same equations along x with partners of equal classes: they move alike.
-/// Colour refinement: the coarsest partition that is stable under links outside the grid, all of which are along x here.
+/// Class of each row. Rows of one class have the same equations along x, and their links lead to
+/// rows of equal classes, so they move alike. Colour refinement: the coarsest partition that is
+/// stable under the extra links, which are all along x here.
 std::vector<int> row_classes(const Problem& problem) {
   const Lattice& lattice = problem.lattice;
   const std::vector<int> colours = element_colours(problem);
@@ -76,12 +83,14 @@ std::vector<int> row_classes(const Problem& problem) {
     const Row& row = lattice.rows[r];
     std::vector<int> content{row.body, row.x_begin};
     std::size_t e = row.first_element;
-    for (int x = row.x_begin; x < row.x_end; ++x) content.push_back(lattice.is_present(row, x) ? colours[e++] : -1);
+    for (int x = row.x_begin; x < row.x_end; ++x)
+      content.push_back(lattice.is_present(row, x) ? colours[e++] : -1);
     classes[r] = contents.of(content);
   }
-  using Joint =
-      std::tuple<int, int, int, int, LinkConstants>; // place, end of the link, partner's class and place, link
-  for (std::size_t before = 0, now = contents.count(); before != now && !problem.extra_links.empty();) {
+  // Place on the row, end of the link, class and place of the partner, constants of the link.
+  using Joint = std::tuple<int, int, int, int, LinkConstants>;
+  for (std::size_t before = 0, now = contents.count();
+       before != now && !problem.extra_links.empty();) {
     std::vector<std::vector<Joint>> joints(classes.size());
     for (const ExtraLink& link : problem.extra_links) {
       const Cell i = cell_of(problem, link.i), j = cell_of(problem, link.j);
@@ -106,16 +115,19 @@ bool are_linked(const Lattice& lattice, const Row& a, const Row& b) {
 
 std::string rows_that_differ(const Problem& problem) {
   const std::vector<Row>& rows = problem.lattice.rows;
-  if (std::ranges::all_of(rows, [](const Row& row) { return row.upper_y < 0 && row.upper_z < 0; })) return {};
+  if (std::ranges::all_of(rows, [](const Row& row) { return row.upper_y < 0 && row.upper_z < 0; }))
+    return {};
   const std::vector<int> classes = row_classes(problem);
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (const int upper : {rows[r].upper_y, rows[r].upper_z}) {
       if (upper < 0 || classes[r] == classes[std::size_t(upper)]) continue;
       const Row &row = rows[r], &other = rows[std::size_t(upper)];
       if (are_linked(problem.lattice, row, other))
-        return fmt::format("rows (y, z) = ({}, {}) and ({}, {}) of body \"{}\" need not move alike: their links shear, "
+        return fmt::format("rows (y, z) = ({}, {}) and ({}, {}) of body \"{}\" need not move "
+                           "alike: their links shear, "
                            "which turns elements",
-                           row.y, row.z, other.y, other.z, problem.bodies[std::size_t(row.body)].name);
+                           row.y, row.z, other.y, other.z,
+                           problem.bodies[std::size_t(row.body)].name);
     }
   return {};
 }
@@ -123,17 +135,18 @@ std::string rows_that_differ(const Problem& problem) {
 std::string links_across(const Problem& problem) {
   for (std::size_t l = 0; l < problem.extra_links.size(); ++l)
     if (const ExtraLink& link = problem.extra_links[l]; link.axis != 0)
-      return fmt::format("extra link {} between elements {} and {} is along {}: it shears", l, link.i, link.j,
-                         "xyz"[link.axis]);
+      return fmt::format("extra link {} between elements {} and {} is along {}: it shears", l,
+                         link.i, link.j, "xyz"[link.axis]);
   return {};
 }
 
 } // namespace
 
-// Clamps need no check: one of another degree of freedom holds what does not move.
+// Clamps need no check: a clamp of another degree of freedom holds something that does not move.
 std::string why_not_axial(const Problem& problem) {
-  for (std::string reason : {load_along(problem, {1, 2}, {0, 1, 2}), acceleration_along(problem, {1, 2}),
-                             start_with(problem, {uy, uz, vy, vz, qs, qx, qy, qz, wx, wy, wz}), links_across(problem)})
+  for (std::string reason :
+       {load_along(problem, {1, 2}, {0, 1, 2}), acceleration_along(problem, {1, 2}),
+        start_with(problem, {uy, uz, vy, vz, qs, qx, qy, qz, wx, wy, wz}), links_across(problem)})
     if (!reason.empty()) return reason;
   return rows_that_differ(problem);
 }

@@ -16,12 +16,16 @@ std::string thickness_in_z(const Problem& problem) {
   return {};
 }
 
-// Across the face of a link along x or y the arm lies in the plane: by it rx and ry move face points along z, rz within the plane; forces along z have
-// moments about x and y, forces within the plane about z; constants are the same about and along the global axes for all time. An arm along z would make
-// rx and ry slide faces within the plane. Clamps hold single degrees of freedom, and so do ties; nothing else joins the two halves.
+// A link along x or y has its arm in the plane. Through that arm, rx and ry move face points along
+// z, and rz moves them within the plane. Forces along z have moments about x and y; forces within
+// the plane have moments about z. The constants are the same along and about the global axes at all
+// times. So the two halves are independent. (An arm along z would couple them: rx and ry would
+// slide faces within the plane.) Clamps and ties hold single degrees of freedom and do not couple
+// them either.
 std::string why_not_bending(const Problem& problem) {
-  for (const std::string& reason : {thickness_in_z(problem), load_along(problem, {0, 1}, {2}),
-                                    acceleration_along(problem, {0, 1}), start_with(problem, {ux, uy, vx, vy, qz, wz})})
+  for (const std::string& reason :
+       {thickness_in_z(problem), load_along(problem, {0, 1}, {2}),
+        acceleration_along(problem, {0, 1}), start_with(problem, {ux, uy, vx, vy, qz, wz})})
     if (!reason.empty()) return reason;
   return {};
 }

@@ -11,11 +11,14 @@
 namespace dss {
 namespace {
 
-/// Sets of linked elements; all that are clamped in every degree of freedom count as one.
+/// Sets of linked elements (union-find). All elements clamped in every degree of freedom count as
+/// one.
 class Pieces {
 public:
-  explicit Pieces(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
-  /// @return whether they were apart
+  explicit Pieces(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t(0));
+  }
+  /// @return true if a and b were in different sets
   bool join(std::size_t a, std::size_t b) {
     a = root(a), b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
@@ -34,7 +37,8 @@ template <class Visit>
 void for_each_link_kind(const Problem& problem, const Visit& visit) {
   std::vector<int> body_of(problem.lattice.element_count);
   std::vector<bool> met(problem.bodies.size() * 3);
-  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) { body_of[e] = row.body; });
+  problem.lattice.for_each_element(
+      [&](std::size_t e, const Row& row, int) { body_of[e] = row.body; });
   problem.lattice.for_each_link([&](std::size_t i, std::size_t, int axis) {
     const auto body = std::size_t(body_of[i]);
     if (met[3 * body + std::size_t(axis)]) return;
@@ -44,10 +48,10 @@ void for_each_link_kind(const Problem& problem, const Visit& visit) {
   });
   for (const ExtraLink& link : problem.extra_links) {
     const auto a = std::size_t(link.axis);
-    visit(
-        link.law, link.axis, link.constants,
-        (problem.bodies[std::size_t(body_of[link.i])].edge[a] + problem.bodies[std::size_t(body_of[link.j])].edge[a]) /
-            2);
+    visit(link.law, link.axis, link.constants,
+          (problem.bodies[std::size_t(body_of[link.i])].edge[a] +
+           problem.bodies[std::size_t(body_of[link.j])].edge[a]) /
+              2);
   }
 }
 
@@ -60,8 +64,10 @@ void look_at_connections(const Problem& problem, BoundStructure& structure) {
     if (clamp.dofs == dof_all)
       is_held[clamp.element] = true;
     else
-      structure.is_tree = false; // may restrain what a tree leaves free
-  const auto first_held = std::size_t(std::find(is_held.begin(), is_held.end(), true) - is_held.begin());
+      // A partial clamp may restrain a motion that a tree of links leaves free.
+      structure.is_tree = false;
+  const auto first_held =
+      std::size_t(std::find(is_held.begin(), is_held.end(), true) - is_held.begin());
   for (std::size_t e = 0; e < count; ++e)
     if (is_held[e]) pieces.join(first_held, e);
   const auto join = [&](std::size_t i, std::size_t j) {
@@ -74,15 +80,18 @@ void look_at_connections(const Problem& problem, BoundStructure& structure) {
     structure.is_held = pieces.root(e) == pieces.root(first_held);
 }
 
-/// No way through a body is longer than the sum of its box's edges where the body fills its box; where it may wind about, than all its elements in a
-/// line.
+/// Upper bound of the longest path through the bodies [m]. If a body fills its bounding box: the
+/// sum of the box's edges. Otherwise the path may wind: the length of all elements in one line.
 double longest_way(const Problem& problem) {
   std::vector<long> elements(problem.bodies.size());
-  problem.lattice.for_each_element([&](std::size_t, const Row& row, int) { ++elements[std::size_t(row.body)]; });
-  std::vector<std::array<int, 6>> extents(problem.bodies.size(), {1 << 30, -1, 1 << 30, -1, 1 << 30, -1});
+  problem.lattice.for_each_element(
+      [&](std::size_t, const Row& row, int) { ++elements[std::size_t(row.body)]; });
+  std::vector<std::array<int, 6>> extents(problem.bodies.size(),
+                                          {1 << 30, -1, 1 << 30, -1, 1 << 30, -1});
   for (const Row& row : problem.lattice.rows) {
     auto& extent = extents[std::size_t(row.body)];
-    const std::array<std::pair<int, int>, 3> ends{{{row.x_begin, row.x_end}, {row.y, row.y + 1}, {row.z, row.z + 1}}};
+    const std::array<std::pair<int, int>, 3> ends{
+        {{row.x_begin, row.x_end}, {row.y, row.y + 1}, {row.z, row.z + 1}}};
     for (std::size_t a = 0; a < 3; ++a) {
       extent[2 * a] = std::min(extent[2 * a], ends[a].first);
       extent[2 * a + 1] = std::max(extent[2 * a + 1], ends[a].second);
@@ -97,7 +106,8 @@ double longest_way(const Problem& problem) {
       way += problem.bodies[b].edge[a] * extent;
       cells *= extent;
     }
-    if (cells != elements[b]) way = double(elements[b]) * *std::ranges::max_element(problem.bodies[b].edge);
+    if (cells != elements[b])
+      way = double(elements[b]) * *std::ranges::max_element(problem.bodies[b].edge);
     longest = std::max(longest, way);
     sum += way;
   }
@@ -119,7 +129,8 @@ BoundStructure bound_structure(const Problem& problem) {
     structure.mass = std::min(structure.mass, body.mass);
     structure.inertia = std::min(structure.inertia, *std::ranges::min_element(body.inertia));
   }
-  double yielding = 0; // one over the least buckling load
+  // Inverse of the least buckling load [1/N].
+  double yielding = 0;
   for_each_link_kind(problem, [&](LinkLaw law, int axis, const AxisConstants& c, double edge) {
     structure.stiffness = std::max(structure.stiffness, c.k_normal);
     double k_bend = law == LinkLaw::paper ? c.k_rot[0] : endless;

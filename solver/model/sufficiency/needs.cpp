@@ -14,11 +14,11 @@ constexpr std::array<const char*, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz
 const char* why_a_dof_stays_zero(Model model) {
   if (model == Model::axial)
     return "nothing pushes or turns across x: links along x have forces along x and no moments";
-  if (is_of_plane(model)) return "mirrored about the plane z = const, the scene is itself";
+  if (is_of_plane(model)) return "the scene is symmetric about the plane z = const";
   return "without forces in the plane the linear equations leave it at rest";
 }
 
-/// All that a model of small rotations computes of elements that move alike.
+/// Elements move alike, so the model needs only translations.
 bool is_in_translation(const Problem& problem, Model model) {
   return has_rotation_vectors(model) && why_not_in_translation(problem).empty();
 }
@@ -26,10 +26,12 @@ bool is_in_translation(const Problem& problem, Model model) {
 template <class Has>
 bool any_link(const Problem& problem, const Has& has) {
   const auto of_body = [&](const Body& body) {
-    return std::ranges::any_of(body.axis, [&](const AxisConstants& axis) { return has(body.law, axis); });
+    return std::ranges::any_of(body.axis,
+                               [&](const AxisConstants& axis) { return has(body.law, axis); });
   };
   return std::ranges::any_of(problem.bodies, of_body) ||
-         std::ranges::any_of(problem.extra_links, [&](const ExtraLink& link) { return has(link.law, link.constants); });
+         std::ranges::any_of(problem.extra_links,
+                             [&](const ExtraLink& link) { return has(link.law, link.constants); });
 }
 
 Need need(std::string name, bool is_needed, std::string why, std::string why_not) {
@@ -37,14 +39,17 @@ Need need(std::string name, bool is_needed, std::string why, std::string why_not
 }
 
 Need damping(const Problem& problem, Model model) {
-  const bool is_damped = any_link(
-      problem, [](LinkLaw, const AxisConstants& a) { return a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{}; });
-  return need("damping of links", is_damped && !is_in_translation(problem, model), "links have d or dt",
+  const bool is_damped = any_link(problem, [](LinkLaw, const AxisConstants& a) {
+    return a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{};
+  });
+  return need("damping of links", is_damped && !is_in_translation(problem, model),
+              "links have d or dt",
               is_damped ? "no link is strained" : "all constants d and dt are zero");
 }
 
 Need bending_stiffness(const Problem& problem, Model model) {
-  const bool has = any_link(problem, [](LinkLaw, const AxisConstants& a) { return a.k_rot != Vec3{}; });
+  const bool has =
+      any_link(problem, [](LinkLaw, const AxisConstants& a) { return a.k_rot != Vec3{}; });
   const bool is_turned = model != Model::axial && !is_in_translation(problem, model);
   return need("rotational stiffness of links", has && is_turned, "links resist relative rotation",
               has ? "no element turns" : "kt is zero: links resist by their arms alone");
@@ -58,24 +63,26 @@ Need orthotropy(const Problem& problem, Model model) {
   const bool is_along = model == Model::axial;
   return need("orthotropy of links", has && !is_along,
               "links are stiffer along their normal than across, or in one bending direction",
-              has ? "links have normal forces alone" : "links are as stiff along their normal as across");
+              has ? "links have normal forces alone"
+                  : "links are as stiff along their normal as across");
 }
 
 Need tensor_inertia(const Problem& problem, Model model) {
   const bool has = std::ranges::any_of(problem.bodies, &Body::has_tensor_inertia);
   std::string why_not = "inertia is a scalar: w x J w vanishes";
   if (has)
-    why_not = is_of_plane(model) ? "all spin is about z" : "no element turns, or rotations are small to first order";
+    why_not = is_of_plane(model) ? "all spin is about z"
+                                 : "no element turns, or rotations are small to first order";
   const bool is_finite = model == Model::spatial || model == Model::small;
-  return need("gyroscopic moment w x J w", has && is_finite, "inertia is a tensor, and spin may be about any axis",
-              why_not);
+  return need("gyroscopic moment w x J w", has && is_finite,
+              "inertia is a tensor, and spin may be about any axis", why_not);
 }
 
 Need ties(const Problem& problem) {
   const Stabilization& ties = problem.stabilization;
   return need("stabilization", ties.is_present(),
-              fmt::format("k {:g} N/m, d {:g} N s/m, k_rot {:g} N m/rad, d_rot {:g} N m s/rad", ties.k, ties.d,
-                          ties.k_rot, ties.d_rot),
+              fmt::format("k {:g} N/m, d {:g} N s/m, k_rot {:g} N m/rad, d_rot {:g} N m s/rad",
+                          ties.k, ties.d, ties.k_rot, ties.d_rot),
               "the scene ties nothing to the frame");
 }
 
@@ -85,15 +92,17 @@ Need loads(const Problem& problem) {
     acting += !is_zero_always(load.signal);
     varying += load.signal.kind != Signal::Kind::constant;
   }
-  return need("loads", acting > 0, fmt::format("{} that act, {} of them vary in time", acting, varying),
-              problem.loads.empty() ? "the scene has none" : "those of the scene are zero at all times");
+  return need(
+      "loads", acting > 0, fmt::format("{} that act, {} of them vary in time", acting, varying),
+      problem.loads.empty() ? "the scene has none" : "those of the scene are zero at all times");
 }
 
 Need frame(const Problem& problem) {
   std::vector<std::string> axes;
   for (std::size_t a = 0; a < 3; ++a)
     if (!is_zero_always(problem.frame_acceleration[a])) axes.emplace_back(1, "xyz"[a]);
-  return need("gravity and base motion", !axes.empty(), fmt::format("accelerate along {}", fmt::join(axes, ", ")),
+  return need("gravity and base motion", !axes.empty(),
+              fmt::format("accelerate along {}", fmt::join(axes, ", ")),
               "the frame does not accelerate");
 }
 
@@ -104,12 +113,14 @@ std::vector<Need> degrees_of_freedom(const Problem& problem, Model model) {
   for (const Clamp& clamp : problem.clamps) held &= clamp.dofs;
   std::vector<Need> needs;
   for (int dof = 0; dof < 6; ++dof) {
-    const bool is_rotation = dof >= 3, has = degrees_of(model) & (1 << dof), is_held = held & (1 << dof);
+    const bool is_rotation = dof >= 3, has = degrees_of(model) & (1 << dof),
+               is_held = held & (1 << dof);
     const bool stays = is_rotation && is_in_translation(problem, model);
-    std::string why_none = has ? "all elements move alike: nothing turns" : why_a_dof_stays_zero(model);
+    std::string why_none =
+        has ? "all elements move alike: nothing turns" : why_a_dof_stays_zero(model);
     if (is_held) why_none = "clamped on every element";
-    needs.push_back(
-        need(dof_names[std::size_t(dof)], has && !is_held && !stays, "nothing proves that it stays zero", why_none));
+    needs.push_back(need(dof_names[std::size_t(dof)], has && !is_held && !stays,
+                         "nothing proves that it stays zero", why_none));
   }
   return needs;
 }
@@ -123,9 +134,11 @@ std::vector<Need> terms(const Problem& problem, Model model) {
                           loads(problem),
                           frame(problem)};
   needs.push_back(need("initial motions", !problem.initial_motions.empty(),
-                       fmt::format("{} in the scene", problem.initial_motions.size()), "the scene starts at rest"));
+                       fmt::format("{} in the scene", problem.initial_motions.size()),
+                       "the scene starts at rest"));
   needs.push_back(need("links outside the grid", !problem.extra_links.empty(),
-                       fmt::format("{} of them", problem.extra_links.size()), "all links are those of neighbours"));
+                       fmt::format("{} of them", problem.extra_links.size()),
+                       "all links are those of neighbours"));
   return needs;
 }
 

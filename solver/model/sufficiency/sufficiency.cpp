@@ -28,13 +28,14 @@ std::string start_with(const Problem& problem, std::initializer_list<Field> fiel
     for (std::size_t e = 0; e < count; ++e)
       for (const Field field : fields)
         if (const double value = state[e * field_count + std::size_t(field)]; value != 0)
-          return fmt::format("element {} starts with {} = {:g}{}", first + e, field_names[std::size_t(field)], value,
-                             unit_of(field));
+          return fmt::format("element {} starts with {} = {:g}{}", first + e,
+                             field_names[std::size_t(field)], value, unit_of(field));
   }
   return {};
 }
 
-std::string load_along(const Problem& problem, std::initializer_list<int> forces, std::initializer_list<int> torques) {
+std::string load_along(const Problem& problem, std::initializer_list<int> forces,
+                       std::initializer_list<int> torques) {
   for (std::size_t l = 0; l < problem.loads.size(); ++l) {
     const Load& load = problem.loads[l];
     if (is_zero_always(load.signal)) continue;
@@ -56,23 +57,28 @@ std::string acceleration_along(const Problem& problem, std::initializer_list<int
 }
 
 std::string why_not_in_translation(const Problem& problem) {
-  if (!problem.clamps.empty()) return fmt::format("element {} is clamped, and others move", problem.clamps[0].element);
+  if (!problem.clamps.empty())
+    return fmt::format("element {} is clamped, and others move", problem.clamps[0].element);
   if (std::string reason = load_along(problem, {}, {0, 1, 2}); !reason.empty()) return reason;
-  if (std::string reason = start_with(problem, {qs, qx, qy, qz, wx, wy, wz}); !reason.empty()) return reason;
+  if (std::string reason = start_with(problem, {qs, qx, qy, qz, wx, wy, wz}); !reason.empty())
+    return reason;
   const std::size_t count = problem.lattice.element_count;
   for (std::size_t l = 0; l < problem.loads.size(); ++l) {
     const Load& load = problem.loads[l];
     if (is_zero_always(load.signal) || load.force == Vec3{}) continue;
-    if (load.elements.size() != count) return fmt::format("load {} pulls some elements and not others", l);
+    if (load.elements.size() != count)
+      return fmt::format("load {} pulls some elements and not others", l);
   }
-  const bool has_one_mass =
-      std::ranges::all_of(problem.bodies, [&](const Body& body) { return body.mass == problem.bodies.front().mass; });
-  const bool is_pulled = std::ranges::any_of(problem.loads, [](const Load& load) { return load.force != Vec3{}; });
+  const bool has_one_mass = std::ranges::all_of(
+      problem.bodies, [&](const Body& body) { return body.mass == problem.bodies.front().mass; });
+  const bool is_pulled =
+      std::ranges::any_of(problem.loads, [](const Load& load) { return load.force != Vec3{}; });
   if (!has_one_mass && (is_pulled || problem.stabilization.is_present()))
     return "bodies of different elements are accelerated differently by the same force";
   const std::vector<double> state = initial_state(problem);
   for (std::size_t e = 1; e < count; ++e)
-    if (!std::equal(state.begin(), state.begin() + qs, state.begin() + std::ptrdiff_t(e * field_count)))
+    if (!std::equal(state.begin(), state.begin() + qs,
+                    state.begin() + std::ptrdiff_t(e * field_count)))
       return fmt::format("element {} starts otherwise than element 0", e);
   return {};
 }
@@ -103,7 +109,8 @@ std::string why_not_exact(Model model, const Problem& problem) {
 }
 
 Model smallest_exact(const Problem& problem) {
-  return *std::ranges::find_if(models, [&](Model model) { return why_not_exact(model, problem).empty(); });
+  return *std::ranges::find_if(models,
+                               [&](Model model) { return why_not_exact(model, problem).empty(); });
 }
 
 } // namespace dss

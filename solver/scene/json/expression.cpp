@@ -21,10 +21,11 @@ double evaluate(const std::string& expression, const Parameters& parameters) {
     parser.SetExpr(expression);
     value = parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
-    throw InputError(
-        fmt::format("\"={}\" is not an expression over the scene's parameters: {}", expression, error.GetMsg()));
+    throw InputError(fmt::format("\"={}\" is not an expression over the scene's parameters: {}",
+                                 expression, error.GetMsg()));
   }
-  if (!std::isfinite(value)) throw InputError(fmt::format("\"={}\" is {}, not a finite number", expression, value));
+  if (!std::isfinite(value))
+    throw InputError(fmt::format("\"={}\" is {}, not a finite number", expression, value));
   return value;
 }
 

@@ -7,9 +7,10 @@ namespace dss {
 
 using Parameters = std::map<std::string, double>;
 
-/// Value of an expression over named numbers, by muParser: + - * / ^, ?:, min, max, sqrt, sin, cos, ... and, added
-/// here, floor, ceil and pi.
-/// @throws InputError that says what is wrong with the expression, without the place where it stands
+/// Value of an expression over named numbers, by muParser: + - * / ^, ?:, min, max, sqrt, sin, cos,
+/// ... This function adds floor, ceil and pi.
+/// @throws InputError that says what is wrong with the expression; the caller adds the place in the
+///     file
 double evaluate(const std::string& expression, const Parameters& parameters);
 
 } // namespace dss

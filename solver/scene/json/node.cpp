@@ -11,7 +11,7 @@
 namespace dss {
 namespace {
 
-/// What stands there, short enough for one line.
+/// The value as text, short enough for one line.
 std::string shown(const nlohmann::json& value) {
   if (value.is_object() || value.is_array())
     return fmt::format("an {} of {}", value.is_object() ? "object" : "array", value.size());
@@ -19,7 +19,7 @@ std::string shown(const nlohmann::json& value) {
   return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
-/// A key as it stands in a JSON pointer (RFC 6901).
+/// A key as written in a JSON pointer (RFC 6901).
 std::string escaped(const std::string& key) {
   std::string text;
   for (const char c : key) text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
@@ -28,11 +28,14 @@ std::string escaped(const std::string& key) {
 
 } // namespace
 
-std::string listed(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+std::string listed(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 void Node::fail(const std::string& message) const {
   const auto set_by = text_->overrides.find(pointer_);
-  std::string line = fmt::format("{}: {}: {}", text_->path, pointer_.empty() ? "/" : pointer_, message);
+  std::string line =
+      fmt::format("{}: {}: {}", text_->path, pointer_.empty() ? "/" : pointer_, message);
   if (set_by != text_->overrides.end()) line += fmt::format(" (from {})", set_by->second);
   std::replace_if(
       line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -40,13 +43,14 @@ void Node::fail(const std::string& message) const {
 }
 
 bool Node::is_expression() const {
-  return value_->is_string() &&
-         (value_->get_ref<const std::string&>().starts_with('=') || text_->overrides.contains(pointer_));
+  return value_->is_string() && (value_->get_ref<const std::string&>().starts_with('=') ||
+                                 text_->overrides.contains(pointer_));
 }
 bool Node::is_number() const { return value_->is_number() || is_expression(); }
 
 double Node::number() const {
-  if (!is_number()) fail(fmt::format("{} is not a number; write a number or \"=expression\"", shown(*value_)));
+  if (!is_number())
+    fail(fmt::format("{} is not a number; write a number or \"=expression\"", shown(*value_)));
   if (value_->is_number()) return value_->get<double>();
   const auto& expression = value_->get_ref<const std::string&>();
   try {
@@ -55,7 +59,8 @@ double Node::number() const {
     const auto& names = text_->parameters;
     std::vector<std::string> known;
     for (const auto& item : names) known.push_back(item.first);
-    fail(fmt::format("{}; parameters are {}", error.what(), known.empty() ? "none" : listed(known)));
+    fail(
+        fmt::format("{}; parameters are {}", error.what(), known.empty() ? "none" : listed(known)));
   }
 }
 
@@ -79,7 +84,8 @@ long Node::whole(long least, long most) const {
   const double value = number();
   if (value != std::floor(value)) fail(with_source(value) + " is not a whole number");
   if (value < double(least) || value > double(most))
-    fail(fmt::format("{} is out of range; it must be from {} to {}", with_source(value), least, most));
+    fail(fmt::format("{} is out of range; it must be from {} to {}", with_source(value), least,
+                     most));
   return long(value);
 }
 
@@ -94,13 +100,14 @@ bool Node::boolean() const {
 }
 
 Vec3 Node::vector() const {
-  if (!value_->is_array() || value_->size() != 3) fail(fmt::format("{} is not [x, y, z]", shown(*value_)));
+  if (!value_->is_array() || value_->size() != 3)
+    fail(fmt::format("{} is not [x, y, z]", shown(*value_)));
   const std::vector<Node> parts = items();
   return {parts[0].number(), parts[1].number(), parts[2].number()};
 }
 
 Vec3 Node::positive_vector() const {
-  vector(); // for its errors about the shape
+  vector(); // checks the shape of the array
   const std::vector<Node> parts = items();
   return {parts[0].positive(), parts[1].positive(), parts[2].positive()};
 }
@@ -116,12 +123,14 @@ std::vector<Node> Node::items() const {
 std::size_t Node::choice(const char* what, const std::vector<std::string>& names) const {
   const std::string text = string();
   const auto place = std::find(names.begin(), names.end(), text);
-  if (place == names.end()) fail(fmt::format("\"{}\" is not a known {}; known are {}", text, what, listed(names)));
+  if (place == names.end())
+    fail(fmt::format("\"{}\" is not a known {}; known are {}", text, what, listed(names)));
   return std::size_t(place - names.begin());
 }
 
 ObjectNode::ObjectNode(const Node& node) : node_(node) {
-  if (!node.json().is_object()) node.fail(fmt::format("{} is not an object {{...}}", shown(node.json())));
+  if (!node.json().is_object())
+    node.fail(fmt::format("{} is not an object {{...}}", shown(node.json())));
 }
 
 std::optional<Node> ObjectNode::find(const std::string& key) {

@@ -1,10 +1,12 @@
-/// A job on a simulated cluster (SimGrid SMPI): the exchange code of the variant `mpi` as it is; what its executors would
-/// compute is injected as time. Argument: the plan (plan.hpp). Prints one JSON object; anything else is a failure.
+/// A job on a simulated cluster (SimGrid SMPI). It runs the exchange code of the variant `mpi`
+/// unchanged; compute times are injected in place of executors. Argument: the plan (plan.hpp).
+/// Prints one JSON object; any other output is a failure.
 #include "solver/error.hpp"
-#include "variants/halo_cost.hpp"
+#include "variants/cost/halo_cost.hpp"
 #include "variants/mpi/halo_exchange.hpp"
 #include "variants/mpi/network.hpp"
 #include "variants/mpi/simulated/plan.hpp"
+#include "variants/mpi/transports.hpp"
 #include "variants/mpi/waiting.hpp"
 
 #include <algorithm>
@@ -18,13 +20,14 @@
 namespace dss {
 namespace {
 
-/// All ranks live in one process and share its globals: one of them reads the plan.
+/// All ranks live in one process and share its globals, so one of them reads the plan.
 const SimulationPlan& the_plan(const char* path) {
-  static const SimulationPlan plan = nlohmann::json::parse(std::ifstream(path)).get<SimulationPlan>();
+  static const SimulationPlan plan =
+      nlohmann::json::parse(std::ifstream(path)).get<SimulationPlan>();
   return plan;
 }
 
-/// What is in the messages does not matter: all are the same memory, which SimGrid then need not copy.
+/// Memory of all messages. Their content does not matter, and SimGrid need not copy shared memory.
 std::byte* the_message(std::size_t bytes) {
   static std::byte* const memory = static_cast<std::byte*>(SMPI_SHARED_MALLOC(bytes));
   return memory;
@@ -34,7 +37,8 @@ std::size_t largest_message(const SimulationPlan& plan) {
   std::size_t bytes = 1;
   for (const PlannedStrategy& strategy : plan.strategies)
     for (const PlannedPart& part : strategy.parts)
-      for (const PlannedPart::Face& face : part.faces) bytes = std::max({bytes, face.send_bytes, face.receive_bytes});
+      for (const PlannedPart::Face& face : part.faces)
+        bytes = std::max({bytes, face.send_bytes, face.receive_bytes});
   return bytes;
 }
 
@@ -42,17 +46,20 @@ void compute(double seconds) {
   if (seconds > 0) smpi_execute(seconds);
 }
 
-/// The steps of one part.
+/// The steps of one part under one strategy.
 class SimulatedPart {
 public:
-  SimulatedPart(const PlannedStrategy& planned, const HaloStrategy& strategy, int rank, std::byte* message)
+  SimulatedPart(const PlannedStrategy& planned, const HaloStrategy& strategy, int rank,
+                std::byte* message)
       : planned_(planned), strategy_(strategy), part_(planned.parts[std::size_t(rank)]) {
     std::vector<Face> faces;
-    for (const PlannedPart::Face& face : part_.faces) faces.push_back({face.part, face.side, faces.size()});
+    for (const PlannedPart::Face& face : part_.faces)
+      faces.push_back({face.part, face.side, faces.size()});
     exchange_ = make_exchange(strategy.transport, std::move(faces), MPI_COMM_WORLD);
     exchange_->attach(copies_, [&, message](const Face& face, Way way, int) {
       const PlannedPart::Face& planned_face = part_.faces[face.number];
-      const std::size_t bytes = way == Way::out ? planned_face.send_bytes : planned_face.receive_bytes;
+      const std::size_t bytes =
+          way == Way::out ? planned_face.send_bytes : planned_face.receive_bytes;
       return HaloLayout{{{message, 0, bytes}}, bytes, true};
     });
   }
@@ -61,7 +68,8 @@ public:
     const int last = steps * planned_.exchanges - 1;
     for (const Side side : all_sides) exchange_->send(side, 0);
     for (int n = 0; n <= last; ++n)
-      run_to_next_exchange(strategy_, part_.times, planned_.exchanges, *exchange_, n, n == last, compute);
+      run_to_next_exchange(strategy_, part_.times, planned_.exchanges, *exchange_, n, n == last,
+                           compute);
   }
   const Traffic& traffic() const { return exchange_->traffic(); }
 
@@ -82,9 +90,11 @@ double sum(double value) {
   return value;
 }
 
-constexpr double in_step_s = 0.1;            ///< longer than a reduction over all ranks
-constexpr std::size_t most_tried_ranks = 64; ///< the model alone decides for more, which SimGrid takes minutes to try
+constexpr double in_step_s = 0.1; ///< longer than a reduction over all ranks [s]
+/// With more ranks the model alone decides, because SimGrid would take minutes to try strategies.
+constexpr std::size_t most_tried_ranks = 64;
 
+/// What a run measured.
 struct SimulatedSteps {
   double step_s = 0, waited_s = 0;
   Traffic traffic; ///< sent by this rank
@@ -92,10 +102,12 @@ struct SimulatedSteps {
 
 SimulatedSteps run(const PlannedStrategy& planned, int steps, int rank, std::byte* message) {
   SimulatedPart part(planned, *find_halo_strategy(planned.name), rank, message);
-  // All start at once: where messages rule, ranks that leave a barrier one after the other can stay out of step for good.
+  // All ranks start at the same time. If they left a barrier one after the other, they could stay
+  // out of step for the whole run where messages dominate.
   const double start = largest(MPI_Wtime()) + in_step_s;
   const double until_start = start - MPI_Wtime();
-  if (until_start < 0) throw InputError("a reduction over all ranks takes longer than 0.1 s on this network");
+  if (until_start < 0)
+    throw InputError("a reduction over all ranks takes longer than 0.1 s on this network");
   compute(until_start);
   const double waited_before_s = Waiting::total_s();
   part.run(steps);
@@ -105,7 +117,7 @@ SimulatedSteps run(const PlannedStrategy& planned, int steps, int rank, std::byt
 
 using StepTimes = std::map<std::string, double>;
 
-/// The same for all ranks: one of them replays.
+/// The predictions are the same for all ranks, so one of them replays.
 const StepTimes& the_predictions(const SimulationPlan& plan, const Network& network) {
   static const StepTimes step_s = [&] {
     StepTimes times;
@@ -116,7 +128,8 @@ const StepTimes& the_predictions(const SimulationPlan& plan, const Network& netw
   return step_s;
 }
 
-/// Whether a strategy is run: the one asked for; for auto, as variants/mpi/strategy_choice.cpp does it, those that may be the fastest.
+/// Whether to run a strategy: the one asked for; for auto those that may be the fastest, as in
+/// variants/mpi/strategy_choice.cpp.
 bool is_run(const std::string& name, const SimulationPlan& plan, const StepTimes& predicted) {
   if (plan.halo != "auto") return name == plan.halo;
   const auto least = std::ranges::min_element(predicted, {}, &StepTimes::value_type::second);
@@ -130,8 +143,10 @@ void simulate(const SimulationPlan& plan, int rank) {
   std::map<std::string, SimulatedSteps> tried;
   for (const PlannedStrategy& planned : plan.strategies)
     if (is_run(planned.name, plan, predicted))
-      tried.emplace(planned.name, run(planned, plan.steps, rank, the_message(largest_message(plan))));
-  const auto& [halo, result] = *std::ranges::min_element(tried, {}, [](const auto& one) { return one.second.step_s; });
+      tried.emplace(planned.name,
+                    run(planned, plan.steps, rank, the_message(largest_message(plan))));
+  const auto& [halo, result] =
+      *std::ranges::min_element(tried, {}, [](const auto& one) { return one.second.step_s; });
   const double steps = plan.steps;
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);

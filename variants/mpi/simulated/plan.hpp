@@ -1,6 +1,6 @@
 #pragma once
-/// What a simulated job is told, as JSON: per strategy and part what is computed and exchanged. The runner writes it
-/// (experiments/runner/simulation.cpp), every rank reads it.
+/// The plan of a simulated job, as JSON: what each part computes and exchanges under each strategy.
+/// The program writes it (experiments/run/cluster/simulation.cpp), and every rank reads it.
 #include "variants/mpi/part_json.hpp"
 
 #include <string>
@@ -8,6 +8,7 @@
 
 namespace dss {
 
+/// A simulated job.
 struct SimulationPlan {
   int steps = 0;
   std::string halo; ///< strategy to run, or "auto"

@@ -1,4 +1,4 @@
-/// Waiting on a simulated cluster: no watch, and time is MPI's.
+/// Waiting on a simulated cluster: there is no watch, and MPI gives the simulated time.
 #include "variants/mpi/waiting.hpp"
 
 #include <map>
@@ -7,7 +7,7 @@
 namespace dss {
 namespace {
 
-/// Ranks share the globals of one process.
+/// Time that the calling rank has waited [s]. All ranks share the globals of one process.
 double& waited_s() {
   static std::map<int, double> of_ranks;
   int rank = 0;

@@ -1,4 +1,4 @@
-/* The wavefront of CPU devices: a work-item has a block of rows. */
+/* The wavefront of CPU devices: a work-item computes a block of rows. */
 
 static void publish(device d, global const row_stage* task) {
   for EACH_PACK(task) {
@@ -8,51 +8,60 @@ static void publish(device d, global const row_stage* task) {
   }
 }
 
-/* One pass of the wavefront over a block's rows (variants/engine/wavefront.cpp): sweep n is n * lag rows behind the first. */
-static void run_sweeps(device d, global const sweep* own, global const NUMBER* signals, global int* failed, const int block,
-                       const int first_step, int count, const int stages, const int lag, const int signal_width) {
+/* One pass of the wavefront over the rows of a block (variants/engine/wavefront.cpp). Sweep n runs
+ * n * lag rows behind the first. */
+static void run_sweeps(device d, global const sweep* own, global const NUMBER* signals,
+                       global int* failed, const int block, const int first_step, int count,
+                       const int stages, const int lag, const int signal_width) {
   const int end = own[count - 1].end + (count - 1) * lag;
   for (int t = own[0].begin; t < end; ++t)
     for (int n = 0; n < count; ++n) {
       const int r = t - n * lag;
       if (r < own[n].begin || r >= own[n].end) continue;
       if (r == own[n].begin)
-        for (int p = 0; p < own[n].prime_count; ++p) run_task(d, d.tasks + own[n].primes + p, signals);
+        for (int p = 0; p < own[n].prime_count; ++p)
+          run_task(d, d.tasks + own[n].primes + p, signals);
       global const row_stage* task = d.tasks + own[n].rows + (r - own[n].begin);
       const bool is_finite = run_task(d, task, signals + n * signal_width);
       if ((n + 1) % stages == 0) {
         if (!is_finite && has_failed(d, task)) {
           record_failure(failed, block, first_step + n / stages, r);
-          count = n; /* only sweeps of earlier steps go on, which may fail as well */
+          count = n; /* only sweeps of earlier steps go on, since these may fail too */
         }
         if (task->published >= 0) publish(d, task);
       }
     }
 }
 
-/* Whether all blocks whose rows this one reads have done so many passes; waits for them for a while. A block that is not computed at
- * the same time cannot come, and the host launches again: nothing depends on how work-groups are scheduled. */
-static bool have_come(volatile global int* progress, const int2 blocks, const int passes, const int patience) {
+/* Whether all blocks whose rows this one reads have done `passes` passes. Looks at most `patience`
+ * times. A block that is not computed at the same time cannot get that far; then the host launches
+ * again. So nothing depends on how work-groups are scheduled. */
+static bool have_come(volatile global int* progress, const int2 blocks, const int passes,
+                      const int patience) {
   for (int other = blocks.x; other < blocks.y; ++other) {
     int spins = 0;
     while (progress[other] < passes)
       if (++spins > patience) return false;
-    atomic_or(progress + other, 0); /* what it published before is read after this */
+    atomic_or(progress + other, 0); /* its published rows are read after this */
   }
   return true;
 }
 
-/* Passes of each block, from where it is (progress) to last_pass: at once where blocks are computed at the same time. */
-kernel void run_passes(TABLES, global const sweep* sweeps, global const int2* neighbours, global const NUMBER* signals,
-                       global int* failed, volatile global int* progress, const int most_sweeps, const int first_parity,
-                       const int last_pass, const int steps_a_pass, const int steps, const int stages, const int lag,
-                       const int signal_width, const int patience, const int first_block, const int block_stride) {
+/* Computes passes of each block, from its progress to last_pass. One launch is enough if all
+ * blocks are computed at the same time. */
+kernel void run_passes(TABLES, global const sweep* sweeps, global const int2* neighbours,
+                       global const NUMBER* signals, global int* failed,
+                       volatile global int* progress, const int most_sweeps, const int first_parity,
+                       const int last_pass, const int steps_a_pass, const int steps,
+                       const int stages, const int lag, const int signal_width, const int patience,
+                       const int first_block, const int block_stride) {
   const device d = DEVICE;
   const int block = first_block + BLOCK * block_stride;
   for (int pass = progress[block]; pass < last_pass; ++pass) {
     const int step = pass * steps_a_pass, parity = (first_parity + pass) & 1;
     if (!have_come(progress, neighbours[block], pass, patience) || failed[0] < step) return;
-    run_sweeps(d, sweeps + (block * 2 + parity) * most_sweeps, signals + step * stages * signal_width, failed, block, step,
+    run_sweeps(d, sweeps + (block * 2 + parity) * most_sweeps,
+               signals + step * stages * signal_width, failed, block, step,
                min(steps_a_pass, steps - step) * stages, stages, lag, signal_width);
     mem_fence(CLK_GLOBAL_MEM_FENCE);
     atomic_xchg(progress + block, pass + 1);

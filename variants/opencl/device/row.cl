@@ -1,65 +1,83 @@
-/* One stage of one row for one combination of terms: FLAGS, NAME(f) = f_<number of the combination>. The loop is the includer's
- * (row_of_vectors.cl, row_of_items.cl); what is common to both is here. `d` is the device's tables. */
+/* One stage of one row, for one combination of terms. The host defines FLAGS (the terms) and
+ * NAME(f), which is f_<number of the combination>. The loop over packs is in row_of_vectors.cl or
+ * row_of_items.cl; this file has what both share. `d` holds the tables of the device. */
 
 static inline exchange NAME(masked)(exchange x, const uint mask) {
   if (mask == ALL_LANES) return x;
   EACH_OF_VEC(KEEP, x.force)
-  if (has_couples(FLAGS)) { EACH_OF_SPIN(KEEP, x.couple_i) }
-  if (FLAGS.is_material) { EACH_OF_SPIN(KEEP, x.couple_j) }
+  if (has_couples(FLAGS)) {
+    EACH_OF_SPIN(KEEP, x.couple_i)
+  }
+  if (FLAGS.is_material) {
+    EACH_OF_SPIN(KEEP, x.couple_j)
+  }
   return x;
 }
 static inline paper_law NAME(paper_law_of)(global const body_constants* body, int axis) {
   if (!FLAGS.is_oblong) axis = 0;
-  paper_law law = {SPLAT(body->edge[axis]), SPLAT(body->edge[axis] / 2), SPLAT(body->tau), SPLAT(body->kt2), SPLAT(body->dt)};
+  paper_law law = {SPLAT(body->edge[axis]), SPLAT(body->edge[axis] / 2), SPLAT(body->tau),
+                   SPLAT(body->kt2), SPLAT(body->dt)};
   return law;
 }
 static inline axis_law NAME(law_of)(global const body_constants* body, const int axis) {
-  material_law m = {SPLAT(body->edge[axis]),      SPLAT(body->edge[axis]),      SPLAT(body->axis[axis].k_s),
-                    SPLAT(body->axis[axis].k_ns), SPLAT(body->axis[axis].d_s),  SPLAT(body->axis[axis].d_ns),
-                    SPLAT(body->axis[axis].k_z),  SPLAT(body->axis[axis].k_xz), SPLAT(body->axis[axis].k_yz),
-                    SPLAT(body->axis[axis].d_z),  SPLAT(body->axis[axis].d_xz), SPLAT(body->axis[axis].d_yz)};
-  axis_law law = {NAME(paper_law_of)(body, 0), NAME(paper_law_of)(body, axis), m, SPLAT(body->edge_ratio)};
+  material_law m = {
+      SPLAT(body->edge[axis]),      SPLAT(body->edge[axis]),      SPLAT(body->axis[axis].k_s),
+      SPLAT(body->axis[axis].k_ns), SPLAT(body->axis[axis].d_s),  SPLAT(body->axis[axis].d_ns),
+      SPLAT(body->axis[axis].k_z),  SPLAT(body->axis[axis].k_xz), SPLAT(body->axis[axis].k_yz),
+      SPLAT(body->axis[axis].d_z),  SPLAT(body->axis[axis].d_xz), SPLAT(body->axis[axis].d_yz)};
+  axis_law law = {NAME(paper_law_of)(body, 0), NAME(paper_law_of)(body, axis), m,
+                  SPLAT(body->edge_ratio)};
   return law;
 }
 
-static inline wrench NAME(apply)(device d, global const row_stage* task, global const NUMBER* signals, const int pack,
-                                 wrench sum) {
+static inline wrench NAME(apply)(device d, global const row_stage* task,
+                                 global const NUMBER* signals, const int pack, wrench sum) {
   global const applied_row* a = d.applied + task->applied;
   for (int n = 0; n < a->pattern_count; ++n) {
     global const pattern* q = d.patterns + a->patterns + n;
     if (pack < q->first || pack >= q->first + q->packs) continue;
     const REAL value = SPLAT(signals[q->signal] * d.bodies[task->body].inverse_unit);
-    global const NUMBER* p = d.arena + q->values + (long)(pack - q->first) * (WRENCH_SIZE * W) + LANE;
+    global const NUMBER* p =
+        d.arena + q->values + (long)(pack - q->first) * (WRENCH_SIZE * W) + LANE;
 #define ADD_PATTERN(c) c = FMA(value, LOAD(p), c), p += W;
-    EACH_OF_VEC(ADD_PATTERN, sum.force) EACH_OF_SPIN(ADD_PATTERN, sum.moment)
+    EACH_OF_VEC(ADD_PATTERN, sum.force)
+    EACH_OF_SPIN(ADD_PATTERN, sum.moment)
   }
   return sum;
 }
-static inline void NAME(hold)(device d, global const row_stage* task, const int pack, vec* force, spin* angular) {
+static inline void NAME(hold)(device d, global const row_stage* task, const int pack, vec* force,
+                              spin* angular) {
   global const applied_row* a = d.applied + task->applied;
   if (a->free_lanes < 0) return;
   global const ushort* free_lanes = d.free_lanes + a->free_lanes + (pack - a->first) * WRENCH_SIZE;
-#define HOLD(c) { const uint mask = *free_lanes++; KEEP(c) }
+#define HOLD(c)                      \
+  {                                  \
+    const uint mask = *free_lanes++; \
+    KEEP(c)                          \
+  }
   vec f = *force;
   spin t = *angular;
-  EACH_OF_VEC(HOLD, f) EACH_OF_SPIN(HOLD, t)
+  EACH_OF_VEC(HOLD, f)
+  EACH_OF_SPIN(HOLD, t)
   *force = f, *angular = t;
 }
 
-/* From the sum over the links to the update; `place`: of the pack's first field in its row. Adds to the check for finite
- * numbers. */
-static inline REAL NAME(update)(device d, global const row_stage* task, global const NUMBER* signals, const int pack,
-                                const long place, prepared i, wrench sum, REAL check) {
+/* From the sum over the links to the updated state of a pack.
+ * @param place  offset of the pack's first field in its row
+ * @return `check` plus a zero, or a number that is not zero if the result is not finite */
+static inline REAL NAME(update)(device d, global const row_stage* task,
+                                global const NUMBER* signals, const int pack, const long place,
+                                prepared i, wrench sum, REAL check) {
   global const body_constants* body = d.bodies + task->body;
-  const bool is_applied =
-      task->applied >= 0 && pack >= d.applied[task->applied].first &&
-      pack < d.applied[task->applied].first + d.applied[task->applied].packs;
-  const tie_law tie = {SPLAT(body->tie_k), SPLAT(body->tie_d), SPLAT(body->tie_k2_rot), SPLAT(body->tie_d_rot)};
+  const bool is_applied = task->applied >= 0 && pack >= d.applied[task->applied].first &&
+                          pack < d.applied[task->applied].first + d.applied[task->applied].packs;
+  const tie_law tie = {SPLAT(body->tie_k), SPLAT(body->tie_d), SPLAT(body->tie_k2_rot),
+                       SPLAT(body->tie_d_rot)};
   sum = wrench_finished(sum, i, NAME(paper_law_of)(body, 0), tie, FLAGS);
   if (is_applied) sum = NAME(apply)(d, task, signals, pack, sum);
   if (body->is_accelerated) sum.force = vec_axpy(SPLAT(body->mass), vec_splat(signals), sum.force);
-  spin angular =
-      turn(sum.moment, i.e, spin_splat(body->inertia), spin_splat(body->inverse_inertia), FLAGS.is_gyroscopic);
+  spin angular = turn(sum.moment, i.e, spin_splat(body->inertia), spin_splat(body->inverse_inertia),
+                      FLAGS.is_gyroscopic);
   if (is_applied) NAME(hold)(d, task, pack, &sum.force, &angular);
   return row_update(d, task, place, i.e, sum.force, SPLAT(body->inverse_mass), angular,
                     SPLAT(FLAGS.is_gyroscopic ? 1 : body->inverse_inertia[2]), check);

@@ -1,13 +1,19 @@
-/* The rows of GPUs: a REAL is a number, a work-item one element, and nobody waits for others: every link is computed at both ends, since what
- * one end left for the other would go through memory, which is what rules there. */
+/* The rows of GPUs: a REAL is a number, and a work-item computes one element. No work-item waits
+ * for another. So every link is computed at both ends: a result of one end for the other would go
+ * through memory, which limits the speed. */
 
-static inline vec NAME(upper_x)(prepared i) { return FLAGS.is_material ? i.e.u : upper_face(i.pull, i.x); }
+static inline vec NAME(upper_x)(prepared i) {
+  return FLAGS.is_material ? i.e.u : upper_face(i.pull, i.x);
+}
 static inline exchange NAME(exchange_x)(prepared i, prepared j, axis_law law) {
-  return link_exchange(i.e, NAME(upper_x)(i), j.e, FLAGS.is_material ? i.e.u : j.lower_x, 0, law, FLAGS);
+  return link_exchange(i.e, NAME(upper_x)(i), j.e, FLAGS.is_material ? i.e.u : j.lower_x, 0, law,
+                       FLAGS);
 }
 
-/* Links across y or z. `masks`: of the pack, to the upper and the lower element. */
-static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law, const uint above, const uint below,
+/* Adds the links across y or z.
+ * @param above, below  lane masks of the links to the upper and to the lower element */
+static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law,
+                                      const uint above, const uint below,
                                       global const NUMBER* upper, global const NUMBER* lower) {
   if ((above | below) == 0) return sum;
   const side own = side_across(i, axis, law, FLAGS);
@@ -16,12 +22,13 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   carried low = nothing_carried();
   if (below >> LANE & 1) {
     const element j = element_at(lower);
-    low = carried_by(link_across(j, upper_across(j, axis, law, FLAGS), i.e, axis, law, FLAGS), FLAGS);
+    low =
+        carried_by(link_across(j, upper_across(j, axis, law, FLAGS), i.e, axis, law, FLAGS), FLAGS);
   }
   return wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
 }
 
-/* True if what a last stage left is finite. */
+/* @return whether the result of a last stage is finite */
 static inline int NAME(run)(device d, global const row_stage* task, global const NUMBER* signals) {
   const int pack = PACK(task), lane = LANE;
   if (pack < 0 || pack >= task->packs) return 1;
@@ -44,19 +51,20 @@ static inline int NAME(run)(device d, global const row_stage* task, global const
     up = NAME(exchange_x)(i, prepare(element_at(in + above), x.x, FLAGS), x);
   }
   carried low = nothing_carried();
-  const bool is_linked_below = lane > 0 ? masks->link_x >> (lane - 1) & 1 : pack > 0 && (masks[-1].link_x >> (W - 1) & 1);
+  const bool is_linked_below =
+      lane > 0 ? masks->link_x >> (lane - 1) & 1 : pack > 0 && (masks[-1].link_x >> (W - 1) & 1);
   if (is_linked_below) {
     const long below = lane > 0 ? place - 1 : start - stride + W - 1;
     low = carried_by(NAME(exchange_x)(prepare(element_at(in + below), x.x, FLAGS), i, x), FLAGS);
   }
   wrench sum = wrench_of_x(i, up, low, x, FLAGS);
 #if AXES > 1
-  sum = NAME(add_across)(sum, i, 1, y, masks->link_y, masks->below_y, d.arena + task->upper_y + place,
-                         d.arena + task->lower_y + place);
+  sum = NAME(add_across)(sum, i, 1, y, masks->link_y, masks->below_y,
+                         d.arena + task->upper_y + place, d.arena + task->lower_y + place);
 #endif
 #if AXES > 2
-  sum = NAME(add_across)(sum, i, 2, z, masks->link_z, masks->below_z, d.arena + task->upper_z + place,
-                         d.arena + task->lower_z + place);
+  sum = NAME(add_across)(sum, i, 2, z, masks->link_z, masks->below_z,
+                         d.arena + task->upper_z + place, d.arena + task->lower_z + place);
 #endif
   const REAL check = NAME(update)(d, task, signals, pack, place, i, sum, 0);
   return !(masks->own >> lane & 1) || IS_ZERO(check);

@@ -1,4 +1,5 @@
-/* The rows of CPU devices: a REAL is a pack, a work-item goes along the row (as kernels/stage_row/stage_row.hpp does). */
+/* The rows of CPU devices: a REAL is a pack, and a work-item goes along the row as
+ * kernels/stage_row/stage_row.hpp does. */
 
 #define CARRY_SIZE(flags) (has_couples(flags) ? WRENCH_SIZE : VEC_SIZE)
 static inline void NAME(put_carried)(carried c, global NUMBER* p) {
@@ -11,7 +12,8 @@ static inline carried NAME(carried_at)(global const NUMBER* p) {
   return c;
 }
 
-static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, const uint mask, carried* previous) {
+static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, const uint mask,
+                                   carried* previous) {
   element j = i.e;
   vec lower = i.e.u, upper = i.e.u;
   if (FLAGS.is_material) {
@@ -32,22 +34,30 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, cons
   return wrench_of_x(i, up, low, law, FLAGS);
 }
 
-/* Links across y or z; `above`, `below`: masks; `upper` the upper pack, `carry` and `from` this pack's places. */
-static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law, const uint above, const uint below,
-                                      global const NUMBER* upper, global NUMBER* carry, global const NUMBER* from) {
+/* Adds the links across y or z.
+ * @param above, below  lane masks of the links to the upper and to the lower row
+ * @param upper         the upper pack
+ * @param carry, from   places of this pack in the carry buffers */
+static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law,
+                                      const uint above, const uint below,
+                                      global const NUMBER* upper, global NUMBER* carry,
+                                      global const NUMBER* from) {
   if ((above | below) == 0) return sum;
   const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
-  if (above != 0) up = NAME(masked)(link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS), above);
+  if (above != 0)
+    up = NAME(masked)(link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS), above);
   carried low = nothing_carried();
   if (below != 0) low = NAME(carried_at)(from);
   sum = wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
-  if (above != 0) NAME(put_carried)(carried_by(up, FLAGS), carry); /* perhaps over what was read */
+  /* Written last, since carry and from may be the same place. */
+  if (above != 0) NAME(put_carried)(carried_by(up, FLAGS), carry);
   return sum;
 }
 
-/* True if what a last stage left is finite. */
-static inline int NAME(run_row)(device d, global const row_stage* task, global const NUMBER* signals) {
+/* @return whether the result of a last stage is finite */
+static inline int NAME(run_row)(device d, global const row_stage* task,
+                                global const NUMBER* signals) {
   global const body_constants* body = d.bodies + task->body;
   global const pack_masks* masks = d.masks + task->masks;
   const axis_law x = NAME(law_of)(body, 0);
@@ -69,25 +79,28 @@ static inline int NAME(run_row)(device d, global const row_stage* task, global c
     next = prepare(element_at(in + place + stride), x.x, FLAGS);
     wrench sum = NAME(links_x)(i, next, x, masks[pack].link_x, &previous);
 #if AXES > 1
-    sum = NAME(add_across)(sum, i, 1, y, masks[pack].link_y, masks[pack].below_y, d.arena + task->upper_y + place,
-                           d.arena + task->carry_y + carry, d.arena + task->from_y + carry);
+    sum = NAME(add_across)(sum, i, 1, y, masks[pack].link_y, masks[pack].below_y,
+                           d.arena + task->upper_y + place, d.arena + task->carry_y + carry,
+                           d.arena + task->from_y + carry);
 #endif
 #if AXES > 2
-    sum = NAME(add_across)(sum, i, 2, z, masks[pack].link_z, masks[pack].below_z, d.arena + task->upper_z + place,
-                           d.arena + task->carry_z + carry, d.arena + task->from_z + carry);
+    sum = NAME(add_across)(sum, i, 2, z, masks[pack].link_z, masks[pack].below_z,
+                           d.arena + task->upper_z + place, d.arena + task->carry_z + carry,
+                           d.arena + task->from_z + carry);
 #endif
     check = NAME(update)(d, task, signals, pack, place, i, sum, check);
   }
   return IS_ZERO(check);
 }
 
-/* Only the links across an axis, for the rows above. */
+/* Computes only the links across an axis, for the rows above. */
 static inline void NAME(prime)(device d, global const row_stage* task, const int axis) {
   const axis_law law = NAME(law_of)(d.bodies + task->body, axis);
   global const NUMBER* upper = d.arena + (axis == 1 ? task->upper_y : task->upper_z);
   global NUMBER* carry = d.arena + (axis == 1 ? task->carry_y : task->carry_z);
   for EACH_PACK(task) {
-    const uint mask = axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
+    const uint mask =
+        axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
     if (mask == 0) continue;
     const long place = (long)pack * (task->fields * W) + LANE;
     const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
@@ -97,7 +110,8 @@ static inline void NAME(prime)(device d, global const row_stage* task, const int
   }
 }
 
-/* What to do with a row, for one combination of terms. False: the last stage of a step left what is not finite. */
+/* Does the action of a row, for one combination of terms.
+ * @return false if the last stage of a step left a number that is not finite */
 static int NAME(run)(device d, global const row_stage* task, global const NUMBER* signals) {
   switch (task->action) {
   case prime_upper:

@@ -1,7 +1,9 @@
-/* Kernels. `failed`: [0] the first step that left a number that is not finite, then of each block its own and the row; later
- * passes do nothing, so that the host finds the state of that step. */
+/* Kernels over lists of rows. `failed`: [0] is the first step that left a number that is not
+ * finite; then for each block its own first step and the row. Later passes do nothing, so the host
+ * finds the state of the failing step. */
 
-/* Whether an own element of the row is not finite: halo elements may be, since the outermost lack links. */
+/* Whether an own element of the row is not finite. Halo elements do not count: the outermost lack
+ * links. */
 static bool has_failed(device d, global const row_stage* task) {
   bool is_failed = false;
   for EACH_PACK(task) {
@@ -21,15 +23,15 @@ static void record_failure(global int* failed, const int block, const int step, 
   atomic_min(failed + 1 + 2 * block, step);
 }
 
-/* Lists of rows, in their order: a stage of all rows, or their rates. `lists`: places of first and last plus one in tasks. */
-kernel void run_rows(TABLES, global const int2* lists, global const NUMBER* signals, global int* failed,
-                     const int first_signal, const int step) {
+/* Runs lists of rows in their order: a stage of all rows, or their rates.
+ * @param lists  for each block its first place in tasks, and the place behind its last */
+kernel void run_rows(TABLES, global const int2* lists, global const NUMBER* signals,
+                     global int* failed, const int first_signal, const int step) {
   const device d = DEVICE;
   const int2 list = lists[BLOCK];
   if (failed[0] < step) return;
   for (int n = list.x; n < list.y; ++n) {
     const bool is_finite = run_task(d, tasks + n, signals + first_signal);
-    if (!is_finite && has_failed(d, tasks + n))
-      record_failure(failed, BLOCK, step, tasks[n].row);
+    if (!is_finite && has_failed(d, tasks + n)) record_failure(failed, BLOCK, step, tasks[n].row);
   }
 }

@@ -1,4 +1,5 @@
-/* Tuples of packs, their lanes moved by one: from the element above in x, or below. */
+/* Shifts the lanes of tuples of packs by one: to those of the next element in +x (from above), or
+ * in -x (from below). */
 #define FROM_ABOVE(c) r.c = SHIFT_DOWN(a.c, b.c);
 #define FROM_BELOW(c) r.c = SHIFT_UP(a.c, b.c);
 #define SHIFTED(name, tuple, components, shift) \

@@ -1,18 +1,22 @@
-/* A step that was tried (variants/engine/step_error.hpp). `lists`: rows of its last stage, whose input is where the step leads to, whose
- * base is the state, and whose output is the estimated error. */
+/* A tried step (variants/engine/step_error.hpp). `lists` has the rows of its last stage. Their
+ * input is the result of the step, their base is the state, and their output is the estimated
+ * error. */
 #define IS_OF_STATE(task) ((task)->action == error_stage || (task)->action == kept_error)
 #define KINDS 4
-#define MAXIMA (2 * KINDS + 1) /* of errors u, v, q, w, of states, and 1 if a number is not finite */
+/* Maxima of the errors of u, v, q and w, then of the states, then 1 if a number is not finite. */
+#define MAXIMA (2 * KINDS + 1)
 
-/* One work-item's lanes of packs of numbers, whatever a REAL is. */
-static void add_maxima(device d, global const row_stage* task, const int first, const int stride, NUMBER* most) {
+/* Adds the lanes of one work-item. Works on numbers, whatever a REAL is. */
+static void add_maxima(device d, global const row_stage* task, const int first, const int stride,
+                       NUMBER* most) {
   for (int at = first; at < task->packs * W; at += stride) {
     const int pack = at / W, lane = at % W;
     if (!(d.masks[task->masks + pack].own >> lane & 1)) continue;
     const long place = (long)pack * (task->fields * W) + lane;
     for (int f = 0; f < FIELDS; ++f) {
       const int kind = f < VEC_SIZE ? 0 : f < 2 * VEC_SIZE ? 1 : f < FIELDS - SPIN_SIZE ? 2 : 3;
-      const NUMBER e = fabs(d.arena[task->out + place + f * W]), y = fabs(d.arena[task->in + place + f * W]);
+      const NUMBER e = fabs(d.arena[task->out + place + f * W]),
+                   y = fabs(d.arena[task->in + place + f * W]);
       most[kind] = most[kind] < e ? e : most[kind];
       most[KINDS + kind] = most[KINDS + kind] < y ? y : most[KINDS + kind];
       if (!(isfinite(e) && isfinite(y))) most[2 * KINDS] = 1;
@@ -20,8 +24,10 @@ static void add_maxima(device d, global const row_stage* task, const int first, 
   }
 }
 
-/* @param maxima  MAXIMA numbers a band  @param items  room for MAXIMA numbers of each work-item of a group */
-kernel void step_maxima(TABLES, global const int2* lists, global NUMBER* maxima, local NUMBER* items) {
+/* @param maxima  MAXIMA numbers for each band
+ * @param items   room for MAXIMA numbers of each work-item of a group */
+kernel void step_maxima(TABLES, global const int2* lists, global NUMBER* maxima,
+                        local NUMBER* items) {
   const device d = DEVICE;
   const int2 list = lists[BLOCK];
   const int item = get_local_id(0), count = get_local_size(0);
@@ -41,7 +47,8 @@ kernel void step_maxima(TABLES, global const int2* lists, global NUMBER* maxima,
   }
 }
 
-/* Makes where the step leads to the state. Compensated, its increments lie behind the fields; low parts as in kept_step. */
+/* Makes the result of the tried step the state. In compensated precision increments follow its
+ * fields; the low parts are computed as in kept_step. */
 kernel void accept_rows(TABLES, global const int2* lists) {
   const device d = DEVICE;
   const int2 list = lists[BLOCK];

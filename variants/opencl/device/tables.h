@@ -1,5 +1,5 @@
-/* Tables that the host fills and kernels read, the same text for both. NUMBER: float or double. Offsets count numbers from the
- * start of the arena; -1: none. */
+/* Tables that the host fills and kernels read, in the same text for both. NUMBER: float or double.
+ * Offsets count numbers from the start of the arena; -1: none. */
 
 typedef struct {
 #include "kernels/stage_row/body_constants.h"
@@ -8,12 +8,12 @@ typedef struct {
 /* One row of one stage. */
 typedef struct {
   long in, upper_y, upper_z;
-  long carry_y, carry_z, from_y, from_z; /* of vectors */
-  long lower_y, lower_z;                 /* of items: input of the lower rows */
+  long carry_y, carry_z, from_y, from_z; /* for vectors: carry buffers */
+  long lower_y, lower_z;                 /* for items: input of the lower rows */
   long base, out, increment[6];
-  long published; /* where else the new state goes */
-  int action, shape, body,
-      applied; /* action: of enum row_action; shape: of the compiled terms; applied: -1 for most rows */
+  long published; /* where the new state is also stored */
+  /* action: of enum row_action; shape: of the compiled terms; applied: -1 for most rows */
+  int action, shape, body, applied;
   int packs, first_pack, masks, fields, row;
   int is_last, low, increments; /* as in RowTask */
   NUMBER beta, alpha[6];
@@ -21,26 +21,28 @@ typedef struct {
 
 /* One stage of one step over a block's rows [begin, end). */
 typedef struct {
-  int begin, end, rows, primes, prime_count; /* rows, primes: places in the table of row_stage */
+  int begin, end, rows, primes, prime_count; /* rows, primes: indices of row_stage */
 } sweep;
 
-/* As Applied and its Pattern. */
+/* As Applied::Pattern and Applied (kernels/stage_row/row.hpp). */
 typedef struct {
   long values;
   int signal, first, packs;
 } pattern;
 typedef struct {
-  int first, packs, patterns, pattern_count, free_lanes; /* patterns, free_lanes: places in their tables; -1: none */
+  /* patterns, free_lanes: indices in their tables; -1: none */
+  int first, packs, patterns, pattern_count, free_lanes;
 } applied_row;
 
-/* Lane masks of a pack: as PackMasks, and the lanes of own elements. */
+/* Lane masks of a pack: those of PackMasks, and the lanes of own elements. */
 typedef struct {
   ushort link_x, link_y, link_z, below_y, below_z, own;
 } pack_masks;
 
-/* A link outside the grid; places of both elements and their wrenches. */
+/* An extra link: the places of both elements and of their wrenches. */
 typedef struct {
-  int is_material, axis, row_i, row_j, lane_i, lane_j; /* lane_*: offset of the first field from the start of the row */
+  /* lane_i, lane_j: offset of the first field from the start of the row */
+  int is_material, axis, row_i, row_j, lane_i, lane_j;
   long wrench_i, wrench_j;
   NUMBER edge_i, edge_j, unit;
   body_constants body;

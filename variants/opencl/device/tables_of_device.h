@@ -1,4 +1,5 @@
-/* All tables, as kernels hand them on. `step`: of a method with an error stage the length of the step, else 1. */
+/* All tables, as kernels pass them on. `step`: with a method with an error stage the length of the
+ * step [s], else 1. */
 typedef struct {
   global NUMBER* arena;
   global const row_stage* tasks;
@@ -9,9 +10,10 @@ typedef struct {
   global const ushort* free_lanes;
   NUMBER step;
 } device;
-#define TABLES                                                                                                         \
-  global NUMBER *arena, global const row_stage *restrict tasks, global const body_constants *restrict bodies,          \
-      global const pack_masks *restrict masks, global const applied_row *restrict applied,                             \
-      global const pattern *restrict patterns, global const ushort *restrict free_lanes, const NUMBER step_length
-#define DEVICE                                                                                                         \
+#define TABLES                                                                                     \
+  global NUMBER *arena, global const row_stage *restrict tasks,                                    \
+      global const body_constants *restrict bodies, global const pack_masks *restrict masks,       \
+      global const applied_row *restrict applied, global const pattern *restrict patterns,         \
+      global const ushort *restrict free_lanes, const NUMBER step_length
+#define DEVICE                                                                                     \
   { arena, tasks, bodies, masks, applied, patterns, free_lanes, step_length }

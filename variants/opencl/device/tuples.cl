@@ -1,12 +1,17 @@
-/* The model's tuples, and how they move between memory and REALs. Words: W lanes a pack; LOAD(p), STORE(v, p) at a component's address. From the
- * host, for VEC, SPIN and ROTOR: COMPONENTS_OF_...(act), EACH_OF_...(act, tuple); VEC_SIZE, SPIN_SIZE, FIELDS. */
+/* Tuples of the model (vec, spin, rotor, element), and how they move between memory and REALs.
+ * Words: W lanes a pack; LOAD(p) and STORE(v, p) at the address of a component. The host defines
+ * for VEC, SPIN and ROTOR: COMPONENTS_OF_...(act), EACH_OF_...(act, tuple); and VEC_SIZE,
+ * SPIN_SIZE, FIELDS. */
 #define WRENCH_SIZE (VEC_SIZE + SPIN_SIZE)
 
 #define READ(c) c = LOAD(p), p += W;
 #define WRITE(c) STORE(c, p), p += W;
 static inline element element_at(global const NUMBER* p) {
   element e;
-  EACH_OF_VEC(READ, e.u) EACH_OF_VEC(READ, e.v) EACH_OF_ROTOR(READ, e.q) EACH_OF_SPIN(READ, e.w)
+  EACH_OF_VEC(READ, e.u)
+  EACH_OF_VEC(READ, e.v)
+  EACH_OF_ROTOR(READ, e.q)
+  EACH_OF_SPIN(READ, e.w)
   return e;
 }
 static inline vec vec_at(global const NUMBER* p) {
@@ -52,9 +57,10 @@ static inline carried nothing_carried(void) {
   return c;
 }
 
-/* Notices what stops being finite at one multiply-add a component: 0 * x is 0 unless x is infinite or NaN. */
+/* Adds 0 * x for every component: 0 unless x is infinite or NaN. Costs one multiply-add each. */
 #define ADD_ZERO(c) sum = FMA(c, SPLAT(0), sum);
 static inline REAL finite_check(vec v, spin w, REAL sum) {
-  EACH_OF_VEC(ADD_ZERO, v) EACH_OF_SPIN(ADD_ZERO, w)
+  EACH_OF_VEC(ADD_ZERO, v)
+  EACH_OF_SPIN(ADD_ZERO, w)
   return sum;
 }

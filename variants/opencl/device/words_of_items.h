@@ -1,14 +1,18 @@
-/* Words of GPUs: a REAL is a number, a work-item is an element: x of the body's grid along the first dimension of a launch, a list of rows (of
- * one row mostly) along the second. From the host: NUMBER, W, REAL. */
+/* Words of GPUs: a REAL is a number, and a work-item is an element. The first dimension of a
+ * launch is x of the body's grid; the second is a list of rows, mostly of one row. The host
+ * defines NUMBER, W, REAL. */
 #define LOAD(p) (*(p))
 #define STORE(v, p) (*(p) = (v))
-/* Loads do not overtake stores, which may be to the same place: first all loads of an update, then its stores. */
+/* Compilers do not move loads before stores that may have the same address. So all loads of an
+ * update come first, then its stores. */
 #define STORE_EARLY(v, p) ((void)0)
 #define STORE_LATE(v, p) STORE(v, p)
 #define IS_ZERO(v) ((v) == 0)
 #define KEEP(c) c = (mask >> LANE & 1) ? c : 0;
 #define LANE ((int)get_global_id(0) % W)
 #define PACK(task) ((int)get_global_id(0) / W - (task)->first_pack)
-#define EACH_PACK(task) (int pack = max(PACK(task), 0), end = min(PACK(task) + 1, (task)->packs); pack < end; ++pack)
+#define EACH_PACK(task)                                                                            \
+  (int pack = max(PACK(task), 0), end = min(PACK(task) + 1, (task)->packs); pack < end; ++pack)
 #define BLOCK get_group_id(1)
-#define RECORD_ROW atomic_min(failed + 2 + 2 * block, row); /* a launch is one step: the first row of its items */
+#define RECORD_ROW                                                                                 \
+  atomic_min(failed + 2 + 2 * block, row); /* a launch is one step, so this is the first row */

@@ -1,8 +1,9 @@
-/* Words of CPU devices: a REAL is a pack of W numbers, a work-group is one work-item with a block of rows. From the host: NUMBER,
- * W, REAL, BITS (an integer vector as wide as REAL), and the SHIFTs of this width. */
+/* Words of CPU devices: a REAL is a pack of W numbers, and a work-group is one work-item with a
+ * block of rows. The host defines NUMBER, W, REAL, BITS (an integer vector as wide as REAL), and
+ * the SHIFTs of this width. */
 #define LOAD(p) (*(global const REAL*)(p))
 #define STORE(v, p) (*(global REAL*)(p) = (v))
-/* Registers are few: what is computed is stored at once. */
+/* Registers are few, so results are stored at once. */
 #define STORE_EARLY(v, p) STORE(v, p)
 #define STORE_LATE(v, p) ((void)0)
 #define IS_ZERO(v) all((v) == SPLAT(0))
@@ -10,5 +11,6 @@
 #define LANE 0
 #define EACH_PACK(task) (int pack = 0; pack < (task)->packs; ++pack)
 #define BLOCK get_global_id(0)
-#define RECORD_ROW                                                                                                     \
-  if (step < failed[1 + 2 * block]) failed[2 + 2 * block] = row; /* the first of the earliest step */
+#define RECORD_ROW                                                                                 \
+  if (step < failed[1 + 2 * block])                                                                \
+    failed[2 + 2 * block] = row; /* the first row of the earliest step */

@@ -1,0 +1,35 @@
+#pragma once
+/// Environment variables that the program reads. The manual page lists them.
+#include <array>
+
+namespace dss {
+
+/// Name of a variable, and its meaning for the manual page.
+struct EnvironmentVariable {
+  const char *name, *meaning;
+};
+
+inline constexpr std::array environment_variables = {
+    EnvironmentVariable{"DSSBENCH_VARIANT_PATH",
+                        "Directories of variants built outside the source tree, separated by "
+                        "colons; missing directories are ignored. --variant-path adds to them."},
+    EnvironmentVariable{"DSSBENCH_SCENES", "Directory of scenes; it replaces the shipped one."},
+    EnvironmentVariable{"DSSBENCH_EXPERIMENTS",
+                        "Directory of experiments; it replaces the shipped one."},
+    EnvironmentVariable{"DSSBENCH_HIDE_CPU_FEATURES",
+                        "CPU features to ignore, separated by commas: avx512f,fma."},
+    EnvironmentVariable{"DSSBENCH_KEEP_DENORMALS",
+                        "1: keep denormal numbers instead of flushing them to zero."},
+    EnvironmentVariable{"DSSBENCH_OPENCL_AS",
+                        "gpu or cpu: treat every OpenCL device as one of this kind."},
+    EnvironmentVariable{"DSSBENCH_PATIENCE_S",
+                        "Time in seconds after which ranks give up waiting for another rank."},
+    EnvironmentVariable{
+        "DSSBENCH_FAULT",
+        "Injects a fault for tests: die:RANK:EXCHANGE, hang:RANK:EXCHANGE or slow:RANK:FACTOR."},
+    EnvironmentVariable{"DSSBENCH_CACHE_DIR",
+                        "Directory of compiled OpenCL programs (default: dssbench/opencl in "
+                        "XDG_CACHE_HOME, or in ~/.cache)."},
+};
+
+} // namespace dss

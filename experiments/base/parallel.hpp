@@ -1,0 +1,14 @@
+#pragma once
+/// Runs work that is not timed on all cores.
+#include <cstddef>
+#include <functional>
+
+namespace dss {
+
+/// Calls work(0) ... work(count - 1), each once, in any order and in parallel. The threads end with
+/// this call, so that they do not disturb the next timing.
+/// @throws the exception of the first failing call, after the running calls have ended; no further
+/// calls are started
+void for_each_on_all_cores(std::size_t count, const std::function<void(std::size_t)>& work);
+
+} // namespace dss

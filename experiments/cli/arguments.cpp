@@ -1,0 +1,33 @@
+#include "experiments/cli/arguments.hpp"
+#include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace dss {
+
+std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
+  std::vector<Override> overrides;
+  for (const std::string& text : texts) {
+    const auto sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
+      throw InputError(
+          fmt::format("--set {}: is not KEY=VALUE, such as n=50 or run.dt=1e-7", text));
+    overrides.push_back({text.substr(0, sign), text.substr(sign + 1)});
+  }
+  return overrides;
+}
+
+void write_json(const std::string& target, const nlohmann::ordered_json& json) {
+  const std::string text = json.dump(2) + "\n";
+  if (target == "-") {
+    fmt::print("{}", text);
+    return;
+  }
+  AtomicFile file(target);
+  file.write(text);
+  file.commit();
+}
+
+} // namespace dss

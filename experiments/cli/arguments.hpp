@@ -1,0 +1,17 @@
+#pragma once
+/// Parts of the command line that several commands share.
+#include "solver/scene/scene.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// "n=10" -> {"n", "10"}. @throws InputError if the key or the value is missing
+std::vector<Override> parse_overrides(const std::vector<std::string>& texts);
+
+/// Writes JSON to a file (a temporary file that is renamed), or to standard output for "-".
+void write_json(const std::string& target, const nlohmann::ordered_json& json);
+
+} // namespace dss

@@ -1,0 +1,293 @@
+#include "experiments/measure/cell_block.hpp"
+#include "experiments/measure/cell_devices.hpp"
+#include "experiments/measure/study_names.hpp"
+#include "experiments/run/plan/job.hpp"
+#include "kernels/model.hpp"
+#include "solver/decomposition/decomposition.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
+#include "solver/nearest_name.hpp"
+#include "solver/numerics/method.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <optional>
+#include <set>
+
+namespace dss {
+namespace {
+
+/// Reads numbers of threads or ranks, in ascending order and without repeats.
+std::vector<int> counts(const JsonPlace& place, int cores, const char* what) {
+  std::vector<int> numbers;
+  for (const JsonPlace& item : place.items()) {
+    if (item.value() == "cores")
+      numbers.push_back(cores);
+    else if (item.value() == "rest")
+      numbers.push_back(std::max(1, cores - 1));
+    else if (item.value() == "1..cores") {
+      for (int number = 1; number <= cores; ++number) numbers.push_back(number);
+    } else if (item.value().is_number_integer()) {
+      numbers.push_back(int(item.count(1)));
+    } else {
+      item.fail(fmt::format(
+          "{} is neither a number of {} nor \"cores\", \"rest\" (all but one) nor \"1..cores\"",
+          item.value().dump(), what));
+    }
+  }
+  if (numbers.empty()) place.fail(fmt::format("is empty; give at least one number of {}", what));
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+/// True if a variant can use several threads; false if it cannot be opened.
+bool is_threaded(const VariantStatus& status) {
+  return status.is_usable() && load_variant(status.name).is_threaded;
+}
+
+/// The oracle's loop computes whole problems only; all other variants can compute a part.
+bool can_distribute(const std::string& variant) { return variant != "reference"; }
+
+/// Problems that grow with the ranks. A parameter is multiplied by ranks^(1 / power). The number of
+/// elements goes with the parameter's power, so each rank keeps its number of elements.
+struct WeakScaling {
+  std::string parameter;
+  long power = 1;
+};
+
+/// The values that a block of cells lists.
+struct Block {
+  Sets sets;
+  std::vector<std::string> variants, models, precisions, integrators, decompositions, halos;
+  std::vector<std::string> hybrids = {""};
+  std::string device;
+  std::vector<int> threads, ranks;
+  std::optional<WeakScaling> weak;
+};
+
+/// Reads a list of names and checks each.
+/// @param otherwise  value if the block has no such key
+std::vector<std::string> known_names(const JsonPlace& block, const std::string& key,
+                                     const char* otherwise, const char* what,
+                                     const std::vector<std::string>& known) {
+  if (!block.has(key)) return {otherwise};
+  const std::vector<std::string> names = block[key].texts();
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      block[key].fail(fmt::format("unknown {} \"{}\"; {}", what, name, nearest_name(name, known)));
+  return names;
+}
+
+std::vector<std::string> halo_names() {
+  std::vector<std::string> names = {"auto"};
+  for (const HaloStrategy& strategy : halo_strategies()) names.emplace_back(strategy.name);
+  return names;
+}
+
+void read_ranks(const JsonPlace& place, int cores, Block& block) {
+  block.ranks = place.has("ranks") ? counts(place["ranks"], cores, "ranks") : std::vector<int>{1};
+  const auto methods_known = decomposition_methods();
+  block.decompositions = known_names(place, "decompositions", "strips", "decomposition",
+                                     {methods_known.begin(), methods_known.end()});
+  block.halos = known_names(place, "halos", "auto", "halo strategy", halo_names());
+  for (const std::string& variant : block.variants)
+    if (block.ranks.back() > 1 && !can_distribute(variant))
+      place["ranks"].fail(fmt::format(
+          "variant \"{}\" cannot compute parts, and runs on 1 rank; give it a block of its own",
+          variant));
+  if (!place.has("weak")) return;
+  const JsonPlace weak = place["weak"];
+  weak.require_keys({"parameter", "power"});
+  block.weak = {weak["parameter"].text(), weak["power"].count(1)};
+  if (block.ranks.front() != 1)
+    weak.fail(
+        "compares problems on several ranks with one on 1 rank; give \"ranks\" such as [1, 2, 4]");
+}
+
+/// Reads variants, or members of a hybrid.
+void read_variants(const JsonPlace& place, int cores, Block& block) {
+  if (place.has("device")) block.device = place["device"].text();
+  if (place.has("hybrid") && place.has("variants"))
+    place["variants"].fail(
+        "a block has variants, or the members of a hybrid; give the other a block of its own");
+  if (!place.has("hybrid")) {
+    block.variants = place["variants"].texts();
+    for (std::string& name : block.variants)
+      if (name == "auto") name = load_variant(name).name; // records must name the variant that ran
+    for (const std::string& name : block.variants)
+      require_device_variant(name, block.device, place["variants"]);
+    return;
+  }
+  block.variants = {known_variant("hybrid", place["hybrid"]).name};
+  block.hybrids.clear();
+  for (const JsonPlace& item : place["hybrid"].items())
+    block.hybrids.push_back(members_text(item, cores));
+  if (place.has("ranks")) place["ranks"].fail("a hybrid is one process");
+  if (place.has("threads") && block.hybrids != std::vector<std::string>{"auto"})
+    place["threads"].fail("the members of a hybrid name their threads: \"avx512:2,opencl@cpu:1\"");
+}
+
+Block read_block(const JsonPlace& place, const Sets& scale_sets, const CellRules& rules) {
+  std::vector<std::string> keys{"scene",   "set",        "variants",       "device", "hybrid",
+                                "threads", "ranks",      "decompositions", "halos",  "weak",
+                                "models",  "precisions", "integrators"};
+  keys.insert(keys.end(), rules.block_keys.begin(), rules.block_keys.end());
+  place.require_keys(keys);
+  Block block;
+  for (const auto& own : combinations(place, "set"))
+    for (const auto& of_scale : scale_sets) {
+      block.sets.push_back(own);
+      block.sets.back().insert(block.sets.back().end(), of_scale.begin(), of_scale.end());
+    }
+  const int cores = rules.cores;
+  read_variants(place, cores, block);
+  block.threads =
+      place.has("threads") ? counts(place["threads"], cores, "threads") : std::vector<int>{1};
+  block.models = known_names(place, "models", "spatial", "model", model_names());
+  block.precisions = known_names(place, "precisions", "f64", "precision", {"f64", "f32", "f32c"});
+  block.integrators = known_names(place, "integrators", "rk4", "integrator", method_names());
+  read_ranks(place, cores, block);
+  return block;
+}
+
+/// Overrides of a weak scaling on this number of ranks.
+std::vector<Override> grown(std::vector<Override> set, const WeakScaling& weak, int ranks,
+                            const JsonPlace& place) {
+  const auto last = std::find_if(set.rbegin(), set.rend(),
+                                 [&](const Override& o) { return o.key == weak.parameter; });
+  if (last == set.rend())
+    place["parameter"].fail(
+        fmt::format("neither the block's set nor the scale's has \"{}\", from which problems grow",
+                    weak.parameter));
+  char* end = nullptr;
+  const double value = std::strtod(last->value.c_str(), &end);
+  if (*end != '\0' || !(value >= 1) || value != std::floor(value))
+    place["parameter"].fail(
+        fmt::format("{}={} is not a whole number that can grow", last->key, last->value));
+  last->value =
+      fmt::format("{}", std::lround(value * std::pow(double(ranks), 1 / double(weak.power))));
+  return set;
+}
+
+/// Replaces each cell by copies with every value of one member.
+template <class Value>
+void multiply(std::vector<Cell>& cells, const std::vector<Value>& values, Value Cell::*member) {
+  std::vector<Cell> more;
+  for (const Cell& cell : cells)
+    for (const Value& value : values) {
+      more.push_back(cell);
+      more.back().*member = value;
+    }
+  cells = std::move(more);
+}
+
+std::vector<Cell> combined(const std::string& scene, const Block& block) {
+  std::vector<Cell> cells(1);
+  cells[0].scene = scene;
+  multiply(cells, block.sets, &Cell::set);
+  multiply(cells, block.models, &Cell::model);
+  multiply(cells, block.precisions, &Cell::precision);
+  multiply(cells, block.integrators, &Cell::integrator);
+  multiply(cells, block.variants, &Cell::variant);
+  multiply(cells, block.hybrids, &Cell::hybrid);
+  multiply(cells, block.threads, &Cell::threads);
+  multiply(cells, block.ranks, &Cell::ranks);
+  multiply(cells, block.decompositions, &Cell::decomposition);
+  multiply(cells, block.halos, &Cell::halo);
+  std::erase_if(cells, [&](const Cell& cell) { // one process exchanges nothing
+    return cell.ranks == 1 &&
+           (cell.decomposition != block.decompositions[0] || cell.halo != block.halos[0]);
+  });
+  return cells;
+}
+
+/// Reason why a cell cannot run here, or empty. Missing devices are tested elsewhere, earlier.
+std::string why_skipped(const Cell& cell, const VariantStatus& status) {
+  if (!status.is_usable()) return status.unusable;
+  if (const std::string why = why_no_members(cell.hybrid); !why.empty()) return why;
+  if (cell.ranks == 1) return "";
+  const std::string why = why_no_ranks();
+  return why.empty() ? why_no_decomposition(cell.decomposition) : why;
+}
+
+/// Steps of a cell before `steps_for`.
+long steps_of(const Scale& scale, const Cell& cell) {
+  const auto own = scale.steps_by_set.find(cell.set_text());
+  return own == scale.steps_by_set.end() ? scale.steps : own->second;
+}
+
+/// Smallest of the steps for the cell's overrides, for its variant, and for both together.
+long steps_of_variant(const Scale& scale, const Cell& cell) {
+  long steps = steps_of(scale, cell);
+  for (const std::string& key : {cell.variant, cell.variant + " " + cell.set_text()})
+    if (const auto fewer = scale.steps_for.find(key); fewer != scale.steps_for.end())
+      steps = std::min(steps, fewer->second);
+  return steps;
+}
+
+std::vector<Cell> cells_of(const JsonPlace& place, const Block& block, const Scale& scale) {
+  std::vector<Cell> cells = combined(place["scene"].text(), block);
+  std::erase_if(cells, [&](const Cell& cell) {
+    return cell.threads > 1 && !is_threaded(known_variant(cell.variant, place));
+  });
+  for (Cell& cell : cells) {
+    cell.device = block.device;
+    if (!cell.hybrid.empty() && cell.hybrid != "auto")
+      cell.threads = threads_of_members(cell.hybrid);
+    if (block.weak) {
+      cell.weak_base_set = cell.set_text();
+      cell.set = grown(cell.set, *block.weak, cell.ranks, place["weak"]);
+    }
+    cell.skipped = why_no_device(cell);
+    cell.is_unavailable = !cell.skipped.empty();
+    if (!cell.is_unavailable) cell.skipped = why_skipped(cell, known_variant(cell.variant, place));
+    cell.full_steps = scale.full_steps > 0 ? scale.full_steps : steps_of(scale, cell);
+    cell.steps = steps_of_variant(scale, cell);
+  }
+  return cells;
+}
+
+/// Rejects blocks that can never run: an unknown scene or override, or a model that lacks the
+/// scene's degrees of freedom.
+void require_loadable(const JsonPlace& place, const Block& block, const std::vector<Cell>& cells) {
+  std::set<std::string> loaded;
+  for (const Cell& cell : cells) {
+    if (!loaded.insert(cell.set_text()).second) continue;
+    try {
+      const Scene scene = load_scene(cell.scene, cell.set);
+      for (const std::string& model : block.models)
+        if (const std::string why = why_not(*find_model(model), scene.problem); !why.empty())
+          throw InputError(fmt::format("model \"{}\": {}", model, why));
+    } catch (const InputError& error) {
+      place.fail(error.what());
+    }
+  }
+}
+
+} // namespace
+
+void add_block(const JsonPlace& place, const Sets& scale_sets, const CellRules& rules,
+               CellStudy& study) {
+  const Block block = read_block(place, scale_sets, rules);
+  std::vector<Cell> cells = cells_of(place, block, study.scale);
+  require_loadable(place, block, cells);
+  if (rules.expand) cells = rules.expand(place, cells);
+  std::set<std::string> keys;
+  for (const Cell& cell : cells) {
+    if (!keys.insert(cell.key()).second)
+      place.fail(fmt::format("the same cell twice: {}", cell.key()));
+    const auto same = std::find_if(study.cells.begin(), study.cells.end(),
+                                   [&](const Cell& other) { return other.key() == cell.key(); });
+    if (same == study.cells.end())
+      study.cells.push_back(cell);
+    else if (same->weak_base_set.empty())
+      same->weak_base_set = cell.weak_base_set;
+    else if (!cell.weak_base_set.empty() && same->weak_base_set != cell.weak_base_set)
+      place["weak"].fail(fmt::format("{} belongs to the weak scaling from {} already", cell.key(),
+                                     same->weak_base_set));
+  }
+}
+
+} // namespace dss

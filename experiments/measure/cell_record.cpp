@@ -1,0 +1,140 @@
+#include "experiments/measure/cell_record.hpp"
+#include "experiments/run/plan/context.hpp"
+#include "experiments/run/timed/run_fields.hpp"
+
+#include <fmt/format.h>
+
+namespace dss {
+namespace {
+
+/// A column that describes the cell and the repetition: one line is one column.
+struct CellField {
+  const char* column;
+  const char* meaning;
+  std::string (*value)(const RecordPlace& at);
+};
+
+template <class Number>
+std::string text(Number number) {
+  return fmt::format("{}", number);
+}
+
+using At = const RecordPlace&;
+const CellField cell_fields[] = {
+    {"experiment", "the study", [](At at) { return at.study.name; }},
+    {"scale", "scale of the study", [](At at) { return at.study.scale.name; }},
+    {"cell", "everything that makes two rows comparable, in one text; (A/A): second of equal cells",
+     [](At at) { return at.cell.key(); }},
+    {"scene", "the scene", [](At at) { return at.cell.scene; }},
+    {"set", "its overrides", [](At at) { return at.cell.set_text(); }},
+    {"variant", "variant, of ranks that of their parts", [](At at) { return at.cell.variant; }},
+    {"model", "model", [](At at) { return at.cell.model; }},
+    {"precision", "precision", [](At at) { return at.cell.precision; }},
+    {"integrator", "method", [](At at) { return at.cell.integrator; }},
+    {"threads", "threads of each rank", [](At at) { return text(at.cell.threads); }},
+    {"ranks", "processes", [](At at) { return text(at.cell.ranks); }},
+    {"decomposition", "method of decomposition, on several ranks",
+     [](At at) { return at.cell.ranks > 1 ? at.cell.decomposition : ""; }},
+    {"halo", "halo strategy asked for, on several ranks",
+     [](At at) { return at.cell.ranks > 1 ? at.cell.halo : ""; }},
+    {"device", "device asked for", [](At at) { return at.cell.device; }},
+    {"hybrid", "members asked for", [](At at) { return at.cell.hybrid; }},
+    {"twin", "second of an A/A pair: one cell measured as if it were two",
+     [](At at) { return std::string(at.cell.is_twin ? "true" : "false"); }},
+    {"cores", "cores that the study may use", [](At at) { return text(at.cores); }},
+    {"steps", "steps asked for", [](At at) { return text(at.cell.steps); }},
+    {"full_steps", "steps that times are scaled to, for variants too slow to run them all",
+     [](At at) { return text(at.cell.full_steps); }},
+    {"rtol", "relative tolerance of adaptive steps",
+     [](At at) { return at.cell.rtol > 0 ? text(at.cell.rtol) : std::string(); }},
+    {"repetition", "number of the round", [](At at) { return text(at.repetition); }},
+    {"attempt", "number of the retry; the last attempt counts",
+     [](At at) { return text(at.attempt); }},
+    {"time_utc", "when it ended", [](At) { return measurement_time(); }},
+};
+
+/// Columns that are measured outside the run.
+constexpr const char* further_columns[] = {"triad_bytes_per_s", "peak_flops_per_s", "process_s"};
+
+Record identity(const RecordPlace& at) {
+  Record row;
+  for (const CellField& field : cell_fields) row[field.column] = field.value(at);
+  return row;
+}
+
+std::string column_text(const nlohmann::json& value) {
+  if (value.is_number_float()) return number_text(value.get<double>());
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_null() ? "" : value.dump();
+}
+
+} // namespace
+
+const std::vector<std::string>& raw_columns() {
+  static const std::vector<std::string> columns = [] {
+    std::vector<std::string> all;
+    for (const CellField& field : cell_fields) all.emplace_back(field.column);
+    for (const RunField& field : run_fields())
+      if (*field.column != '\0') all.emplace_back(field.column);
+    all.insert(all.end(), std::begin(further_columns), std::end(further_columns));
+    return all;
+  }();
+  return columns;
+}
+
+std::vector<std::string> run_arguments(const CellStudy& study, const Cell& cell,
+                                       const std::vector<std::string>& checks) {
+  std::vector<std::string> line = {"dssbench",
+                                   "run",
+                                   cell.scene,
+                                   "--variant",
+                                   cell.variant,
+                                   "--threads",
+                                   text(cell.threads),
+                                   "--model",
+                                   cell.model,
+                                   "--precision",
+                                   cell.precision,
+                                   "--integrator",
+                                   cell.integrator,
+                                   "--steps",
+                                   text(cell.steps),
+                                   "--warmup",
+                                   text(study.scale.warmup_steps),
+                                   "--json",
+                                   "-"};
+  line.insert(line.end(), checks.begin(), checks.end());
+  if (cell.dt > 0) line.insert(line.end(), {"--dt", text(cell.dt)});
+  if (cell.rtol > 0) line.insert(line.end(), {"--rtol", text(cell.rtol)});
+  if (cell.ranks > 1)
+    line.insert(line.end(), {"--ranks", text(cell.ranks), "--decomposition", cell.decomposition,
+                             "--halo", cell.halo});
+  if (!cell.hybrid.empty())
+    line.insert(line.end(), {"--hybrid", cell.hybrid});
+  else if (!cell.device.empty())
+    line.insert(line.end(), {"--device", cell.device});
+  for (const Override& item : cell.set)
+    line.insert(line.end(), {"--set", item.key + "=" + item.value});
+  return line;
+}
+
+Record failure_record(const RecordPlace& place, const std::string& status,
+                      const std::string& reason) {
+  Record row = identity(place);
+  row["status"] = status;
+  row["reason"] = reason;
+  return row;
+}
+
+Record result_record(const RecordPlace& place, const nlohmann::json& json, double process_s) {
+  Record row = identity(place);
+  for (const RunField& field : run_fields())
+    if (*field.column != '\0' && json.contains(field.key))
+      row[field.column] = column_text(json[field.key]);
+  row["process_s"] = number_text(process_s);
+  // JSON has no infinity: if a failed check has no error, the error was infinite.
+  if (json.value("check", "") == "failed" && row["check_error"].empty()) row["check_error"] = "inf";
+  return row;
+}
+
+} // namespace dss

@@ -1,0 +1,100 @@
+#include "experiments/measure/circumstances.hpp"
+#include "experiments/run/plan/context.hpp"
+#include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <functional>
+
+namespace dss {
+namespace {
+
+nlohmann::json scene_digests(const Circumstances& of) {
+  nlohmann::json digests;
+  for (const auto& [scene, set] : of.scenes)
+    if (nlohmann::json& digest = digests[fmt::format("{} {}", scene, set_text(set))];
+        digest.is_null())
+      digest = scene_digest(load_scene(scene, set));
+  return digests;
+}
+
+} // namespace
+
+std::string scene_digest(const Scene& scene) {
+  const Lattice& lattice = scene.problem.lattice;
+  std::string shape(lattice.present.begin(), lattice.present.end());
+  for (const Row& row : lattice.rows)
+    shape += fmt::format("{} {} {} {},", row.body, row.x_begin, row.y, row.z);
+  return fmt::format("{:016x}", std::hash<std::string>{}(read_text(scene.path) + shape));
+}
+
+std::string scene_key(const Cell& cell, const Scene& scene) {
+  return fmt::format("{} {} elements, {}", cell.set_text(), scene.problem.lattice.element_count,
+                     scene_digest(scene));
+}
+
+Circumstances circumstances_of(const CellStudy& study) {
+  Circumstances of{study.name, study.title, study.scale.name, {}};
+  for (const Cell& cell : study.cells) of.scenes.emplace_back(cell.scene, cell.set);
+  return of;
+}
+
+void write_circumstances(const std::string& path, const nlohmann::json& context,
+                         const Circumstances& of) {
+  nlohmann::ordered_json json;
+  json["context"] = context;
+  json["experiment"] = of.experiment;
+  json["title"] = of.title;
+  json["scale"] = of.scale;
+  json["scenes"] = scene_digests(of);
+  AtomicFile file(path);
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
+void note_resumption(const std::string& path) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(read_text(path));
+  json["resumed_utc"].push_back(measurement_time());
+  AtomicFile file(path);
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
+void make_room_for_records(const std::string& raw, const std::string& context,
+                           const Circumstances& of, bool resumes) {
+  if (!std::filesystem::exists(raw)) return;
+  const nlohmann::json old = std::filesystem::exists(context)
+                                 ? nlohmann::json::parse(read_text(context), nullptr, false)
+                                 : nlohmann::json();
+  const std::string scale = old.is_object() ? old.value("scale", "") : "";
+  if (!scale.empty() && scale != of.scale)
+    throw InputError(
+        fmt::format("{}: holds records of scale \"{}\", this is scale \"{}\"; give another --out",
+                    raw, scale, of.scale));
+  if (resumes) return require_same_circumstances(context, of);
+  std::filesystem::rename(raw, raw + ".previous");
+}
+
+void require_same_circumstances(const std::string& path, const Circumstances& of) {
+  const nlohmann::json old = nlohmann::json::parse(read_text(path), nullptr, false);
+  if (!old.is_object() || !old.contains("context") || !old.contains("scenes"))
+    throw InputError(fmt::format(
+        "{}: does not say which program made the records; measure without --resume", path));
+  const nlohmann::json now = measurement_context();
+  for (const char* key : {"git_commit", "git_dirty", "compiler", "cpu_model", "outside_variants"}) {
+    const nlohmann::json then = old["context"].value(key, nlohmann::json()),
+                         here = now.value(key, nlohmann::json());
+    if (then != here)
+      throw InputError(
+          fmt::format("{}: the records are of {} {}, this is {}; measure without --resume", path,
+                      key, then.dump(), here.dump()));
+  }
+  const nlohmann::json digests = scene_digests(of);
+  for (const auto& [scene, digest] : digests.items())
+    if (old["scenes"].contains(scene) && old["scenes"][scene] != digest)
+      throw InputError(
+          fmt::format("{}: scene {} has changed since; measure without --resume", path, scene));
+}
+
+} // namespace dss

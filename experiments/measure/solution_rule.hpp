@@ -1,0 +1,24 @@
+#pragma once
+/// Reads how a study computes its solution: the result that errors are measured against.
+#include "experiments/measure/json_place.hpp"
+#include "experiments/run/state/saved_times.hpp"
+#include "experiments/run/state/solution.hpp"
+
+#include <string>
+
+namespace dss {
+
+/// Reads the name of a method.
+/// @throws InputError with the place and the nearest known name
+std::string method_name_in(const JsonPlace& place);
+
+/// Reads {"integrator", "tolerance", "most_steps"}; each key may be absent.
+/// @throws InputError with the place
+SolutionRule read_solution_rule(const JsonPlace& place);
+
+/// Reads `end_time` [s] and `saved_times`. The end time is multiplied by `shorten`, a factor of the
+/// scale.
+/// @throws InputError with the place
+SavedTimes read_saved_times(const JsonPlace& place, double shorten);
+
+} // namespace dss

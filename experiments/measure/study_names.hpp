@@ -1,0 +1,19 @@
+#pragma once
+/// Checks names in the JSON of studies. Errors name the nearest known name.
+#include "experiments/measure/json_place.hpp"
+#include "kernels/model.hpp"
+#include "variants/loading/loader.hpp"
+
+namespace dss {
+
+/// Finds a variant by name. @throws InputError with the place and the nearest known name
+const VariantStatus& known_variant(const std::string& name, const JsonPlace& place);
+
+/// Read a model and a precision. @throws InputError with the place and the nearest known name
+Model model_in(const JsonPlace& place);
+Precision precision_in(const JsonPlace& place);
+
+/// Names of an element's fields, in the order of `Field`.
+const std::vector<std::string>& field_names();
+
+} // namespace dss

@@ -1,0 +1,28 @@
+#pragma once
+/// Reads overrides of scenes, and finds scene files beside a study.
+#include "experiments/measure/json_place.hpp"
+#include "solver/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// Alternative sets of overrides of a scene.
+using Sets = std::vector<std::vector<Override>>;
+
+/// Reads an object of overrides, each with one value or a list. Returns every combination: {"n":
+/// [4, 8], "E": 1e7} gives {n=4, E=1e7} and {n=8, E=1e7}.
+/// @throws InputError with the place
+Sets combinations(const JsonPlace& overrides);
+/// Reads a member of an object. If it is absent, returns one empty set of overrides.
+Sets combinations(const JsonPlace& object, const std::string& key);
+/// Reads overrides that have one value each. @throws InputError with the place
+std::vector<Override> one_set(const JsonPlace& overrides);
+
+/// Path of a scene that a study names. A name that ends in .json is a file beside the study, or
+/// else in the folder of shipped scenes. Any other name is returned as it is: it is the name of a
+/// shipped scene.
+std::string scene_beside(const std::string& study_path, const std::string& scene);
+
+} // namespace dss

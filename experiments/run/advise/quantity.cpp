@@ -1,0 +1,55 @@
+#include "experiments/run/advise/quantity.hpp"
+#include "solver/model/energy.hpp"
+#include "solver/model/stress.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dss {
+
+void observe(const Problem& problem, Quantity quantity, Model model, std::span<const double> state,
+             Observed& observed) {
+  const KindValues largest = largest_of_kinds(state);
+  for (std::size_t kind = 0; kind < largest.size(); ++kind)
+    observed.largest[kind] = std::max(observed.largest[kind], largest[kind]);
+  std::vector<double>& values = observed.values.emplace_back();
+  switch (quantity) {
+  case Quantity::displacement:
+    values.reserve(3 * state.size() / field_count);
+    for (std::size_t at = 0; at < state.size(); at += field_count)
+      values.insert(values.end(), {state[at + ux], state[at + uy], state[at + uz]});
+    break;
+  case Quantity::stress:
+    for (const ElementStress& stress : element_stress(problem, state, rotation_of(model)))
+      values.push_back(stress.back());
+    break;
+  case Quantity::energy:
+    values.push_back(total_energy(problem, state, rotation_of(model)));
+    break;
+  }
+}
+
+double observed_error(const Problem& problem, Quantity quantity, const Observed& expected,
+                      const Observed& actual) {
+  double difference = 0, scale = 0;
+  for (std::size_t k = 0; k < expected.values.size(); ++k)
+    for (std::size_t n = 0; n < expected.values[k].size(); ++n) {
+      const double distance = std::abs(expected.values[k][n] - actual.values[k][n]);
+      if (!std::isfinite(distance)) return std::numeric_limits<double>::infinity();
+      difference = std::max(difference, distance);
+      scale = std::max(scale, std::abs(expected.values[k][n]));
+    }
+  if (quantity == Quantity::displacement) scale = error_scales(problem, expected.largest)[0];
+  return relative(difference, scale);
+}
+
+Observed observed_of(const Problem& problem, Quantity quantity,
+                     const std::vector<std::vector<double>>& states) {
+  Observed observed;
+  for (const std::vector<double>& state : states)
+    observe(problem, quantity, Model::spatial, state, observed);
+  return observed;
+}
+
+} // namespace dss

@@ -1,0 +1,49 @@
+#pragma once
+/// The request of one `dssbench run`.
+#include "solver/scene/scene.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// Options of the user. Values that are absent come from the scene.
+struct RunRequest {
+  std::string scene;
+  std::vector<Override> overrides;
+  std::string variant = "auto";
+  int threads = 1;
+  int ranks = 1;
+  std::string decomposition = "strips", halo = "auto", shares = "equal"; ///< see Distribution
+  std::string device; ///< for a variant on devices, see choose_device; empty: its first device
+  std::string hybrid; ///< members, see parse_members, or "auto"; empty: no hybrid
+  std::optional<std::string> model, precision, integrator, rotation;
+  /// Model if neither `model` nor the scene names one: true means auto, false means spatial.
+  bool is_model_auto = false;
+  /// tolerance of the model's error with --model auto; absent: the scene's tolerance
+  std::optional<double> model_tolerance;
+  /// "promote" or "stop": action if the model's error may exceed the tolerance
+  std::string on_bound = "promote";
+  std::optional<double> dt; ///< [s]
+  std::optional<long> steps;
+  std::optional<double> rtol, atol;      ///< with rtol, steps are adaptive
+  bool is_root = true;                   ///< all ranks run the same code; the root writes the files
+  bool is_forced = false;                ///< run above the stability limit
+  std::optional<double> stability_limit; ///< limit [s] if already known; it is then not predicted
+  long warmup_steps = 0;                 ///< steps before the clock starts; the state is then reset
+  std::string output;                    ///< .vtu file, or empty
+  int frames = 0;                        ///< files of a series besides the final one
+  std::string state_csv;                 ///< file, or empty
+  std::string json;                      ///< file, "-" for standard output, or empty
+  std::string check_state;               ///< file of the oracle's state, or empty
+  long check_step = 0;                   ///< step of that state
+  long check_tail = 2; ///< number of last steps of a longer run that the oracle checks; 0: none
+  /// file of the scene's solution, to measure errors against; or empty
+  std::string reference;
+  /// Shortest total time [s]. A shorter run is repeated from the start until this time was
+  /// measured.
+  double repeat_for = 0;
+};
+
+} // namespace dss

@@ -1,0 +1,34 @@
+#pragma once
+/// Output files of a run. They include the stress of each element, recovered from the state.
+#include "solver/io/vtu.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// Writes a state as CSV (solver/io/state_csv.hpp).
+void write_state(const std::string& path, const Problem& problem, const std::vector<double>& state,
+                 Rotation equations);
+
+/// The .vtu file of a run. A series has several files and a .pvd index: F.vtu becomes F_0000.vtu,
+/// F_0001.vtu, ... and F.pvd.
+class FrameSeries {
+public:
+  FrameSeries(std::string output, bool is_series)
+      : output_(std::move(output)), is_series_(is_series) {}
+  /// Writes the state at a time [s]. Does nothing without an output.
+  void add(const Problem& problem, const std::vector<double>& state, Rotation equations,
+           double time);
+  /// Writes the index of a series. @return the written files as text; empty without an output
+  std::string finish() const;
+  /// Removes the written files.
+  void discard();
+
+private:
+  std::string output_;
+  bool is_series_;
+  std::vector<Frame> frames_;
+};
+
+} // namespace dss

@@ -1,0 +1,15 @@
+#pragma once
+/// Runs one scene on one variant: the body of `dssbench run`.
+#include "experiments/run/plan/run_request.hpp"
+#include "experiments/run/timed/run_result.hpp"
+
+namespace dss {
+
+/// Runs a request and writes its output files. The status of the result is "unstable" after a
+/// non-finite state, "wrong" after a failed check, and "bound" if the run stopped because the
+/// model's error may exceed its tolerance.
+/// @throws InputError for any mistake in the request
+/// @throws UnstableError for a step above the predicted limit that is not forced
+RunResult run_scene(const RunRequest& request);
+
+} // namespace dss

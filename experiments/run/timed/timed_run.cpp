@@ -1,0 +1,259 @@
+#include "experiments/run/timed/timed_run.hpp"
+#include "experiments/base/clock.hpp"
+#include "experiments/run/state/state_access.hpp"
+#include "experiments/run/timed/breakdown.hpp"
+#include "solver/numerics/signal_rows.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <utility>
+
+namespace dss {
+namespace {
+
+constexpr long signal_steps = 256; ///< signals are computed for this many steps at once
+
+DeviceUse since(const DeviceUse& before, DeviceUse now) {
+  now.launches -= before.launches;
+  now.to_device_bytes -= before.to_device_bytes;
+  now.from_device_bytes -= before.from_device_bytes;
+  now.transfer_s -= before.transfer_s;
+  return now;
+}
+
+} // namespace
+
+TimedRun::TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result)
+    : plan_(plan), request_(request), problem_(plan.scene.problem), result_(result),
+      executor_(created(plan.model)), series_(new_series()), is_root_(request.is_root) {
+  if (plan.reference) meter_.emplace(problem_, plan.reference->states);
+  if (plan.model_choice.is_bounded)
+    monitor_.emplace(problem_, plan.model, plan.model_choice.tolerance, plan.steps, plan.dt);
+}
+
+void TimedRun::run(long warmup_steps) {
+  result_.schedule = executor_->schedule();
+  result_.bytes = executor_->bytes();
+  result_.workers = executor_->workers();
+  result_.ranks = rank_info(*executor_);
+  if (!result_.ranks.variant.empty()) {
+    result_.variant = fmt::format("{}:{}", plan_.plugin->name, result_.ranks.variant);
+    result_.isa = result_.ranks.isa;
+    result_.has_fma = result_.ranks.has_fma;
+  }
+  if (warmup_steps > 0) {
+    RunResult discarded;
+    write_initial_state(*executor_, problem_);
+    if (plan_.adaptive)
+      adaptive_steps().advance_to(double(warmup_steps) * plan_.dt);
+    else
+      advance_to(0, warmup_steps, discarded);
+  }
+  write_initial_state(*executor_, problem_);
+  if (plan_.adaptive) adaptive_.emplace(adaptive_steps());
+  const Traffic before = traffic(*executor_);
+  const DeviceUse used_before = device_use(*executor_);
+  while (!pass_all_stops())
+    if (result_.status != "ok") return;
+  if (meter_)
+    result_.reference = {plan_.reference->times, plan_.reference->error, meter_->result()};
+  sum_over_ranks(before);
+  result_.hybrid = hybrid_info(*executor_);
+  result_.device_use = since(used_before, device_use(*executor_));
+  if (const std::string written = series_.finish(); !written.empty())
+    result_.files.push_back(written);
+}
+
+void TimedRun::repeat(double least_s) {
+  if (result_.wall_s >= least_s || !result_.model_report.promotions.empty()) return;
+  RunResult again;
+  long runs = 0;
+  for (; again.wall_s < least_s; ++runs) {
+    write_initial_state(*executor_, problem_);
+    if (plan_.adaptive)
+      again.wall_s += adapt_again(again.usage);
+    else
+      advance_to(0, plan_.steps, again);
+  }
+  // checks of the model were timed only in the first run
+  result_.wall_s = again.wall_s / double(runs) + result_.model_report.look_s;
+  result_.usage = again.usage;
+  result_.runs = runs;
+  if (state_digest(*executor_, problem_.lattice.element_count, plan_.precision) == result_.digest)
+    return;
+  result_.status = "wrong";
+  result_.reason = "the bits of a second run from the same state are not those of the first";
+}
+
+std::unique_ptr<Executor> TimedRun::created(Model model) {
+  const auto start = Clock::now();
+  auto executor = plan_.plugin->create({problem_, *plan_.method, model, plan_.precision, plan_.dt,
+                                        request_.threads, nullptr, &plan_.distribution,
+                                        request_.device, request_.hybrid, plan_.rotation});
+  if (!has_begun_) result_.first_step_s = seconds_since(start);
+  model_ = model;
+  return executor;
+}
+
+bool TimedRun::pass_all_stops() {
+  long step = 0;
+  look(step);
+  for (const long stop : stops()) {
+    const bool has_arrived = adaptive_  ? adapt_to(stop)
+                             : monitor_ ? advance_watched(step, stop)
+                                        : advance_to(step, stop, result_);
+    if (!has_arrived || !is_finite_after(stop)) return false;
+    step = stop;
+    if (step == plan_.steps && !holds_at_end()) {
+      if (!monitor_ || promote(step, 0, Model::spatial, "of what the end has itself")) begin_anew();
+      return false;
+    }
+    look(step);
+  }
+  return true;
+}
+
+std::vector<long> TimedRun::stops() const {
+  std::vector<long> steps = plan_.frame_steps;
+  if (plan_.expected) steps.push_back(plan_.expected->steps);
+  if (has_tail()) steps.push_back(tail_start());
+  for (long k = 1; meter_ && k <= plan_.reference->times.count; ++k)
+    steps.push_back(k * plan_.steps_between);
+  steps.push_back(plan_.steps);
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  std::erase(steps, 0);
+  return steps;
+}
+
+bool TimedRun::advance_to(long step, long stop, RunResult& result) {
+  bool is_finite = true;
+  while (step < stop && is_finite) {
+    const bool is_very_first = !std::exchange(has_begun_, true);
+    const long count = std::min(is_very_first ? 1 : signal_steps, stop - step);
+    const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
+    // Lets all ranks start together, so that work of rank 0 alone is not timed.
+    if (plan_.plugin->is_distributed) gather(*executor_, 0);
+    const UsageMeter usage; // covers the same region as the clock: the ratio CPU / wall is judged
+    const auto start = Clock::now();
+    const Outcome outcome = executor_->advance(count, signals);
+    const double wall_s = seconds_since(start);
+    result.wall_s += wall_s;
+    if (is_very_first) result_.first_step_s += wall_s;
+    result.usage += usage.read();
+    is_finite = outcome.is_finite;
+    if (!is_finite) report_breakdown(step + outcome.step, outcome, result);
+    step += count;
+  }
+  return is_finite;
+}
+
+bool TimedRun::is_finite_after(long step) {
+  const auto element = first_not_finite(*executor_, problem_.lattice.element_count);
+  if (element) report_breakdown(step - 1, {false, 0, *element}, result_);
+  return !element;
+}
+
+void TimedRun::report_breakdown(long step, const Outcome& outcome, RunResult& result) const {
+  result.status = "unstable";
+  result.steps = step + 1;
+  result.reason =
+      fmt::format("{}: {}; take --dt below {:.6g} s", problem_.name,
+                  breakdown_text(outcome.what, step, plan_.dt, outcome.element),
+                  plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
+}
+
+void TimedRun::sum_over_ranks(const Traffic& before) {
+  const auto sum = [&](double value) {
+    double total = 0;
+    for (const double of_rank : gather(*executor_, value)) total += of_rank;
+    return total;
+  };
+  const Traffic now = traffic(*executor_);
+  const double steps = double(result_.steps);
+  result_.messages_per_step = sum(now.messages - before.messages) / steps;
+  result_.bytes_per_step = sum(now.bytes - before.bytes) / steps;
+  result_.communication_share =
+      sum(now.wait_s - before.wait_s) / (result_.wall_s * result_.ranks.ranks);
+  result_.usage.cpu_s = sum(result_.usage.cpu_s);
+  result_.usage.wait_s = sum(result_.usage.wait_s);
+  result_.usage.involuntary_switches = long(sum(double(result_.usage.involuntary_switches)));
+}
+
+AdaptiveSteps TimedRun::adaptive_steps() {
+  return {*executor_,      problem_, *plan_.method,
+          *plan_.adaptive, plan_.dt, double(plan_.steps) * plan_.dt};
+}
+
+bool TimedRun::adapt_to(long stop) {
+  if (plan_.plugin->is_distributed) gather(*executor_, 0); // as in advance_to
+  const UsageMeter usage;
+  const auto failure = adaptive_->advance_to(double(stop) * plan_.dt);
+  result_.usage += usage.read();
+  const AdaptiveCounts& counts = adaptive_->counts();
+  if (!std::exchange(has_begun_, true)) result_.first_step_s += counts.first_step_s;
+  result_.wall_s = counts.wall_s;
+  result_.steps = counts.accepted;
+  result_.rejected_steps = counts.rejected;
+  result_.evaluations = double(counts.accepted + counts.rejected) * plan_.method->stages;
+  if (counts.accepted > 0)
+    result_.least_step_s = counts.least_dt, result_.largest_step_s = counts.largest_dt;
+  if (!failure) return true;
+  result_.status = "unstable";
+  result_.reason = *failure;
+  return false;
+}
+
+double TimedRun::adapt_again(Usage& usage) {
+  AdaptiveSteps adaptive = adaptive_steps();
+  const UsageMeter meter;
+  for (const long stop : stops()) adaptive.advance_to(double(stop) * plan_.dt);
+  usage += meter.read();
+  return adaptive.counts().wall_s;
+}
+
+void TimedRun::look(long step) {
+  const std::size_t count = problem_.lattice.element_count;
+  if (plan_.expected && step == plan_.expected->steps) {
+    CheckResult& check = result_.check;
+    check.is_done = true;
+    check.how = plan_.adaptive ? fmt::format("oracle at t = {:g} s", double(step) * plan_.dt)
+                               : fmt::format("oracle after {} steps", step);
+    check.tolerance = plan_.tolerance().run;
+    const std::vector<double> state = whole_state(*executor_, count);
+    const WorkAlone alone(*executor_, is_root_);
+    if (is_root_) check.error = state_error(problem_, plan_.expected->state, state);
+  }
+  if (meter_ && step > 0 && step % plan_.steps_between == 0)
+    meter_->add(std::size_t(step / plan_.steps_between - 1), whole_state(*executor_, count));
+  if (has_tail() && step == tail_start()) tail_state_ = whole_state(*executor_, count);
+  if (has_tail() && step == plan_.steps) check_tail();
+  if (std::binary_search(plan_.frame_steps.begin(), plan_.frame_steps.end(), step)) {
+    const std::vector<double> state = whole_state(*executor_, count);
+    const WorkAlone alone(*executor_, is_root_);
+    series_.add(problem_, state, equations(), double(step) * plan_.dt);
+  }
+}
+
+bool TimedRun::has_tail() const {
+  return plan_.expected && plan_.tail_steps > 0 && !plan_.adaptive &&
+         plan_.expected->steps < plan_.steps && plan_.method->family == Method::Family::runge_kutta;
+}
+
+void TimedRun::check_tail() {
+  const long steps = plan_.steps - tail_start();
+  const std::vector<double> state = whole_state(*executor_, problem_.lattice.element_count);
+  if (!is_root_) return;
+  const WorkAlone alone(*executor_, true);
+  const auto expected = continue_by_oracle(problem_, *plan_.method, equations(), plan_.dt,
+                                           tail_start(), steps, tail_state_);
+  result_.check.tail_error = state_error(problem_, expected, state);
+  result_.check.how += fmt::format(", and over the last {}", steps);
+}
+
+long TimedRun::tail_start() const {
+  return std::max(plan_.expected->steps, plan_.steps - plan_.tail_steps);
+}
+
+} // namespace dss

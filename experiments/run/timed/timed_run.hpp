@@ -1,0 +1,127 @@
+#pragma once
+/// A run on an executor, from the initial state to the end. It pauses at the steps where the state
+/// is inspected. Only advance() is timed.
+#include "experiments/run/plan/run_plan.hpp"
+#include "experiments/run/timed/adaptive_steps.hpp"
+#include "experiments/run/timed/output.hpp"
+#include "experiments/run/timed/run_result.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// Scope in which only the root rank works and the other ranks wait.
+class WorkAlone {
+public:
+  WorkAlone(Executor& executor, bool is_root) : executor_(executor), is_root_(is_root) {
+    if (is_root_) work_alone(executor_, true);
+  }
+  WorkAlone(const WorkAlone&) = delete;
+  WorkAlone& operator=(const WorkAlone&) = delete;
+  ~WorkAlone() {
+    if (is_root_) work_alone(executor_, false);
+  }
+
+private:
+  Executor& executor_;
+  bool is_root_;
+};
+
+/// One timed run; it fills in a RunResult.
+class TimedRun {
+public:
+  /// All three arguments must outlive this object. `result` is filled in during the run.
+  TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result);
+
+  void run(long warmup_steps);
+  /// Repeats a short run until `least_s` seconds were measured, and replaces its time. Repeated
+  /// runs pause nowhere if their steps are equal. The first run, which paused for inspections,
+  /// serves as warm-up.
+  void repeat(double least_s);
+
+  /// The model that computed last, and the rotations with which the oracle has the same equations.
+  Model model() const { return model_; }
+  Rotation equations() const {
+    return plan_.rotation == Rotation::quaternion ? rotation_of(model_) : plan_.rotation;
+  }
+  Executor& executor() { return *executor_; }
+
+private:
+  std::unique_ptr<Executor> created(Model model);
+  FrameSeries new_series() const {
+    return {request_.is_root ? request_.output : "", plan_.frame_steps.size() > 1};
+  }
+
+  /// Runs from the initial state to the end.
+  /// @return false if the run stops early, or must start again with another model
+  bool pass_all_stops();
+  /// Steps at which the run pauses: ascending, the last step included.
+  std::vector<long> stops() const;
+  bool advance_to(long step, long stop, RunResult& result);
+  /// Checks that the state is finite. Kernels check velocities within steps; this finds numbers
+  /// that overflow in the last step before a pause.
+  bool is_finite_after(long step);
+  void report_breakdown(long step, const Outcome& outcome, RunResult& result) const;
+  void sum_over_ranks(const Traffic& before);
+
+  AdaptiveSteps adaptive_steps();
+  /// Advances by adaptive steps to the time that `stop` equal steps would reach.
+  bool adapt_to(long stop);
+  /// Repeats the whole adaptive run with the same pauses, because pauses cut steps. @return its
+  /// time [s]
+  double adapt_again(Usage& usage);
+
+  void look(long step);
+  /// True if the last steps are checked. Only Runge-Kutta runs can be: a leapfrog method cannot
+  /// restart from a state without its half-step velocities.
+  bool has_tail() const;
+  long tail_start() const;
+  void check_tail();
+
+  // The following functions watch a model of small rotations that --model auto chose
+  // (timed_run_model.cpp).
+
+  /// Advances to a pause and checks the error of the model on the way. If the error may exceed the
+  /// tolerance, a larger model continues.
+  bool advance_watched(long step, long stop);
+  /// Replaces the model by a larger one.
+  /// @param step  step at which the bound was exceeded
+  /// @param resumed  step from which the run continues: the last good one, or 0 for the start
+  /// @param relative_to  text that says what the error is relative to; empty for the largest motion
+  /// so far
+  /// @return false if the run must stop instead
+  bool promote(long step, long resumed, Model to, const std::string& relative_to);
+  void stop_at_bound(const Promotion& promotion, const std::string& relative_to);
+  /// True if the error of smaller models is within the tolerance relative to the final state. A
+  /// motion may end near its rest position, where its own values are small.
+  bool holds_at_end();
+  /// Restarts from the initial state with the present model: no intermediate state is known to be
+  /// good.
+  void begin_anew();
+
+  const RunPlan& plan_;
+  const RunRequest& request_;
+  const Problem& problem_;
+  RunResult& result_;
+  bool has_begun_ = false;
+  Model model_ = Model::spatial;
+  std::unique_ptr<Executor> executor_;
+  FrameSeries series_;
+  bool is_root_;
+  std::optional<AdaptiveSteps> adaptive_;
+  /// Error bounds of the models that ran before the spatial model; the spatial model has no bound.
+  struct LeftOut {
+    KindBounds errors;
+    double tolerance;
+  };
+  std::optional<LeftOut> left_out_;
+  std::vector<double> tail_state_;
+  std::optional<AccuracyMeter> meter_;
+  /// set if --model auto chose a model of small rotations
+  std::optional<ModelMonitor> monitor_;
+};
+
+} // namespace dss

@@ -1,0 +1,310 @@
+#include "experiments/run/verify/verify.hpp"
+#include "experiments/run/plan/run_plan.hpp"
+#include "experiments/run/state/state_access.hpp"
+#include "solver/decomposition/decomposition.hpp"
+#include "solver/error.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
+#include "solver/numerics/signal_rows.hpp"
+#include "solver/numerics/stability.hpp"
+#include "solver/reference/oracle.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+
+namespace dss {
+namespace {
+
+/// True for variants outside this tree, which tests/equivalence does not cover.
+bool is_outside(const Plugin& plugin) {
+  const auto status = std::ranges::find(variants(), plugin.name, &VariantStatus::name);
+  return status != variants().end() && status->is_outside();
+}
+
+constexpr unsigned seed = 20220617;
+using Verdict = VerifyRow::Verdict;
+
+/// True for the methods of brief checks: the paper's method, and the leapfrog method whose
+/// prediction has all its terms.
+bool is_brief(const Method& method) {
+  return method.name == "rk4" || method.name == "smoothed_verlet";
+}
+
+/// The scene's step, or a shorter one if the method needs it. A method without a stable step grows
+/// too slowly to matter here.
+double verified_step(const Problem& problem, const Method& method) {
+  const double limit = 0.9 * stable_step(problem, method).dt;
+  return limit > 0 ? std::min(problem.dt, limit) : problem.dt / 2;
+}
+
+/// State that the oracle computes for a run, and its step [s].
+struct ExpectedRun {
+  double dt = 0;
+  std::vector<double> state;
+};
+
+/// Collects the rows of one scene.
+class SceneVerification {
+public:
+  SceneVerification(const Scene& scene, long steps, const std::string& device)
+      : scene_(scene), problem_(scene.problem), steps_(steps), device_(device) {
+    for (const Method& method : methods()) steps_of_[&method] = verified_step(problem_, method);
+  }
+
+  void verify(Model model, Precision precision, const std::vector<const Plugin*>& plugins) {
+    model_ = model;
+    precision_ = precision;
+    first_bits_.clear();
+    random_ = random_state(problem_, model, precision, seed);
+    expected_rates_.assign(random_.size(), std::numeric_limits<double>::quiet_NaN());
+    Oracle<long double> oracle(problem_, methods().front(), problem_.dt, rotation_of(model));
+    oracle.write(random_);
+    oracle.derivative(first_signals(), expected_rates_);
+    for (const Plugin* plugin : plugins) {
+      if (const std::string why = why_skipped(*plugin); !why.empty()) {
+        add(*plugin, "all", Verdict::skipped, why);
+        continue;
+      }
+      guarded(*plugin, "evaluation", [&] { evaluation(*plugin); });
+      for (const Method* method : verified_methods(*plugin))
+        guarded(*plugin, fmt::format("run {}", method->name), [&] { run(*plugin, *method); });
+    }
+  }
+
+  std::vector<VerifyRow> rows;
+
+private:
+  std::vector<double> first_signals() const {
+    std::vector<double> signals = signal_rows(problem_, methods().front(), problem_.dt, 0, 1);
+    signals.resize(signal_count(problem_));
+    return signals;
+  }
+
+  /// Methods that are verified. All methods: in double precision, on variants with kernels of their
+  /// own or with all features, for the common models. Otherwise only the brief ones: devices would
+  /// compile for long, and other precisions have the same coefficients.
+  std::vector<const Method*> verified_methods(const Plugin& plugin) const {
+    std::vector<const Method*> chosen;
+    for (const Method& method : methods())
+      if ((precision_ == Precision::f64 && (plugin.kernels != nullptr || plugin.has_all) &&
+           is_common()) ||
+          is_brief(method))
+        chosen.push_back(&method);
+    return chosen;
+  }
+
+  /// The two most used models are verified with every method on every variant.
+  bool is_common() const { return model_ == Model::spatial || model_ == Model::planar; }
+
+  /// Computed once for all models with the same equations.
+  const ExpectedRun& expected_run(const Method& method) {
+    const Rotation equations = rotation_of(model_);
+    const auto [place, is_new] = expected_runs_.try_emplace({&method, equations});
+    ExpectedRun& run = place->second;
+    if (!is_new) return run;
+    run.dt = steps_of_.at(&method);
+    run.state = initial_state(problem_);
+    Oracle<long double> oracle(problem_, method, run.dt, equations);
+    oracle.write(run.state);
+    oracle.advance(steps_);
+    oracle.read(run.state);
+    return run;
+  }
+
+  Setup setup_of(const Plugin& plugin, const Method& method, double dt, int threads) const {
+    Setup setup{problem_, method, model_, precision_, dt, threads};
+    if (plugin.devices != nullptr || device_ == no_device) setup.device = device_;
+    return setup;
+  }
+
+  std::string why_skipped(const Plugin& plugin) const {
+    try {
+      if (const auto lack = what_lacks(plugin, precision_, methods().front(), Rotation::quaternion))
+        return lack->what;
+      if (precision_ == Precision::f32c && plugin.devices != nullptr)
+        return "left to tests/equivalence: programs of their own for every scene take minutes to "
+               "compile";
+      if (!is_common() && plugin.kernels == nullptr && !plugin.has_all && !is_outside(plugin))
+        return "left to tests/equivalence: this variant computes by the kernels of others, or "
+               "compiles them for every "
+               "scene";
+      if (plugin.devices != nullptr)
+        require_precision(choose_device(plugin.devices(), device_), precision_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  const Tolerance& tolerance() const {
+    return precision_ == Precision::f64 ? problem_.tolerance_f64 : problem_.tolerance_f32;
+  }
+
+  void add(const Plugin& plugin, const std::string& check, Verdict verdict,
+           const std::string& reason, std::optional<double> error = std::nullopt,
+           std::optional<double> allowed = std::nullopt) {
+    rows.push_back({scene_.name, std::string(name(model_)), std::string(name(precision_)),
+                    plugin.name, check, error, allowed, verdict, reason});
+  }
+
+  template <class Check>
+  void guarded(const Plugin& plugin, const std::string& check, Check&& body) {
+    try {
+      body();
+    } catch (const std::exception& error) {
+      add(plugin, check, Verdict::failed, error.what());
+    }
+  }
+
+  void judge_error(const Plugin& plugin, const std::string& check, double error, double allowed) {
+    const bool passes = error <= allowed; // false for NaN
+    add(plugin, check, passes ? Verdict::passed : Verdict::failed,
+        passes ? "" : "error above the tolerance", error, allowed);
+  }
+
+  /// Variants with FMA must have the same bits. The first of them sets the expected bits.
+  void judge_bits(const Plugin& plugin, const std::string& what, std::uint64_t digest) {
+    if (!plugin.has_fma) return;
+    const auto [first, is_first] =
+        first_bits_.try_emplace(what, std::pair{std::string(plugin.name), digest});
+    if (is_first) return;
+    const bool equal = first->second.second == digest;
+    add(plugin, "bits " + what, equal ? Verdict::passed : Verdict::failed,
+        fmt::format("{} {}", equal ? "equal to" : "differ from", first->second.first));
+  }
+
+  void evaluation(const Plugin& plugin) {
+    const auto executor = plugin.create(setup_of(plugin, methods().front(), problem_.dt, 1));
+    executor->write(0, random_);
+    std::vector<double> rates(random_.size(), std::numeric_limits<double>::quiet_NaN());
+    executor->derivative(first_signals(), rates);
+    judge_error(plugin, "evaluation", state_error(problem_, expected_rates_, rates),
+                tolerance().evaluation);
+    StateDigest digest(precision_);
+    digest.add(rates);
+    judge_bits(plugin, "evaluation", digest.value());
+  }
+
+  void run(const Plugin& plugin, const Method& method) {
+    const ExpectedRun& expected = expected_run(method);
+    const std::vector<double> signals = signal_rows(problem_, method, expected.dt, 0, steps_);
+    const std::string run_name(method.name);
+    std::optional<std::uint64_t> digest;
+    std::string unequal;
+    for (const int threads : verified_threads) {
+      if (threads > 1 && !plugin.is_threaded) continue;
+      if (threads > 1 && !is_brief(method)) continue;
+      // more threads give more bands of the same kind
+      if (threads > 3 && plugin.devices != nullptr) continue;
+      const auto executor = plugin.create(setup_of(plugin, method, expected.dt, threads));
+      write_initial_state(*executor, problem_);
+      const Outcome outcome = executor->advance(steps_, signals);
+      if (threads == 1)
+        judge_error(plugin, "run " + run_name,
+                    outcome.is_finite
+                        ? state_error(problem_, expected.state,
+                                      whole_state(*executor, problem_.lattice.element_count))
+                        : std::numeric_limits<double>::infinity(),
+                    tolerance().run);
+      const std::uint64_t bits =
+          state_digest(*executor, problem_.lattice.element_count, precision_);
+      if (!digest) digest = bits;
+      if (bits != *digest) unequal += fmt::format("{}{}", unequal.empty() ? "" : ", ", threads);
+    }
+    if (plugin.is_threaded && is_brief(method))
+      add(plugin, "threads " + run_name, unequal.empty() ? Verdict::passed : Verdict::failed,
+          unequal.empty() ? fmt::format("equal bits on {} threads",
+                                        plugin.devices == nullptr ? "1, 2, 3, 4, 7" : "1, 2, 3")
+                          : fmt::format("other bits than on 1 thread on {} threads", unequal));
+    judge_bits(plugin, run_name, *digest);
+  }
+
+  const Scene& scene_;
+  const Problem& problem_;
+  long steps_;
+  std::string device_;
+  Model model_ = Model::spatial;
+  Precision precision_ = Precision::f64;
+  std::map<const Method*, double> steps_of_;
+  std::map<std::pair<const Method*, Rotation>, ExpectedRun> expected_runs_;
+  std::vector<double> random_, expected_rates_;
+  std::map<std::string, std::pair<std::string, std::uint64_t>> first_bits_;
+};
+
+} // namespace
+
+std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin& distributed,
+                                    const Plugin& part, int ranks, const std::string& device) {
+  const Problem& problem = scene.problem;
+  std::vector<VerifyRow> rows;
+  for (const Model model : models) {
+    if (!why_not(model, problem).empty()) continue;
+    for (const Precision precision : precisions)
+      for (const Method& method : methods()) {
+        // what ranks exchange does not depend on the method's coefficients
+        if (!is_brief(method)) continue;
+        if (precision != Precision::f64 && (precision == Precision::f32) != (method.name == "rk4"))
+          continue;
+        const double dt = verified_step(problem, method);
+        const auto digest_of = [&](const Plugin& plugin, const Distribution* distribution) {
+          const auto executor = plugin.create(
+              {problem, method, model, precision, dt, 1, nullptr, distribution, device});
+          write_initial_state(*executor, problem);
+          executor->advance(steps, signal_rows(problem, method, dt, 0, steps));
+          return state_digest(*executor, problem.lattice.element_count, precision);
+        };
+        const std::uint64_t alone = digest_of(part, nullptr);
+        for (const std::string_view decomposition : decomposition_methods())
+          for (const HaloStrategy& halo : halo_strategies()) {
+            VerifyRow row{
+                scene.name,
+                std::string(name(model)),
+                std::string(name(precision)),
+                fmt::format("{}:{}", distributed.name, part.name),
+                fmt::format("{} ranks {} {} {}", ranks, decomposition, halo.name, method.name),
+                {},
+                {},
+                Verdict::passed,
+                fmt::format("equal to one process of {}", part.name)};
+            const Distribution distribution{ranks, part.name, std::string(decomposition),
+                                            std::string(halo.name)};
+            try {
+              if (const std::string why = why_no_decomposition(decomposition); !why.empty())
+                row.verdict = Verdict::skipped, row.reason = why;
+              else if (digest_of(distributed, &distribution) != alone)
+                row.verdict = Verdict::failed,
+                row.reason = fmt::format("other bits than one process of {}", part.name);
+              // such as more parts than rows; the same on every rank
+            } catch (const InputError& error) {
+              row.verdict = Verdict::skipped;
+              row.reason = error.what();
+            }
+            rows.push_back(std::move(row));
+            // the other strategies would be skipped too
+            if (rows.back().verdict == Verdict::skipped) break;
+          }
+      }
+  }
+  return rows;
+}
+
+std::vector<VerifyRow> verify_scene(const Scene& scene, long steps,
+                                    const std::vector<const Plugin*>& plugins,
+                                    const std::string& device) {
+  std::vector<const Plugin*> verified = plugins;
+  if (device == no_device)
+    std::erase_if(verified, [](const Plugin* plugin) { return plugin->devices != nullptr; });
+  SceneVerification verification(scene, steps, device);
+  for (const Model model : models) {
+    if (const std::string why = why_not(model, scene.problem); !why.empty()) {
+      verification.rows.push_back(
+          {scene.name, std::string(name(model)), "", "", "all", {}, {}, Verdict::skipped, why});
+      continue;
+    }
+    for (const Precision precision : precisions) verification.verify(model, precision, verified);
+  }
+  return std::move(verification.rows);
+}
+
+} // namespace dss

@@ -1,0 +1,146 @@
+#include "experiments/studies/study.hpp"
+#include "experiments/base/cores.hpp"
+#include "experiments/base/progress.hpp"
+#include "experiments/base/usage.hpp"
+#include "experiments/measure/circumstances.hpp"
+#include "experiments/run/plan/context.hpp"
+#include "experiments/run/state/state_access.hpp"
+#include "experiments/studies/chain/chain_study.hpp"
+#include "experiments/studies/chain/chain_table.hpp"
+#include "solver/numerics/denormals.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace dss {
+namespace {
+
+constexpr long checked_steps = 10;
+constexpr double state_tolerance = 1e-9, single_state_tolerance = 1e-4;
+
+/// Difference of a stage's state from the expected one after a few steps. The expected state comes
+/// from the variant `reference` for the spatial model in f64, else from the variant `scalar`.
+double state_difference(const ChainStudy& study, const Scene& scene, const ChainLink& link) {
+  ChainLink right = link;
+  right.variant =
+      link.model == Model::spatial && link.precision == Precision::f64 ? "reference" : "scalar";
+  right.threads = 1;
+  LinkRun run(study, scene, link), expected(study, scene, right);
+  run.advance(checked_steps);
+  expected.advance(checked_steps);
+  return displacement_difference(run.state(), expected.state());
+}
+
+const std::vector<std::string>& raw_chain_columns() {
+  static const std::vector<std::string> columns = {
+      "experiment", "cell",         "link",    "label",       "variant",
+      "threads",    "cores",        "model",   "precision",   "integrator",
+      "dt_s",       "repetition",   "steps",   "wall_s",      "cpu_s",
+      "sample_s",   "contaminated", "check",   "check_error", "check_tolerance",
+      "status",     "reason",       "time_utc"};
+  return columns;
+}
+
+/// Times all stages in turn, for the study's number of repetitions.
+void time_links(const ChainStudy& study, const Scene& scene, RecordFile& records,
+                Progress& progress) {
+  std::set<std::pair<std::string, std::string>> present;
+  for (const Record& record : records.present())
+    present.emplace(text_in(record, "cell"), text_in(record, "repetition"));
+  std::vector<std::unique_ptr<LinkRun>> runs;
+  std::vector<long> steps;
+  std::vector<double> differences;
+  for (const ChainLink& link : study.links) {
+    differences.push_back(state_difference(study, scene, link));
+    runs.push_back(std::make_unique<LinkRun>(study, scene, link));
+    long count = 1;
+    for (runs.back()->advance(count); runs.back()->wall_s() < study.sample_s;
+         runs.back()->advance(count))
+      count = std::max(count + 1, long(double(count) * std::min(8.0, 1.2 * study.sample_s /
+                                                                         runs.back()->wall_s())));
+    steps.push_back(count);
+  }
+  double done = 0;
+  for (int repetition = 0; repetition < study.repetitions; ++repetition)
+    for (std::size_t n = 0; n < runs.size(); ++n) {
+      const ChainLink& link = study.links[n];
+      progress.show(done++, double(study.repetitions) * double(runs.size()), link.label);
+      if (present.contains({chain_cell(n, link), fmt::format("{}", repetition)})) continue;
+      runs[n]->advance(steps[n]);
+      const Usage usage = runs[n]->usage();
+      const double wall_s = runs[n]->wall_s(), tolerance = link.precision == Precision::f64
+                                                               ? state_tolerance
+                                                               : single_state_tolerance;
+      const bool is_right = differences[n] <= tolerance;
+      records.append(
+          {{"experiment", study.name},
+           {"cell", chain_cell(n, link)},
+           {"link", fmt::format("{}", n)},
+           {"label", link.label},
+           {"variant", link.variant},
+           {"threads", fmt::format("{}", link.threads)},
+           {"cores", fmt::format("{}", usable_cores())},
+           {"model", std::string(name(link.model))},
+           {"precision", std::string(name(link.precision))},
+           {"integrator", link.integrator},
+           {"dt_s", number_text(runs[n]->dt())},
+           {"repetition", fmt::format("{}", repetition)},
+           {"steps", fmt::format("{}", steps[n])},
+           {"wall_s", number_text(wall_s)},
+           {"cpu_s", number_text(usage.cpu_s)},
+           {"sample_s", number_text(wall_s)},
+           {"contaminated", is_contaminated(usage, wall_s, link.threads) ? "true" : "false"},
+           {"check", is_right ? "passed" : "failed"},
+           {"check_error", number_text(differences[n])},
+           {"check_tolerance", number_text(tolerance)},
+           {"status", is_right ? "ok" : "wrong"},
+           {"reason", is_right ? "" : "its state is not that of the plain code"},
+           {"time_utc", measurement_time()}});
+    }
+}
+
+class Chain : public Study {
+public:
+  explicit Chain(const StudyFile& file) : study_(read_chain(file)) {}
+
+  std::string plan(const StudyPaths&) const override {
+    std::string text;
+    for (const ChainLink& link : study_.links)
+      text += fmt::format("{}: {}: {} t{} {} {} {}\n", study_.name, link.label, link.variant,
+                          link.threads, name(link.model), name(link.precision), link.integrator);
+    return text;
+  }
+
+  StudyResult run(const StudyRun& how) override {
+    const StudyPaths& paths = how.paths;
+    const Circumstances of{study_.name, study_.title, study_.scale, {{study_.scene, study_.set}}};
+    make_room_for_records(paths.raw, paths.context, of, how.resumes);
+    flush_denormals();
+    const Scene scene = load_scene(study_.scene, study_.set);
+    RecordFile records(paths.raw, raw_chain_columns(), how.resumes);
+    if (records.present().empty())
+      write_circumstances(paths.context, measurement_context(), of);
+    else
+      note_resumption(paths.context);
+    time_links(study_, scene, records, how.progress);
+    ChainErrors errors(study_, scene, how.note());
+    const Table table = chain_table(study_, read_csv(paths.raw).rows, errors);
+    const bool is_right = std::ranges::all_of(
+        table.rows, [](const Record& row) { return text_in(row, "status") == "ok"; });
+    return {{{study_.name, table}},
+            chain_text(study_, table),
+            is_right && number_in(table.rows.back(), "error_max") <= study_.bar};
+  }
+  bool keeps_records() const override { return true; }
+
+private:
+  const ChainStudy study_;
+};
+
+} // namespace
+
+extern const StudyKind chain_kind;
+const StudyKind chain_kind{"chain", read_study<Chain>};
+
+} // namespace dss

@@ -1,0 +1,73 @@
+"""All charts, in the order of the page: one line each. A chart is a module with a function that
+takes Results and gives a Chart, and a line here."""
+import dataclasses
+from collections.abc import Callable
+
+from . import (advice, balance, cells, chain, cluster, continuum, error_budget, failures, kernels,
+               ladder, stability, statics, work_precision)
+
+
+@dataclasses.dataclass(frozen=True)
+class Entry:
+    """name: of its section of the page. figure: of its PNG; charts with one figure share it."""
+    name: str
+    title: str
+    table: str
+    make: Callable
+    figure: str
+
+
+CHARTS = [Entry(*words) for words in (
+    ("speedups-1-host", "Speed-ups, Table 1 on one process", "table1_host",
+     cells.speedups("table1_host"), "table1_host"),
+    ("speedups-1", "Speed-ups, Table 1", "table1", cells.speedups("table1"), "table1"),
+    ("speedups-2", "Speed-ups, Table 2", "table2", cells.speedups("table2"), "table2"),
+    ("speedups-3", "Speed-ups, Table 3", "table3", cells.speedups("table3"), "table3"),
+    ("figure-9", "The paper's figure 9", "table3", cells.figure9("table3"), "table3_figure9"),
+    ("work-precision-time", "Error against time", "work_precision", work_precision.against_time,
+     "work_precision"),
+    ("work-precision-evaluations", "Error against force evaluations", "work_precision",
+     work_precision.against_evaluations, "work_precision"),
+    ("pareto", "Pareto front", "work_precision", work_precision.pareto, "pareto"),
+    ("chain", "Chain of factors", "chain", chain.chain, "chain"),
+    ("roofline", "Roofline", "kernels", kernels.roofline, "roofline"),
+    ("attribution", "Where the time of a step goes", "attribution", kernels.attribution,
+     "attribution"),
+    ("scaling-1", "Scaling over ranks, Table 1", "table1", cells.scaling("table1"),
+     "table1_scaling"),
+    ("scaling-2", "Scaling over ranks, Table 2", "table2", cells.scaling("table2"),
+     "table2_scaling"),
+    ("cluster", "A simulated cluster", "cluster_simulated", cluster.cluster, "cluster_simulated"),
+    ("cluster-nodes", "A simulated cluster, by its nodes", "cluster_simulated", cluster.by_nodes,
+     "cluster_simulated_nodes"),
+    ("balance", "Balance of two executors", "balance", balance.balance, "balance"),
+    ("stability", "Stability map", "stability", stability.stability, "stability_map"),
+    ("energy", "Stable is not accurate", "stability_energy", stability.energy, "stability_energy"),
+    ("ladder", "Model ladder", "model_ladder", ladder.verdicts, "model_ladder_verdicts"),
+    ("ladder-errors", "Model ladder: error against time", "model_ladder", ladder.errors,
+     "model_ladder"),
+    ("atlas", "Failure atlas", "failures", failures.atlas, "failures"),
+    ("advice", "Advice", "advise", advice.advice, "advise"),
+    ("error-budget", "Error budget", "error_budget", error_budget.error_budget, "error_budget"),
+    ("continuum", "Lattices and continuum theory", "continuum", continuum.continuum, "continuum"),
+    ("statics", "States of rest", "statics", statics.statics, "statics"),
+)]
+# Other tables that are drawn with these charts, or that have no chart.
+BESIDE = ["stability_map", "ceilings", "table1_simulated", "table2_simulated",
+          "work_precision_cheapest", "work_precision_comparisons"]
+# Of any other table: a study of cells that a user wrote.
+CELLS = {"": cells.speedups, "_scaling": cells.scaling, "_figure9": cells.figure9}
+
+
+def figures_of(results):
+    """Entries by the name of their figure, of the tables that are there."""
+    found, known = {}, {entry.table for entry in CHARTS} | set(BESIDE)
+    for entry in CHARTS:
+        if results.has(entry.table):
+            found.setdefault(entry.figure, []).append(entry)
+    for table in results.names():
+        if table not in known and not table.endswith("_simulated"):
+            for ending, make in CELLS.items():
+                name = f"{table}{ending}"
+                found[name] = [Entry(name, name, table, make(table), name)]
+    return found

@@ -1,0 +1,113 @@
+"""Which models suffice for which scene, and what they cost."""
+from description import (Axis, Chart, Filter, Look, Panel, Series, colours_of, guide, keys_of)
+from tables.results import NotMeasured
+from tables.words import is_missing, problem
+
+# Okabe and Ito's colours, and grey, from the least work to the most.
+COLOURS = {"axial": "#56B4E9", "bending": "#E69F00", "membrane": "#999999", "planar": "#009E73",
+           "linear": "#CC79A7", "small": "#D55E00", "spatial": "#0072B2"}
+MARKS = {"axial": "triangle-up", "bending": "square", "membrane": "diamond", "planar": "circle",
+         "linear": "triangle-down", "small": "pentagon", "spatial": "star"}
+COLUMNS = {
+    "problem": "scene", "model": "model", "verdict": "verdict", "error": "error",
+    "tolerance": "tolerance", "wall_s": "time [s]", "provable": "provable", "why_not": "why not",
+    "ends_with": "auto ends with", "promotions": "promotions", "status": "status",
+    "reason": "reason"}
+# Verdicts differ in their marks too.
+VERDICTS = {"sufficient": Look("#009E73", "square", size=13),
+            "insufficient": Look("#D55E00", "x", size=13)}
+OTHER = Look("#5F5F5F", "triangle-up", size=13)
+RING = Look("ink", "circle", is_hollow=True, size=21)
+LEAST, MOST = 1e-17, 1e3  # errors beyond are drawn there
+
+
+def rows_of(results):
+    frame = results.table("model_ladder", "scene", "model", "tolerance", "verdict", "status",
+                          optional=["set", "precision", "wall_s", "error", "provable", "why_not",
+                                    "ends_with", "promotions", "steps"])
+    frame["problem"] = [problem(row["scene"], row["set"], row["precision"])
+                        for _, row in frame.iterrows()]
+    return frame
+
+
+def verdicts(results):
+    """Scenes by models: verdicts, and a ring round the model that auto ends with."""
+    frame = rows_of(results)
+    models = frame[frame["model"] != "auto"]
+    chosen = frame[(frame["model"] == "auto") & frame["ends_with"].notna()]
+    if models.empty:
+        raise NotMeasured("tables/model_ladder.csv has no model")
+    series = []
+    for names, rows in models.groupby(["verdict", "provable"], sort=False, dropna=False):
+        series.append(Series(names[0], rows, "model", "problem", VERDICTS.get(names[0], OTHER),
+                             keys_of(rows, "verdict", "provable")))
+    if not chosen.empty:
+        series.append(Series("auto ends with it", chosen, "ends_with", "problem", RING))
+    order = [model for model in COLOURS if model in set(models["model"])]
+    order += sorted(set(models["model"]) - set(order))
+    scenes = list(dict.fromkeys(frame["problem"]))
+    good = chosen["error"].le(chosen["tolerance"]).sum()
+    heading = ("Squares: the model meets the scene's tolerance; crosses: it does not; a ring: the "
+               "model that `--model auto` ends with.")
+    findings = (f"Auto meets the tolerance on {good} of {len(chosen)} scenes. Each mark says its "
+                "error and why the model is not proven to suffice.")
+    x = Axis(scale="category", categories=order, is_at_top=True)
+    y = Axis(scale="category", categories=scenes, is_reversed=True)
+    return Chart("model_ladder", frame, COLUMNS, [Panel(x, y, series)], heading, findings,
+                 [Filter("verdict", "Verdict"), Filter("provable", "Provable")],
+                 height=140 + 26 * len(scenes), size=(7.5, 0.8 + 0.26 * len(scenes)))
+
+
+def series_of(frame):
+    """Points by model; models without the degrees of freedom have no time and stand at the left
+    edge."""
+    colours = colours_of(frame["model"].unique(), COLOURS)
+    for (_, model, verdict), rows in frame.groupby(["problem", "model", "verdict"], sort=False):
+        if model == "auto":
+            name, look = model, RING.but(size=17)
+        else:
+            look = Look(colours[model], MARKS.get(model, "x"), size=9)
+            is_good = verdict == "sufficient"
+            name = model if is_good else f"{model}, {verdict}"
+            look = look.but(is_hollow=not is_good)
+        keys = keys_of(rows, "problem", "model", "verdict")
+        side = 0.03 + 0.045 * (list(COLOURS).index(model) if model in COLOURS else 0)
+        for is_timed, own in rows.groupby(rows["wall_s"].notna()):
+            own = own.assign(place=own["wall_s"] if is_timed else side)
+            yield Series(name, own, "place", "shown_error", look, keys, entry=model,
+                         edge="" if is_timed else "left")
+
+
+def errors(results):
+    """Error against time, a panel a scene."""
+    frame = rows_of(results)
+    if frame["wall_s"].isna().all():
+        raise NotMeasured("no model was timed")
+    frame["shown_error"] = frame["error"].fillna(MOST).clip(LEAST, MOST)
+    series, titles = list(series_of(frame)), {}
+    for name, rows in frame.groupby("problem", sort=False):
+        times = rows["wall_s"].dropna()
+        ends = [(times.min() / 3, rows["tolerance"].iloc[0]),
+                (times.max() * 1.5, rows["tolerance"].iloc[0])]
+        series.append(guide("tolerance", ends, Look("soft", line="dash", width=1),
+                            keys={"problem": name}))
+        auto = rows[rows["model"] == "auto"]
+        titles[name,] = name if auto.empty or is_missing(auto.iloc[0]["ends_with"]) else (
+            f"{name}: {auto.iloc[0]['ends_with']}"
+            f"{', promoted' * bool((auto['promotions'] > 0).any())}")
+    models = [model for model in COLOURS if model in set(frame["model"])]
+    legend = [(model, Look(COLOURS[model], MARKS[model], size=9)) for model in models]
+    legend += [("does not suffice", Look("soft", "circle", is_hollow=True, size=9)),
+               ("auto", RING.but(size=17)), ("tolerance", Look("soft", line="dash", width=1))]
+    heading = ("Error against the spatial oracle over the time of a run; above each panel the "
+               "model that `--model auto` ends with. Filled marks are within the scene's "
+               "tolerance, hollow ones are not; at the left edge: models without the degrees of "
+               "freedom, which have no time. "
+               f"Errors beyond {LEAST:g} and {MOST:g} are drawn there.")
+    y = Axis("relative error", "log", limits=(LEAST / 3, 30 * MOST))
+    panel = Panel(Axis("time of a run [s]", "log"), y, series)
+    return Chart("model_ladder", frame, COLUMNS, [panel], heading,
+                 f"There are {frame['problem'].nunique()} scenes.",
+                 [Filter("problem", "Scene", is_single=True), Filter("model", "Model"),
+                  Filter("verdict", "Verdict")], ("problem",), titles=titles, legend=legend,
+                 columns_of_facets=5, size=(2.9, 2.2))

@@ -1,0 +1,146 @@
+"""Error against time and against evaluations, and the points that no other beats in both."""
+from description import (MARKS, PRECISION_LINES, Axis, Chart, Filter, Look, Panel, Series, by_order,
+                         colours_of, guide, keys_of, marks_in_words)
+from tables.results import NotMeasured
+from tables.words import problem
+
+# Two shades are of others: the adaptive dopri5's of its own, the smoothed Verlet's of Verlet's.
+COLOURS = {"rk4": "#0072B2", "velocity_verlet": "#D55E00", "midpoint": "#009E73",
+           "symplectic_euler": "#CC79A7", "dopri5": "#E69F00", "dopri5 adaptive": "#8B6100",
+           "rkc2": "#56B4E9", "implicit_midpoint": "ink", "smoothed_verlet": "#7A1F00"}
+# What becomes of a point that has no error, in words.
+EDGE = {"refused": "above the stability limit", "unstable": "unstable",
+        "inaccurate": "no correct digit", "wrong": "wrong", "failed": "failed"}
+COLUMNS = {
+    "problem": "scene", "integrator": "method", "precision": "precision", "variant": "variant",
+    "dt_s": "step [s]", "rtol": "tolerance of steps", "error_max": "largest error",
+    "measured_wall_s": "median time [s]", "evaluations": "evaluations x elements",
+    "pareto": "on the front", "status": "status", "reason": "reason"}
+FILTERS = [Filter("problem", "Scene", is_single=True), Filter("variant", "Variant"),
+           Filter("precision", "Precision"), Filter("integrator", "Method")]
+KEYS = [one.key for one in FILTERS]
+INTERVAL = "measured_wall_low_s", "measured_wall_high_s"
+TIME = Axis("median time of a run [s]", "log")
+ERROR = Axis("largest error of displacements,\nrelative", "log")
+FRONT = Look("soft", line="solid", width=7, opacity=0.35, is_step=True)
+
+
+def rows_of(results):
+    """Rows with the name of their problem; methods with adaptive steps are methods of their own."""
+    frame = results.table("work_precision", "scene", "variant", "precision", "integrator", "status",
+                          optional=["set", "end_time_s", "dt_s", "rtol", "error_max",
+                                    "measured_wall_s", *INTERVAL, "evaluations", "pareto",
+                                    "reason", "below_reference"])
+    frame.loc[frame["rtol"].notna(), "integrator"] += " adaptive"
+    frame["problem"] = [problem(row["scene"], row["set"]) for _, row in frame.iterrows()]
+    frame["is_hollow"] = frame["below_reference"] == "yes"
+    return frame
+
+
+def failed_at_edge(failed, colours):
+    """Crosses at the upper edge for what has no error."""
+    groups = failed.groupby("problem", sort=False)
+    for _, own in groups:
+        for place, (names, rows) in enumerate(own.groupby(KEYS, sort=False)):
+            words = rows["status"].map(lambda status: EDGE.get(status, status))
+            rows = rows.assign(edge_x=0.02 + 0.03 * (place % 30), status=words)
+            look = Look(colours[names[-1]], "x-thin", size=9)
+            yield Series("failed: at the edge, " + names[-1], rows, "edge_x", "error_max", look,
+                         keys_of(rows, *KEYS), entry="failed: at the edge", edge="top")
+
+
+def legend_of(frame, colours, marks):
+    """What colours, lines and marks mean, each by itself."""
+    methods = [name for name in colours if name in set(frame["integrator"])]
+    entries = [(name, Look(colours[name], line="solid", width=2.4)) for name in methods]
+    entries += [(name, Look("soft", line=line)) for name, line in PRECISION_LINES.items()
+                if name in set(frame["precision"])]
+    entries += list(marks.items())
+    if (frame["pareto"] == "yes").any():
+        entries.append(("Pareto front", FRONT))
+    if frame["status"].isin(EDGE).any():
+        entries.append(("failed: at the edge", Look("soft", "x-thin", size=9)))
+    if frame["is_hollow"].any():
+        entries.append(("below 10 x the\nsolution's own error", Look("soft", "circle",
+                                                                     is_hollow=True)))
+    return entries
+
+
+def against(work, axis):
+    """Error against a column of work."""
+    def make(results):
+        frame = rows_of(results)
+        good, failed = frame[frame["status"] == "ok"], frame[frame["status"].isin(EDGE)]
+        if good.empty:
+            raise NotMeasured("no point was measured")
+        colours, series = colours_of(frame["integrator"].unique(), COLOURS), []
+        marks = {name: Look("soft", mark) for name, mark in
+                 by_order(good["variant"].unique(), MARKS).items()}
+        has_interval = work == "measured_wall_s"
+        for _, rows in good[good["pareto"] == "yes"].groupby("problem", sort=False):
+            if has_interval:
+                series.append(Series("Pareto front", rows.sort_values(work), work, "error_max",
+                                     FRONT, keys_of(rows, "problem")))
+        has_work = good[work].notna() & good["error_max"].notna()
+        for (_, variant, precision, method), rows in good[has_work].groupby(KEYS, sort=False):
+            look = marks[variant].but(colour=colours[method],
+                                      line=PRECISION_LINES.get(precision, "dashdot"))
+            low, high = INTERVAL if has_interval else ("", "")
+            series.append(Series(f"{method}, {precision}, {variant}",
+                                 rows.sort_values(["dt_s", "rtol"]), work, "error_max", look,
+                                 keys_of(rows, *KEYS), entry=method, low=low, high=high,
+                                 interval_of="x", hollow="is_hollow"))
+        series += failed_at_edge(failed, colours)
+        heading = ("Lower and further left is better. A colour is a method, a line a precision "
+                   f"(solid f64, dotted f32, dashed f32c), a mark a variant "
+                   f"({marks_in_words(marks)}); hollow marks are below ten times the solution's "
+                   "own error.")
+        findings = (f"{len(good)} points were measured; {len(failed)} failed and stand as crosses "
+                    "at the upper edge.")
+        titles = {(name,): f"{name}, to {rows['end_time_s'].iloc[0]:g} s"
+                  for name, rows in frame.groupby("problem", sort=False)}
+        return Chart("work_precision", frame, COLUMNS, [Panel(axis, ERROR, series)], heading,
+                     findings, FILTERS, ("problem",), legend=legend_of(frame, colours, marks),
+                     titles=titles, height=520, size=(4.3, 2.9), is_side_by_side=True)
+    return make
+
+
+against_time = against("measured_wall_s", TIME)
+against_evaluations = against("evaluations", Axis("force evaluations x elements", "log"))
+
+
+def pareto(results):
+    """The fronts of all scenes."""
+    frame = rows_of(results)
+    frame = frame[(frame["pareto"] == "yes") & frame["error_max"].notna()]
+    frame = frame.sort_values("measured_wall_s")
+    if frame.empty:
+        raise NotMeasured("tables/work_precision.csv has no point on a front")
+    marks = {name: Look("soft", mark, size=10) for name, mark in
+             by_order(frame["problem"].unique(), MARKS).items()}
+    colours = colours_of(frame["integrator"].unique(), COLOURS)
+    series = [guide(f"front of {name}", rows[["measured_wall_s", "error_max"]].to_numpy(),
+                    Look("soft", line="solid", width=2, is_step=True), entry="",
+                    keys=keys_of(rows, "problem"))
+              for name, rows in frame.groupby("problem", sort=False)]
+    for one in series:
+        one.name = "front"
+    names = ["problem", "integrator", "precision"]
+    for (name, method, precision), rows in frame.groupby(names, sort=False):
+        is_single = precision != "f64"
+        look = marks[name].but(colour=colours[method], is_hollow=is_single)
+        series.append(Series(f"{name}, {method}{', single' * is_single}", rows, "measured_wall_s",
+                             "error_max", look, keys_of(rows, *names), entry=method))
+    cheapest = frame.loc[frame.groupby("problem", sort=False)["measured_wall_s"].idxmin()]
+    words = "; ".join(f"{row['problem']}: {row['integrator']} in {row['precision']}"
+                      for _, row in cheapest.iterrows())
+    heading = ("Points that no other one beats both in time and in error: what to take. A colour "
+               f"is a method, a mark a scene ({marks_in_words(marks)}); hollow marks are in single "
+               "precision.")
+    findings = f"The fastest point that has a correct digit at all is of {words}."
+    legend = [(method, Look(colours[method], line="solid", width=2.4))
+              for method in frame["integrator"].unique()]
+    return Chart("work_precision", frame, COLUMNS, [Panel(TIME, ERROR, series)], heading, findings,
+                 [Filter("problem", "Scene"), Filter("integrator", "Method"),
+                  Filter("precision", "Precision")], legend=legend + list(marks.items()),
+                 size=(7, 5))

@@ -1,0 +1,1 @@
+"""The renderers of a chart's description: PNG files (png.py) and the page (page.py)."""

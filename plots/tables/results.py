@@ -1,0 +1,89 @@
+"""A directory of results: tables with the line of each row, and what is not there."""
+import dataclasses
+import pathlib
+
+import pandas
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class NotMeasured(Exception):
+    """Why a part of the report cannot be shown, in words."""
+
+
+# What a table with values of an unexpected kind makes of the code that draws it.
+FAULTS = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError)
+
+
+@dataclasses.dataclass(frozen=True)
+class Lack:
+    """A section that is not there. `is_fault`: its table is, and cannot be drawn."""
+    name: str
+    title: str
+    table: str
+    reason: str
+    is_fault: bool = False
+
+
+class Results:
+    """tables/ and raw/ of one directory; a table is read once."""
+
+    def __init__(self, directory):
+        self.directory = pathlib.Path(directory)
+        self._read = {}
+
+    def table(self, name, *needed, optional=()):
+        """Rows of tables/NAME.csv; the column `line` is a row's line in the file.
+
+        optional: columns that may be empty; one that the table lacks is empty.
+        @throws NotMeasured if the table, or a column that is needed, is missing
+        """
+        if name not in self._read:
+            self._read[name] = self._load(name)
+        frame = self._read[name]
+        missing = [column for column in needed if column not in frame.columns]
+        if missing:
+            raise NotMeasured(f"tables/{name}.csv is of another version: it has no column "
+                              f"{', '.join(missing)}")
+        return frame.reindex(columns=list(dict.fromkeys([*frame.columns, *optional])))
+
+    def has(self, name):
+        return (self.directory / "tables" / f"{name}.csv").exists()
+
+    def _load(self, name):
+        path = self.directory / "tables" / f"{name}.csv"
+        if not path.exists():
+            raise NotMeasured("not measured")
+        try:
+            # An empty value is "not measured"; words such as `none` are words.
+            frame = pandas.read_csv(path, keep_default_na=False, na_values=["", "nan"])
+        except (ValueError, UnicodeDecodeError) as fault:
+            raise NotMeasured(f"tables/{name}.csv cannot be read: {fault}") from None
+        if frame.empty:
+            raise NotMeasured(f"tables/{name}.csv has no rows")
+        frame["line"] = range(2, len(frame) + 2)  # a record is a line, and the head is the first
+        return frame
+
+    def names(self):
+        """All tables that are there."""
+        return sorted(path.stem for path in (self.directory / "tables").glob("*.csv"))
+
+    def others(self):
+        """Results of other machines in folders of this one, as results/h100."""
+        found = sorted(self.directory.glob("*/tables/table3.csv"))
+        return [Results(path.parent.parent) for path in found]
+
+    def figures(self):
+        return sorted((self.directory / "figures").glob("*.png"))
+
+
+def studies():
+    """Names of the studies that `dssbench list experiments` shows."""
+    return sorted(path.stem for path in (ROOT / "experiments" / "studies").glob("*/*.json"))
+
+
+def study_of(table):
+    """The study that writes a table: the longest name of a study that it begins with."""
+    known = [name for name in studies() if table == name or table.startswith(f"{name}_")]
+    special = {"cluster_simulated": "cluster", "ceilings": "kernels", "attribution": "kernels"}
+    return special.get(table) or max(known, key=len, default=table)

@@ -1,0 +1,58 @@
+"""Every command of the pages: run in a scratch directory, described by the help, or left out."""
+import collections
+import concurrent.futures
+import tempfile
+import time
+import unittest
+
+import checks
+import pages
+import plan
+import workplace
+from lists import LISTS
+
+PLAN = plan.make_plan(pages.all_commands(workplace.SOURCE), LISTS)
+
+
+def run_page(commands):
+    """Runs the commands of a page in their order: (command, fault, why it was skipped, seconds)."""
+    with tempfile.TemporaryDirectory(prefix="dssbench-docs-") as directory:
+        workplace.furnish(directory, [text for _, text in commands],
+                          pages.scenes_of(pages.read_page(workplace.SOURCE, commands[0][0].page)))
+        results = []
+        for command, text in commands:
+            start = time.monotonic()
+            lack = workplace.why_not_here(workplace.with_variants_here(text))
+            fault = "" if lack else checks.fault_of_run(command, text, LISTS, directory)
+            results.append((command, fault, lack, time.monotonic() - start))
+        return results
+
+
+class Pages(unittest.TestCase):
+    def test_every_command_is_run_described_or_left_out_with_a_reason(self):
+        self.assertEqual(PLAN.faults, [])
+        self.assertGreater(len(PLAN.run), 60)
+
+    def test_every_named_subcommand_and_option_is_in_the_help(self):
+        faults = [checks.fault_of_description(command) for command in PLAN.described]
+        self.assertEqual([fault for fault in faults if fault], [])
+
+    def test_every_command_ends_with_the_exit_code_that_its_page_states(self):
+        by_page = collections.defaultdict(list)
+        for command, text in PLAN.run:
+            by_page[command.page].append((command, text))
+        longest_first = sorted(by_page.values(), key=len, reverse=True)
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            results = [each for page in pool.map(run_page, longest_first) for each in page]
+        print(f"{len(PLAN.run)} commands run, {len(PLAN.described)} described, "
+              f"{len(PLAN.left_out)} left out")
+        for command, fault, lack, seconds in results:
+            print(f"{seconds:6.2f} s  {command.place()}  {command.text}{' SKIPPED' * bool(lack)}")
+            with self.subTest(command.text):
+                if lack:
+                    self.skipTest(lack)
+                self.assertFalse(fault, fault)
+
+
+if __name__ == "__main__":
+    unittest.main()

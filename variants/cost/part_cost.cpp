@@ -1,0 +1,65 @@
+#include "variants/cost/part_cost.hpp"
+
+#include <algorithm>
+
+namespace dss {
+namespace {
+
+/// Times of the passes of an overlapped step, cut as RowExecutor::make_blocks does. Exact for
+/// strips of full rows, approximate for other parts.
+void cut_passes(const PartSize& size, int stages, int reach, double speed, PartTimes& times) {
+  const auto has = [&](Side side) {
+    return std::ranges::any_of(size.faces,
+                               [&](const PartSize::Face& face) { return face.side == side; });
+  };
+  // Time of one row in one stage.
+  const double row_s = double(size.row_elements[0]) / size.own_rows / speed;
+  const int halo = stages * reach;
+  // Rows times stages that are computed twice beside a cut.
+  const double again = reach * stages * (stages - 1) / 2.0;
+  const bool is_split = has(Side::upper) && size.own_rows >= 3 * halo;
+  if (is_split) {
+    times.upper_s = row_s * (halo * stages + 2 * again);
+    times.compute_s += row_s * 2 * again;
+  }
+  const double lower_s = times.compute_s - times.upper_s;
+  const int lower_rows = size.own_rows - (is_split ? halo : 0);
+  const double done_at = double(halo + (stages - 1) * reach) / (lower_rows + (stages - 1) * reach);
+  times.edge_s = has(Side::lower) ? lower_s * std::min(1.0, done_at) : 0;
+}
+
+} // namespace
+
+int halo_depth(const HaloStrategy& strategy, const Method& method) {
+  return strategy.is_every_stage ? 1 : method.stages;
+}
+
+double element_stages(const PartSize& size, const HaloStrategy& strategy, int stages) {
+  if (strategy.is_every_stage) return double(size.row_elements[0]) * stages;
+  double sum = 0;
+  for (std::size_t layer = 0; layer < size.row_elements.size(); ++layer)
+    sum += double(size.row_elements[layer]) * std::max(0, stages - int(layer));
+  return sum;
+}
+
+PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, int stages, int reach,
+                     const NodeSpeed& speed) {
+  PartTimes times;
+  times.compute_s = element_stages(size, strategy, stages) / speed.of(strategy);
+  times.inner_s = times.compute_s * double(size.inner_elements) /
+                  double(std::max<std::size_t>(1, size.row_elements[0]));
+  if (strategy.is_overlapped && !strategy.is_every_stage)
+    cut_passes(size, stages, reach, speed.of(strategy), times);
+  return times;
+}
+
+PlannedPart plan_part(const PartSize& size, const PartTimes& times, Precision precision) {
+  const std::size_t element_bytes = field_count * (precision == Precision::f64 ? 8 : 4);
+  PlannedPart part{times, {}};
+  for (const PartSize::Face& face : size.faces)
+    part.faces.push_back(
+        {face.part, face.side, face.send * element_bytes, face.receive * element_bytes});
+  return part;
+}
+
+} // namespace dss

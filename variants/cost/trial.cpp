@@ -1,0 +1,95 @@
+#include "variants/cost/trial.hpp"
+
+#include "solver/numerics/signal_rows.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace dss {
+namespace {
+
+/// Exchanges nothing. The halo stays zero, which takes as long to compute as other numbers.
+class NoHalo final : public Halo {
+public:
+  void send(Side, int) override {}
+  void receive(Side, int) override {}
+};
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// A part under one schedule, ready for repeated timing.
+class Trial {
+public:
+  Trial(const Setup& whole, const Plugin& plugin, const Decomposition& decomposition, int index,
+        const HaloStrategy& strategy)
+      : part_(make_part(whole.problem, decomposition, index, halo_depth(strategy, whole.method))),
+        part_setup_{part_, halo_, strategy.is_every_stage, strategy.is_overlapped},
+        setup_{part_.problem, whole.method, whole.model, whole.precision, whole.dt,
+               whole.threads, &part_setup_, nullptr,     whole.device},
+        executor_(plugin.create(setup_)),
+        work_(element_stages(part_size(whole.problem, decomposition, index, part_.depth), strategy,
+                             whole.method.stages)) {
+    while (run_s(steps_) < trial_s && steps_ < 1 << 16) steps_ *= 2;
+  }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+  double speed() { return work_ * double(steps_) / run_s(steps_); }
+
+private:
+  double run_s(long steps) {
+    const std::vector<double> signals =
+        signal_rows(part_.problem, setup_.method, setup_.dt, 0, steps);
+    const double start = now_s();
+    executor_->advance(steps, signals);
+    return now_s() - start;
+  }
+  const Part part_;
+  NoHalo halo_;
+  const PartSetup part_setup_;
+  const Setup setup_;
+  const std::unique_ptr<Executor> executor_;
+  const double work_;
+  long steps_ = 1;
+};
+
+/// Times the schedules of a large part one after the other: both executors at once would need
+/// several times the memory of the run.
+NodeSpeed measure_large(const Setup& setup, const Plugin& plugin,
+                        const Decomposition& decomposition, int part, int rounds) {
+  NodeSpeed best;
+  const auto time = [&](const char* strategy, double& speed) {
+    Trial trial(setup, plugin, decomposition, part, *find_halo_strategy(strategy));
+    for (int round = 0; round < rounds / 2; ++round) speed = std::max(speed, trial.speed());
+  };
+  time("deep", best.at_once);
+  time("sendrecv", best.stage_by_stage);
+  return best;
+}
+
+} // namespace
+
+NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin,
+                        const Decomposition& decomposition, int part, int rounds) {
+  if (setup.problem.lattice.element_count / std::size_t(decomposition.parts) > large_part_elements)
+    return measure_large(setup, plugin, decomposition, part, rounds);
+  Trial at_once(setup, plugin, decomposition, part, *find_halo_strategy("deep"));
+  Trial stage_by_stage(setup, plugin, decomposition, part, *find_halo_strategy("sendrecv"));
+  NodeSpeed best;
+  for (int round = 0; round < rounds; ++round) {
+    best.at_once = std::max(best.at_once, at_once.speed());
+    best.stage_by_stage = std::max(best.stage_by_stage, stage_by_stage.speed());
+  }
+  return best;
+}
+
+double measure_speed_at_once(const Setup& setup, const Plugin& plugin,
+                             const Decomposition& decomposition, int part, int rounds) {
+  Trial trial(setup, plugin, decomposition, part, *find_halo_strategy("deep"));
+  double best = 0;
+  for (int round = 0; round < rounds; ++round) best = std::max(best, trial.speed());
+  return best;
+}
+
+} // namespace dss

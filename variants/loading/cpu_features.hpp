@@ -1,0 +1,16 @@
+#pragma once
+/// What this CPU has of what a variant needs, asked before any of the variant's code runs.
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dss {
+
+/// Every feature that a variant may need, as __builtin_cpu_supports names them.
+std::vector<std::string> cpu_features();
+
+/// First of the features, comma-separated, that this CPU lacks, or that DSSBENCH_HIDE_CPU_FEATURES
+/// hides (to try the refusal where the CPU has everything); empty: it has them all.
+std::string missing_feature(std::string_view needs);
+
+} // namespace dss
