@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Pictures of a body from what `dssbench run --output` writes: deformed (magnified), coloured by von Mises stress.
+"""Draws a deformed body from a file of `dssbench run --output`, coloured by von Mises stress.
 
-Of a .vtu one picture. Of a .pvd (a series, from --frames) the last state, and beside it OUTPUT's stem + _frames: states over time in one strip, on one scale.
-A body of one layer is seen from +z, any other one aslant. Reads the files and nothing else; never runs a solver.
+A .vtu file gives one picture. A .pvd file (a series, from --frames) gives two: the last state, and
+a strip of states over time in STEM_frames beside it. A body of one layer is seen from +z, any
+other body from a slanted direction. The displacements are magnified. No solver runs.
 Example: plots/body_picture.py results/fields/l_bracket.pvd --output results/figures/l_bracket.png
 """
 import argparse
 import base64
+import dataclasses
 import functools
 import math
 import pathlib
@@ -24,47 +26,59 @@ from render.pictures import drawn_now, save  # noqa: E402
 
 TYPES = {"Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
 # Corners of the faces of a VTK hexahedron, anticlockwise as seen from outside.
-FACES = numpy.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [2, 3, 7, 6], [0, 4, 7, 3], [1, 2, 6, 5]])
-YAW, PITCH = math.radians(-28), math.radians(24)  # of the slanted view: turned about y, then about x
-STRIP = 6  # frames at most
+FACES = numpy.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4],
+                     [2, 3, 7, 6], [0, 4, 7, 3], [1, 2, 6, 5]])
+# The slanted view is turned about y, then about x.
+YAW, PITCH = math.radians(-28), math.radians(24)
+STRIP = 6  # largest number of frames
+STRIP_COLUMNS = 3
 
 
 def read_vtu(path):
     """Arrays of a .vtu with inline base64 data, by (section, name)."""
-    arrays = {}
+    root, arrays = xml.etree.ElementTree.parse(path).getroot(), {}
     for section in ("Points", "Cells", "PointData", "CellData"):
-        for node in xml.etree.ElementTree.parse(path).getroot().iterfind(f".//Piece/{section}/DataArray"):
-            data = base64.b64decode(node.text)
+        for node in root.iterfind(f".//Piece/{section}/DataArray"):
+            name, data = node.get("Name"), base64.b64decode(node.text)
             values = numpy.frombuffer(data, TYPES[node.get("type")], offset=8)
-            assert values.nbytes == int.from_bytes(data[:8], "little"), f"{path}: {node.get('Name')} is cut off"
+            length = int.from_bytes(data[:8], "little")
+            assert values.nbytes == length, f"{path}: {name} is cut off"
             components = int(node.get("NumberOfComponents"))
-            arrays[section, node.get("Name")] = values.reshape(-1, components) if components > 1 else values
+            arrays[section, name] = values.reshape(-1, components) if components > 1 else values
     return arrays
 
 
 class Body:
-    """One state: its outer faces, where they are, and the stress of their elements."""
+    """One state: the corners of the elements at rest, their displacements, and the stresses."""
 
     def __init__(self, path):
         arrays = read_vtu(path)
-        self.rest, self.moved = arrays["Points", "points"].reshape(-1, 8, 3), arrays["PointData", "displacement"].reshape(-1, 8, 3)
+        self.rest = arrays["Points", "points"].reshape(-1, 8, 3)
+        self.moved = arrays["PointData", "displacement"].reshape(-1, 8, 3)
         self.stress = arrays["CellData", "von_mises"]
-        self.extent, self.largest = float(numpy.ptp(self.rest, axis=(0, 1)).max()), float(numpy.abs(self.moved).max())
+        self.extent = float(numpy.ptp(self.rest, axis=(0, 1)).max())
+        self.largest = float(numpy.abs(self.moved).max())
         self.is_flat = len(numpy.unique(self.rest[:, 0, 2])) == 1
 
     def view(self):
-        """Rows are right, up and towards the viewer."""
+        """The rotation to the view: its rows point right, up and towards the viewer."""
         if self.is_flat:
             return numpy.eye(3)
-        turn = numpy.array([[math.cos(YAW), 0, math.sin(YAW)], [0, 1, 0], [-math.sin(YAW), 0, math.cos(YAW)]])
-        return numpy.array([[1, 0, 0], [0, math.cos(PITCH), -math.sin(PITCH)], [0, math.sin(PITCH), math.cos(PITCH)]]) @ turn
+        about_y = numpy.array([[math.cos(YAW), 0, math.sin(YAW)],
+                               [0, 1, 0],
+                               [-math.sin(YAW), 0, math.cos(YAW)]])
+        about_x = numpy.array([[1, 0, 0],
+                               [0, math.cos(PITCH), -math.sin(PITCH)],
+                               [0, math.sin(PITCH), math.cos(PITCH)]])
+        return about_x @ about_y
 
     def faces(self, magnification):
-        """Polygons that are seen, back to front, and the element of each."""
+        """Polygons of the visible faces, back to front, and the element of each."""
         centres = numpy.round(self.rest[:, FACES].mean(axis=2).reshape(-1, 3) / self.extent, 9)
         _, place, count = numpy.unique(centres, axis=0, return_inverse=True, return_counts=True)
-        is_outer = count[place.ravel()] == 1  # two elements share an inner one
-        corners = ((self.rest + magnification * self.moved)[:, FACES].reshape(-1, 4, 3) @ self.view().T)[is_outer]
+        is_outer = count[place.ravel()] == 1  # two elements share an inner face
+        moved = (self.rest + magnification * self.moved)[:, FACES].reshape(-1, 4, 3)
+        corners = (moved @ self.view().T)[is_outer]
         elements = numpy.repeat(numpy.arange(len(self.rest)), len(FACES))[is_outer]
         across = numpy.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
         is_seen = across[:, 2] > 1e-9 * numpy.linalg.norm(across, axis=1).max()
@@ -74,79 +88,105 @@ class Body:
 
 
 def magnification_of(bodies, wanted):
-    """What is asked for, or what makes the largest displacement of all states 8 % of the body."""
+    """The wanted factor. Default: the largest displacement of all states is 8 % of the body."""
     largest = max(body.largest for body in bodies)
-    return wanted if wanted is not None else 0.08 * bodies[0].extent / largest if largest > 0 else 1
+    if wanted is not None:
+        return wanted
+    return 0.08 * bodies[0].extent / largest if largest > 0 else 1
 
 
-def draw_body(axes, body, magnification, highest, unit):
+@dataclasses.dataclass
+class StressScale:
+    """The scale of colours: its upper end [Pa], the unit in Pa, and its label."""
+    highest: float
+    unit: float
+    label: str
+
+
+def scale_of(bodies):
+    """One scale for several states, up to the 99th percentile of all stresses.
+
+    A few elements at loads and clamps carry several times the stress of the others. A scale up to
+    their stress would give the rest of the body one colour.
+    """
+    stress = numpy.concatenate([body.stress for body in bodies])
+    units = [(1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")]
+    unit, name = next((one for one in units if stress.max() >= one[0]), (1, "Pa"))
+    label = f"von Mises stress [{name}], largest {stress.max() / unit:.3g}"
+    return StressScale(float(numpy.percentile(stress, 99)), unit, label)
+
+
+def draw_body(axes, body, magnification, scale):
+    """Draws one state on `axes`. @returns its faces, for the bar of colours"""
     corners, elements = body.faces(magnification)
-    faces = PolyCollection(corners, array=body.stress[elements] / unit, cmap="cividis", edgecolors="face" if body.is_flat else "#00000055", linewidths=0.3)
-    faces.set_clim(0, highest / unit or 1)
+    faces = PolyCollection(corners, array=body.stress[elements] / scale.unit, cmap="cividis",
+                           edgecolors="face" if body.is_flat else "#00000055", linewidths=0.3)
+    faces.set_clim(0, scale.highest / scale.unit or 1)
     axes.add_collection(faces)
     axes.autoscale_view()
     axes.set_aspect("equal")
     return faces
 
 
-def scale_of(bodies):
-    """The end of the colours, and their unit. A few elements at loads and clamps carry several times the rest: they must not turn the body into one colour."""
-    stress = numpy.concatenate([body.stress for body in bodies])
-    unit, name = max(((u, n) for u, n in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")) if stress.max() >= u), default=(1, "Pa"))
-    return float(numpy.percentile(stress, 99)), unit, f"von Mises stress [{name}], largest {stress.max() / unit:.3g}"
-
-
 def write(figure, output):
-    output.parent.mkdir(parents=True, exist_ok=True)
+    """Checks and writes a figure that no record is behind."""
     save(figure, output, drawn_now(), dpi=130)
     plt.close(figure)
 
 
 def draw(path, output, wanted):
-    """One state; returns the files written."""
+    """Draws one state. @returns the files written"""
     body = Body(path)
-    magnification = magnification_of([body], wanted)
-    highest, unit, label = scale_of([body])
+    magnification, scale = magnification_of([body], wanted), scale_of([body])
     figure, axes = plt.subplots(figsize=(7.5, 6), layout="constrained")
-    faces = draw_body(axes, body, magnification, highest, unit)
+    faces = draw_body(axes, body, magnification, scale)
     if body.is_flat:
         axes.set_xlabel("x [m]")
         axes.set_ylabel("y [m]")
     else:
-        axes.set_axis_off()  # aslant, its coordinates are on no axis
-    axes.set_title(f"{len(body.stress)} elements; displacements x {magnification:.3g} (largest {body.largest:.3g} m)", fontsize=10)
-    figure.colorbar(faces, ax=axes, label=label, extend="max")
+        axes.set_axis_off()  # in the slanted view no axis has the coordinates of the body
+    axes.set_title(f"{len(body.stress)} elements; displacements x {magnification:.3g} "
+                   f"(largest {body.largest:.3g} m)", fontsize=10)
+    figure.colorbar(faces, ax=axes, label=scale.label, extend="max")
     write(figure, output)
     return [output]
 
 
 def states_of(series):
     """(time, file) of each state that a .pvd lists."""
-    return [(float(node.get("timestep")), series.parent / node.get("file")) for node in xml.etree.ElementTree.parse(series).getroot().iter("DataSet")]
+    root = xml.etree.ElementTree.parse(series).getroot()
+    return [(float(node.get("timestep")), series.parent / node.get("file"))
+            for node in root.iter("DataSet")]
+
+
+def frames_of(states):
+    """At most STRIP states at equal distances; the last state is among them."""
+    count = min(STRIP, len(states) - 1)
+    if count == 0:
+        return states
+    return [states[round(place * (len(states) - 1) / count)] for place in range(1, count + 1)]
 
 
 def draw_strip(states, output, wanted):
-    """States equally far apart, the last one among them, with one magnification and one scale of colours."""
-    count = min(STRIP, len(states) - 1)
-    shown = [states[round(place * (len(states) - 1) / count)] for place in range(1, count + 1)] if count else states
+    """Draws states over time with one magnification and one scale of colours."""
+    shown = frames_of(states)
     bodies = [Body(path) for _, path in shown]
-    magnification = magnification_of(bodies, wanted)
-    highest, unit, label = scale_of(bodies)
-    columns = 3
-    figure, panels = plt.subplots(-(-len(bodies) // columns), columns, figsize=(9, 0.7 + 2.4 * -(-len(bodies) // columns)), sharex=True, sharey=True, squeeze=False,
-                                  layout="constrained")
+    magnification, scale = magnification_of(bodies, wanted), scale_of(bodies)
+    rows = math.ceil(len(bodies) / STRIP_COLUMNS)
+    figure, panels = plt.subplots(rows, STRIP_COLUMNS, figsize=(9, 0.7 + 2.4 * rows), sharex=True,
+                                  sharey=True, squeeze=False, layout="constrained")
     for axes in panels.flat:
         axes.set_axis_off()
     for axes, (time, _), body in zip(panels.flat, shown, bodies):
-        faces = draw_body(axes, body, magnification, highest, unit)
+        faces = draw_body(axes, body, magnification, scale)
         axes.set_title(f"{1e3 * time:.3g} ms, largest {body.largest:.2g} m", fontsize=9)
     figure.suptitle(f"displacements x {magnification:.3g}", fontsize=9, x=0.01, ha="left")
-    figure.colorbar(faces, ax=panels, label=label, extend="max")
+    figure.colorbar(faces, ax=panels, label=scale.label, extend="max")
     write(figure, output)
 
 
 def draw_series(series, output, wanted):
-    """The last state of a .pvd and a strip of its states; returns the files written."""
+    """Draws the last state of a .pvd, and a strip of its states. @returns the files written"""
     states = states_of(series)
     strip = output.with_name(f"{output.stem}_frames{output.suffix}")
     draw(states[-1][1], output, wanted)
@@ -154,29 +194,36 @@ def draw_series(series, output, wanted):
     return [output, strip]
 
 
+DRAW = {".vtu": draw, ".pvd": draw_series}
+
+
 def pictures_of(fields, figures):
-    """(file, function that draws it) of each .pvd, and of each .vtu that none of them lists."""
+    """(file, function that draws it) of each .pvd, and of each .vtu that no .pvd lists."""
     series = sorted(fields.glob("*.pvd"))
     listed = {path for file in series for _, path in states_of(file)}
     for path in series + sorted(set(fields.glob("*.vtu")) - listed):
-        draw_file = draw_series if path.suffix == ".pvd" else draw
         output = figures / f"{path.stem}.png"
-        yield output, functools.partial(draw_file, path, output, None)
+        yield output, functools.partial(DRAW[path.suffix], path, output, None)
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("file", type=pathlib.Path, help=".vtu of `dssbench run --output`, or the .pvd that it writes with --frames")
+    parser.add_argument("file", type=pathlib.Path,
+                        help=".vtu of `dssbench run --output`, or its .pvd with --frames")
     parser.add_argument("--output", type=pathlib.Path, required=True, help="PNG, SVG or PDF")
-    parser.add_argument("--magnification", type=float, help="of displacements (default: the largest becomes 8 %% of the body)")
+    parser.add_argument("--magnification", type=float,
+                        help="factor of the displacements (default: the largest displacement "
+                             "becomes 8 %% of the body)")
     arguments = parser.parse_args()
-    if not arguments.file.exists():
-        sys.exit(f"{arguments.file}: no such file; make it with `dssbench run SCENE --output FILE.vtu` (with --frames: FILE.pvd)")
-    if arguments.file.suffix not in (".vtu", ".pvd"):
-        sys.exit(f"{arguments.file}: neither a .vtu nor a .pvd")
-    draw_file = draw_series if arguments.file.suffix == ".pvd" else draw
+    path = arguments.file
+    if not path.exists():
+        sys.exit(f"{path}: no such file; make it with `dssbench run SCENE --output FILE.vtu` "
+                 "(with --frames: FILE.pvd)")
+    if path.suffix not in DRAW:
+        sys.exit(f"{path}: neither a .vtu nor a .pvd")
     try:
-        print(*draw_file(arguments.file, arguments.output, arguments.magnification), sep="\n")
+        print(*DRAW[path.suffix](path, arguments.output, arguments.magnification), sep="\n")
     except Unreadable as fault:
         sys.exit(str(fault))
 

@@ -1,8 +1,8 @@
 """The description of a chart: panels of series, axes, words and filters.
 
-A module in charts/ turns a table into a Chart. render/png.py and render/page.py draw it.
-The colour words "ink", "soft" and "ground" stand for the colours of text, of guide lines and of
-the background; the page has them in a light and in a dark theme.
+A module in charts/ makes a Chart of a table. render/png.py and render/page.py draw it.
+The names "ink", "soft" and "ground" stand for the colours of text, of guide lines and of the
+background. The page has them in a light and in a dark theme.
 """
 import dataclasses
 import itertools
@@ -10,7 +10,7 @@ import itertools
 import pandas
 from tables.words import choice
 
-# The colours of Okabe and Ito, then some of Tol's: told apart with any colour vision.
+# The colours of Okabe and Ito, then some of Tol's: any colour vision can tell them apart.
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#999999", "#8B6100",
            "#332288", "#44AA99", "#882255", "#7A1F00"]
 MARKS = ["circle", "square", "triangle-up", "diamond", "cross", "triangle-down", "pentagon", "star"]
@@ -24,6 +24,7 @@ class Look:
     mark: a name of MARKS, "x", "x-thin" or "line-ns"; empty: no marks.
     line: solid, dash, dot or dashdot; empty: points are not joined.
     hatch: of bars, one of / \\ | - + x .
+    size: of marks, in pixels of the page
     """
     colour: str = "ink"
     mark: str = ""
@@ -43,8 +44,11 @@ class Look:
 
 @dataclasses.dataclass
 class Axis:
-    """scale: linear, log or category. ticks: text by value. limits: (low, high), either may be
-    None. categories: all values of a category axis, in order."""
+    """One axis of a panel.
+
+    scale: linear, log or category. ticks: text by value. limits: (low, high); None: by the data.
+    categories: all values of a category axis, in order.
+    """
     title: str = ""
     scale: str = "linear"
     limits: tuple = (None, None)
@@ -57,7 +61,7 @@ class Axis:
 
 @dataclasses.dataclass(frozen=True)
 class ColourScale:
-    """stops: (place between 0 and 1, colour)."""
+    """Colours for numbers from `low` to `high`. stops: (place between 0 and 1, colour)."""
     title: str
     low: float
     high: float
@@ -66,15 +70,17 @@ class ColourScale:
 
 @dataclasses.dataclass
 class Series:
-    """Rows of a table that are drawn alike.
+    """Rows of a table that have one look.
 
-    name: who it is; two series of one panel with the same look must have the same name.
-    entry: its entry in the legend, the name by default; series may share one; empty: none.
-    keys: values that filters and facets compare, as keys_of gives them.
-    kind: points, bars, tiles (cells of a matrix) or field (a colour for each x and y, of `z`).
-    low, high: columns of the interval of the value on axis `interval_of`.
-    hollow: column of booleans. label: column of texts beside the points.
-    edge: "top" or "left": drawn at that edge; x is a fraction of the axis.
+    name: identifies it; two series of one panel with the same look must have the same name
+    x, y: columns of the values
+    keys: values that filters and facets compare, as keys_of gives them
+    entry: its entry in the legend, by default the name; series may share one; empty: none
+    kind: points, bars, tiles (cells of a matrix) or field (the colour of `z` for each x and y)
+    low, high: columns of the interval of the value on axis `interval_of`
+    hollow: column of booleans; label: column of texts beside the points
+    edge: "top" or "left": drawn at that edge; x is a fraction of the axis
+    width: column with the widths of tiles
     """
     name: str
     rows: pandas.DataFrame
@@ -92,7 +98,7 @@ class Series:
     edge: str = ""
     z: str = ""
     scale: ColourScale = None
-    width: str = ""  # column: how wide a tile is
+    width: str = ""
 
     def __post_init__(self):
         self.entry = self.name if self.entry is None else self.entry
@@ -109,10 +115,10 @@ class Panel:
 
 @dataclasses.dataclass
 class Filter:
-    """A choice of the reader: series and rows with another value of `key` are hidden.
+    """A choice of the reader: it hides series and rows with another value of `key`.
 
-    is_single: one value is always chosen. first: (name, values) of several values that are
-    chosen together when the page opens; a PNG shows these alone.
+    is_single: one value is always chosen
+    first: (name, values): these values are chosen when the page opens; a PNG shows them alone
     """
     key: str
     label: str
@@ -122,15 +128,16 @@ class Filter:
 
 @dataclasses.dataclass
 class Chart:
-    """What is drawn of one table, and the same as words and as a table.
+    """A chart of one table, with its words and its rows.
 
-    heading: what marks, colours and lines mean. findings: what there is to see.
-    rows: have `line` and the keys of the filters. columns: heading by column of `rows`.
-    facets: keys of filters; a PNG has a panel for each of their values, the page shows one value.
-    legend: (entry, look) in the PNG where it differs from the entries of the series.
-    height: of the page's chart [px]. size: of a PNG's panel [inches]. columns_of_facets: in a line
-    of a PNG. titles: title in a PNG by values of the facets. is_side_by_side: a PNG has the
-    panels of a facet beside each other.
+    rows: have `line` and the keys of the filters; columns: heading by column of `rows`
+    heading: what marks, colours and lines mean; findings: what the chart shows
+    facets: keys of filters; a PNG has a panel for each of their values, the page shows one value
+    legend: (entry, look) of the PNG if it differs from the entries of the series
+    height: of the chart on the page [px]; size: of a panel of the PNG [inches]
+    titles: title in the PNG by values of the facets
+    columns_of_facets: number of facets in one line of the PNG
+    is_side_by_side: the PNG has the panels of a facet beside each other
     """
     table: str
     rows: pandas.DataFrame
@@ -149,17 +156,17 @@ class Chart:
 
     @property
     def text(self):
-        """What a screen reader says of the chart."""
+        """The words of the chart, for the page and for screen readers."""
         return f"{self.heading} {self.findings}".strip()
 
 
 def by_order(names, choices):
-    """A choice for each name, in order, over and over."""
+    """A choice for each name, in order; the choices repeat."""
     return {name: choices[place % len(choices)] for place, name in enumerate(names)}
 
 
 def colours_of(names, known=None):
-    """A colour for each name: the known one, else one that no other name has."""
+    """A colour for each name: its known colour, or one that is not in `known`."""
     known = known or {}
     free = [colour for colour in COLOURS if colour not in known.values()]
     return {**known, **by_order([name for name in names if name not in known], free)}
@@ -173,13 +180,13 @@ def looks_of(names, **more):
 
 
 def keys_of(rows, *columns):
-    """The values that filters compare, of columns that are the same in all rows."""
+    """The values that filters compare; each of the columns has one value in all rows."""
     first = rows.iloc[0]
     return {column: choice(first[column]) for column in columns}
 
 
 def guide(name, points, look, **more):
-    """A line that is no row of a table: points are (x, y)."""
+    """A line without rows in a table. points: (x, y)"""
     return Series(name, pandas.DataFrame(points, columns=["x", "y"]), "x", "y", look, **more)
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""All figures of a directory of results: the charts of its tables, and pictures of its bodies.
+"""Draws all figures of a directory of results: charts of its tables and pictures of its bodies.
 
-Reads DIR/tables, DIR/raw and DIR/fields, writes DIR/figures. No solver runs. Every figure is
-checked: one that a reader cannot read is an error, after all others are drawn.
+The command reads DIR/tables, DIR/raw and DIR/fields, and writes DIR/figures. No solver runs. Every
+figure is checked. An unreadable figure is an error, which is reported after all are drawn.
 Example: plots/make_plots.py --results results
 """
 import argparse
@@ -18,21 +18,21 @@ from tables.results import FAULTS, NotMeasured, Results
 
 
 def draw_figure(results, entries, output):
-    """The charts of one figure that can be made. @returns the file, or why there is none"""
-    charts, reasons = [], {}
+    """Draws the charts that share a figure. @returns lines: the file, or why there is none"""
+    charts, reasons = [], []
     for entry in entries:
         try:
             charts.append(entry.make(results))
         except NotMeasured as reason:
-            reasons[f"{output.name}: {reason}"] = None
+            reasons.append(f"{output.name}: {reason}")
     if not charts:
-        return list(reasons)
+        return list(dict.fromkeys(reasons))
     png.draw(charts, output, pictures.measured_by(results.directory, entries[0].table))
     return [output]
 
 
 def draw_all(results):
-    """All figures. @returns the errors"""
+    """Draws all figures. @returns the errors"""
     figures, errors = results.directory / "figures", []
     jobs = []
     for name, entries in figures_of(results).items():

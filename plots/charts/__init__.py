@@ -1,5 +1,7 @@
-"""All charts, in the order of the page: one line each. A chart is a module with a function that
-takes Results and gives a Chart, and a line here."""
+"""All charts, in the order of the page.
+
+A chart is a function that takes Results and returns a Chart, and one line in CHARTS.
+"""
 import dataclasses
 from collections.abc import Callable
 
@@ -9,7 +11,11 @@ from . import (advice, balance, cells, chain, cluster, continuum, error_budget, 
 
 @dataclasses.dataclass(frozen=True)
 class Entry:
-    """name: of its section of the page. figure: of its PNG; charts with one figure share it."""
+    """One chart of the page.
+
+    name: the id of its section. make: the function. figure: the name of its PNG, which several
+    charts may share.
+    """
     name: str
     title: str
     table: str
@@ -52,15 +58,15 @@ CHARTS = [Entry(*words) for words in (
     ("continuum", "Lattices and continuum theory", "continuum", continuum.continuum, "continuum"),
     ("statics", "States of rest", "statics", statics.statics, "statics"),
 )]
-# Other tables that are drawn with these charts, or that have no chart.
+# Tables that are drawn in a chart of another table, or have no chart.
 BESIDE = ["stability_map", "ceilings", "table1_simulated", "table2_simulated",
           "work_precision_cheapest", "work_precision_comparisons"]
-# Of any other table: a study of cells that a user wrote.
+# The charts of any other table, which is a study of cells that a user wrote.
 CELLS = {"": cells.speedups, "_scaling": cells.scaling, "_figure9": cells.figure9}
 
 
 def figures_of(results):
-    """Entries by the name of their figure, of the tables that are there."""
+    """The entries of each figure, by its name, for the tables that are there."""
     found, known = {}, {entry.table for entry in CHARTS} | set(BESIDE)
     for entry in CHARTS:
         if results.has(entry.table):

@@ -1,4 +1,4 @@
-"""Advice against truth: errors over tolerances, times over the cheapest, and what is gained."""
+"""The configurations that `dssbench advise` names: their errors, their times and their gains."""
 from description import Axis, Chart, Filter, Look, Panel, Series, guide, keys_of, looks_of
 from tables.words import problem
 
@@ -7,14 +7,14 @@ COLUMNS = {
     "precision": "precision", "variant": "variant", "threads": "threads",
     "true_error": "true error", "error_estimate": "estimated error",
     "measured_wall_s": "median time [s]", "speedup_over_paper": "against the paper's configuration",
-    "paper_error": "error of that", "time_over_cheapest": "over the cheapest found",
+    "paper_error": "error of the paper's", "time_over_cheapest": "over the cheapest found",
     "brute_force_runs": "runs of the search", "verdict": "verdict", "status": "status",
     "reason": "reason"}
-BAR = 1.5  # times the cheapest
+BAR = 1.5  # largest allowed ratio to the cheapest time
 
 
 def advice(results):
-    """Errors, times over the cheapest and gains, a line a scene."""
+    """Gains, errors and times over tolerances; each scene has a line."""
     frame = results.table(
         "advise", "scene", "tolerance", "verdict", "status",
         optional=["set", "true_error", "error_estimate", "speedup_over_paper",
@@ -32,19 +32,21 @@ def advice(results):
         errors.append(Series(f"estimate, {name}", rows, "tolerance", "error_estimate", estimate,
                              keys, entry=""))
     ends, dashed = [frame["tolerance"].min(), frame["tolerance"].max()], Look("soft", line="dash")
-    errors.append(guide("tolerance", [(end, end) for end in ends], dashed, entry="tolerance, bar"))
+    errors.append(guide("tolerance", [(end, end) for end in ends], dashed, entry="limit"))
     for panel, height in ((gains, 1), (times, BAR)):
         points = [(end, height) for end in ends]
-        panel.append(guide("bar", points, dashed, entry="tolerance, bar"))
+        panel.append(guide("bar", points, dashed, entry="limit"))
     kept = (frame["true_error"] <= frame["tolerance"]).sum()
     most = frame["time_over_cheapest"].max()
-    over = (f"what is advised takes at most {most:.3g} times as long as the cheapest that trying "
-            "everything found" if most == most else "nothing was held against trying everything")
-    heading = ("Advised configurations: how many times faster than the paper's, which may be far "
-               "more accurate than was asked for; their true errors (large hollow marks: the "
-               "estimates); their times over the cheapest that was found.")
-    x = Axis("tolerance", "log", is_reversed=True)
-    titles = ("times the paper's configuration", "true error, relative", "time over the cheapest")
+    over = (f"the advised configuration takes at most {most:.3g} times the cheapest time of a full "
+            "search" if most == most else "no full search was made")
+    heading = ("Advised configurations. Left: the speed-up against the paper's configuration, "
+               "which may be far more accurate than the tolerance. Middle: the true error; large "
+               "hollow marks are estimates. Right: the time over the cheapest time of a full "
+               "search. Dashed: equal speed, the tolerance, and the largest allowed ratio.")
+    ticks = {tolerance: f"{tolerance:.0e}" for tolerance in sorted(frame["tolerance"].unique())}
+    x = Axis("tolerance", "log", ticks=ticks, is_reversed=True)
+    titles = ("speed-up against the paper's", "true error, relative", "time over the cheapest")
     axes = [Axis(title, scale) for title, scale in zip(titles, ("log", "log", "linear"))]
     axes[2].limits = (0.9, max(1.05 * BAR, 1.05 * most if most == most else 0))
     return Chart("advise", frame, COLUMNS,

@@ -1,17 +1,18 @@
-"""The modelled balance of a slow and a fast executor, over the ratio of their speeds."""
+"""The modelled balance between a slow and a fast executor, over the ratio of their speeds."""
 from description import Axis, Chart, Filter, Look, Panel, Series, guide, keys_of, looks_of
 from tables.results import NotMeasured
 
 COLUMNS = {
-    "n": "n", "speed_ratio": "speeds, fast over slow", "link": "link", "overlapped": "overlapped",
+    "n": "n", "speed_ratio": "speeds, fast over slow", "link": "bus", "overlapped": "overlapped",
     "latency_us": "latency [us]", "gb_per_s": "GB/s", "modelled_fast_share": "share of the fast",
-    "modelled_of_sum": "over the sum of both", "modelled_of_fast": "over the fast alone",
-    "modelled_equal_split_of_fast": "two halves, over the fast alone",
-    "modelled_joining_pays": "joining pays", "status": "status"}
+    "modelled_of_sum": "speed over the sum of both",
+    "modelled_of_fast": "speed over the fast one alone",
+    "modelled_equal_split_of_fast": "two halves, speed over the fast one alone",
+    "modelled_joining_pays": "the slow one helps", "status": "status"}
 
 
 def balance(results):
-    """Throughput over the sum of both speeds, and over the fast one alone; a line a plate."""
+    """Speed over the sum of both speeds, and over the fast one alone; each plate has a line."""
     frame = results.table("balance", "n", "speed_ratio", "link", "overlapped", "latency_us",
                           "gb_per_s", "slow_element_steps_per_s", "modelled_of_sum",
                           "modelled_of_fast", "modelled_equal_split_of_fast")
@@ -35,14 +36,14 @@ def balance(results):
     ends = [(ratios[0], 1), (ratios[-1], 1)]
     below.append(guide("the fast alone", ends, Look("soft", line="dash"), entry=""))
     slow, pays = frame["slow_element_steps_per_s"].iloc[0], (frame["modelled_of_fast"] > 1).sum()
-    heading = (f"Modelled, not measured: the slow executor makes {slow:.3g} element-steps/s. Full "
-               "lines: the best shares; dotted: two halves. Above 1, the dashed line, joining the "
-               "slow one to the fast one pays.")
+    heading = (f"Modelled, not measured. The slow executor makes {1e-6 * slow:.3g} million "
+               "element-steps/s. Solid lines: the best shares. Dotted lines: two halves. Above "
+               "the dashed line the slow executor makes the fast one faster.")
     x = Axis("speeds, fast over slow", "log", ticks={ratio: f"{ratio:g}" for ratio in ratios})
     return Chart("balance", frame, COLUMNS, [
-        Panel(x, Axis("over the sum of both", limits=(0, 1.05)), above),
-        Panel(x, Axis("over the fast one alone", "log", ticks={
+        Panel(x, Axis("speed over the sum of both", limits=(0, 1.05)), above),
+        Panel(x, Axis("speed over the fast one alone", "log", ticks={
             ratio: f"{ratio:g}" for ratio in (0.01, 0.03, 0.1, 0.3, 1, 2)}), below)],
-        heading, f"Joining pays in {pays} of {len(frame)} cases.",
-        [Filter("panel", "Link", is_single=True), Filter("plate", "Plate")], ("panel",),
+        heading, f"The slow executor helps in {pays} of {len(frame)} cases.",
+        [Filter("panel", "Bus", is_single=True), Filter("plate", "Plate")], ("panel",),
         titles=titles, columns_of_facets=4, size=(3.2, 2.8))

@@ -1,4 +1,4 @@
-"""Tables of cells, as Tables 1 to 3: speed-ups, scaling over ranks, and the paper's figure 9."""
+"""Charts of tables of cells, such as Tables 1 to 3: speed-ups, scaling and the paper's figure 9."""
 import re
 
 import pandas
@@ -15,14 +15,14 @@ HALO_LOOKS = {"sendrecv": Look("#D55E00", "square"), "overlap": Look("#E69F00", 
 OTHER_HALO = Look("#999999", "x")
 CELL = ["source", "label", "variant", "threads", "status"]
 PROBLEM = ["scene", "set", "model", "precision", "integrator"]
-# Rows that differ in these are not points of one line.
+# The points of one line have equal values in these columns.
 LINE = ["scene", "variant", "threads", "model", "precision", "integrator"]
 INTERVALS = ["speedup_vs_1_rank", "weak_efficiency"]
-STEPS = 10000  # of the paper's figure 9
+STEPS = 10000  # in the paper's figure 9
 
 
 def ends_of(column):
-    """The columns of an interval."""
+    """The columns of the interval of a column."""
     return f"{column}_low", f"{column}_high"
 
 
@@ -32,7 +32,7 @@ def is_pair(frame):
 
 
 def base_of(frame, table):
-    """The variant that speed-ups refer to: the last one that the table has columns for."""
+    """The variant that speed-ups refer to: the last one with a column of speed-ups."""
     columns = [re.fullmatch(r"(?:extrapolated_)?speedup_vs_(.*)", name) for name in frame.columns]
     found = [match[1] for match in columns if match and match[1] in set(frame["variant"])]
     if not found:
@@ -41,7 +41,7 @@ def base_of(frame, table):
 
 
 def with_speedup(frame, base):
-    """Measured rows that have a speed-up, which may be scaled from fewer steps."""
+    """Measured rows with a speed-up, which may be scaled from fewer steps."""
     rows = frame[frame["source"] == "measured"].copy()
     exact = rows.get(f"speedup_vs_{base}", pandas.Series(float("nan"), rows.index))
     rows["is_scaled"] = exact.isna()
@@ -56,7 +56,7 @@ def with_speedup(frame, base):
 
 
 def base_time(rows, base):
-    """The time of the base, in words."""
+    """The base and its time in words."""
     own = rows[(rows["variant"] == base) & (rows["threads"] == 1) & ~is_pair(rows)
                & (rows["ranks"].fillna(1) == 1)]
     if own.empty or is_missing(own.iloc[0]["measured_wall_s"]):
@@ -66,7 +66,7 @@ def base_time(rows, base):
 
 
 def speedups(table):
-    """A bar a cell, a panel a problem."""
+    """The speed-ups of a table: each problem has a panel, each cell a bar."""
     def make(results):
         frame = results.table(table, *CELL, "scene", "repetitions", optional=[
             *PROBLEM, "ranks", "contaminated", "measured_wall_s", "steps", "resolution"])
@@ -115,7 +115,10 @@ def speedups(table):
 
 
 def with_points(rows, base, measured, scale):
-    """Rows with their ratio to one rank: as measured, or of rates where workers share cores."""
+    """Rows with their ratio to one rank.
+
+    Where workers share cores, it is a ratio of rates; elsewhere a measured speed-up.
+    """
     rows = rows[rows["ranks"] > 1].sort_values("ranks").copy()
     ratio = scale(rows) * rows["element_steps_per_s"] / base["element_steps_per_s"]
     rows["is_hollow"] = rows["status"] == "oversubscribed"
@@ -126,8 +129,7 @@ def with_points(rows, base, measured, scale):
 
 
 def problems_over_ranks(frame):
-    """(variant, what else sets the problem apart, is weak, rows) of each problem that was run on
-    one rank and on several."""
+    """(values of LINE, words, rows, base) of each problem that ran on one rank and on several."""
     def named(names):
         return dict(zip(LINE, names))
     for names, group in frame.groupby([*LINE, "set"], sort=False, dropna=False):
@@ -146,7 +148,7 @@ def problems_over_ranks(frame):
 
 
 def panels_over_ranks(frame):
-    """(name, title, rows with the base) of each panel, the one with the most strategies first."""
+    """(name, title, rows, base) of each panel; the one with the most strategies is the first."""
     found = []
     for line, words, rows, base in problems_over_ranks(frame):
         if rows.empty:
@@ -161,7 +163,7 @@ def panels_over_ranks(frame):
 
 
 def halo_series(panel, rows, base):
-    """(series of ratios, series of shares): a line a halo strategy, side by side at each rank."""
+    """(series of ratios, series of shares) of each halo strategy, side by side at each rank."""
     groups = list(rows.groupby(["halo", "decomposition"], sort=False, dropna=False))
     for place, ((halo, decomposition), line) in enumerate(groups):
         words = [shown(halo), shown(decomposition)]
@@ -185,7 +187,7 @@ RANKS_COLUMNS = {
 
 
 def scaling(table):
-    """Ratios to one rank over ranks, and the time in exchanges below."""
+    """The ratios to one rank over the number of ranks, and the time in exchanges below."""
     def make(results):
         optional = [*PROBLEM, "ranks", "halo", "decomposition", "weak_base_set", *INTERVALS,
                     *(end for column in INTERVALS for end in ends_of(column)),
@@ -195,7 +197,7 @@ def scaling(table):
                       & ~is_pair(frame) & frame["status"].isin(["ok", "oversubscribed"])]
         panels = panels_over_ranks(frame)
         if not panels:
-            raise NotMeasured("no cell on several ranks has its like on one")
+            raise NotMeasured("no cell on several ranks has a cell on one rank to compare with")
         ratios, shares, titles = [], [], {}
         for name, title, rows, base in panels:
             titles[name,] = title
@@ -207,11 +209,11 @@ def scaling(table):
             ratios.append(guide("ideal", ideal, Look("soft", line="dot"), keys={"variant": name}))
         rows = pandas.concat([panel[2].assign(variant=panel[0]) for panel in panels])
         cores, best = int(rows["cores"].max()), rows[~rows["is_hollow"]]
-        findings = "" if best.empty else (f"The best counted one is {best['point'].max():.3g} "
+        findings = "" if best.empty else (f"The largest speed-up is {best['point'].max():.3g} "
                                           f"({best.loc[best['point'].idxmax(), 'label']}).")
-        heading = ("Ratio of the speed to that of one rank of the same variant (weak scaling: of "
-                   "the speed a rank), medians of paired ratios with 95 % intervals. Hollow marks "
-                   f"have more workers than the {cores} cores: ratios of rates, no speed-ups.")
+        heading = ("The speed over that of one rank of the same variant (weak scaling: the speed "
+                   "of each rank). Medians of paired ratios with 95 % intervals. Hollow marks: "
+                   f"more workers than the {cores} cores; they are ratios of rates, no speed-ups.")
         ticks = {rank: f"{rank}" for rank in [1, *sorted(rows["ranks"].astype(int).unique())]}
         x = Axis("ranks", ticks=ticks, limits=(0.7, rows["ranks"].max() + 0.4))
         top = rows[["point", "point_high"]].max().max()
@@ -226,7 +228,7 @@ def scaling(table):
 
 
 def figure9(table):
-    """Time of 10,000 steps over the side of the plate, measured here and published."""
+    """The time of 10,000 steps over the side of the plate, measured here and published."""
     def make(results):
         frame = results.table(table, "source", "label", "set", "status", "measured_wall_s",
                               "paper_wall_s", "steps", optional=["precision", "reason"])
@@ -235,7 +237,7 @@ def figure9(table):
         frame = frame[frame["n"].notna()].sort_values("n", kind="stable")
         measured, paper = (frame[frame["source"] == name] for name in ("measured", "paper"))
         if paper.empty or measured["n"].nunique() < 2:
-            raise NotMeasured("no published times of plates beside measured ones")
+            raise NotMeasured("there are no published times beside measured ones")
         timed = measured[measured["measured_wall_s"].notna() & (measured["status"] == "ok")]
         timed = timed.assign(time_s=timed["measured_wall_s"] / timed["steps"] * STEPS)
         paper = paper.assign(time_s=paper["paper_wall_s"])
@@ -255,7 +257,7 @@ def figure9(table):
         names = "; ".join(dict.fromkeys(lacking["label"]))
         findings = (f"Unavailable here: {names} ({shown(lacking['reason'].iloc[0])})."
                     if names else "")
-        heading = ("Filled marks: measured here, scaled to 10,000 steps where fewer ran. Hollow "
+        heading = ("Filled marks: measured here, and scaled to 10,000 steps if fewer ran. Hollow "
                    "marks: published, on the paper's machines.")
         columns = {"label": "configuration", "source": "source", "set": "plate",
                    "time_s": f"time of {STEPS:,} steps [s]", "steps": "steps that ran",

@@ -1,4 +1,4 @@
-"""Where errors come from, side by side."""
+"""The errors of one configuration by their source."""
 from description import Axis, Chart, Filter, Look, Panel, Series, colours_of, keys_of
 from tables.results import NotMeasured
 from tables.words import is_missing
@@ -9,11 +9,12 @@ COLUMNS = {
     "refined": "kept on all grids"}
 KINDS = {"time": "#0072B2", "space": "#D55E00", "rounding": "#009E73", "model": "#E69F00",
          "rotation": "#CC79A7"}
-LEAST = 1e-17  # bars begin here: an error of zero has none
+LEAST = 1e-17  # bars begin here; an error of zero has no bar
+TICKS = {10.0**power: f"1e{power}" if power else "1" for power in range(-15, 1, 3)}
 
 
 def words(row):
-    """Beside a bar: the error, and what must be known of it."""
+    """The text beside a bar: the error, its observed order and its status."""
     if is_missing(row["error"]):
         return str(row["status"])
     text = "none" if row["error"] == 0 else f"{row['error']:.1e}"
@@ -23,13 +24,13 @@ def words(row):
 
 
 def source_of(row):
-    """The source of an error; of time with its step."""
+    """The source of an error; an error of time has its step."""
     has_step = row["source"].startswith("time") and not is_missing(row["dt_s"])
     return f"{row['source']} (dt = {row['dt_s']:.3g} s)" if has_step else row["source"]
 
 
 def error_budget(results):
-    """A bar a source, a panel a problem."""
+    """Each problem has a panel, each source a bar."""
     frame = results.table("error_budget", "label", "source", "error", "status",
                           optional=["integrator", "elements", "end_time_s", "observed_order",
                                     "dt_s"])
@@ -52,15 +53,15 @@ def error_budget(results):
         titles[label,] = (f"{label}: {first['integrator']}, {first['elements']:.0f} elements, to "
                           f"{first['end_time_s']:g} s")
     largest = good.loc[good.groupby("label", sort=False)["error"].idxmax()]
-    findings = "; ".join(f"of {row['label']} the largest is {row['source']} ({row['error']:.2g})"
+    findings = "; ".join(f"{row['label']}: {row['source']} ({row['error']:.2g})"
                          for _, row in largest.iterrows())
-    heading = ("Errors of one configuration by their source, relative. Hatched: refinement has no "
-               "limit, and the bar is the difference between the first and the last grid.")
+    heading = ("Relative errors of one configuration by their source. Hatched: refinement has no "
+               "limit; the bar is the difference between the first and the last grid.")
     most = max(rows["source"].nunique() for _, rows in frame.groupby("label"))
     x = Axis("relative error of displacements, largest over the saved times", "log",
-             limits=(LEAST, 1e8))
+             limits=(LEAST, 1e8), ticks=TICKS)  # the labels of bars need room
     y = Axis(scale="category", categories=list(dict.fromkeys(frame["named"])), is_reversed=True)
     return Chart("error_budget", frame, COLUMNS, [Panel(x, y, series)], heading,
-                 f"{findings[0].upper()}{findings[1:]}.",
+                 f"Largest errors: {findings}.",
                  [Filter("label", "Problem", is_single=True)], ("label",), titles=titles,
                  columns_of_facets=1, size=(8, 0.8 + 0.24 * most))

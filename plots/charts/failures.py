@@ -1,4 +1,4 @@
-"""The failure atlas: methods by cases, with theory's reason for each cell."""
+"""The failure atlas: methods by cases, with the expected verdict and its reason."""
 import math
 
 from description import Axis, Chart, Filter, Look, Panel, Series, keys_of
@@ -9,7 +9,7 @@ VERDICTS = {"ok": Look("#009E73", "square"), "inaccurate": Look("#E69F00", "tria
             "drifts": Look("#56B4E9", "diamond"), "unstable": Look("#D55E00", "x"),
             "refused": Look("#999999", "circle", is_hollow=True)}
 OTHER = Look("ink", "star")
-METRICS = {"error": "relative error", "travel_error": "error of the way",
+METRICS = {"error": "relative error", "travel_error": "error over distance moved",
            "observed_order": "observed order", "energy_change": "change of energy",
            "energy_trend": "trend of energy", "amplitude": "growth", "tip_gap": "gap at closing",
            "value": "deflection"}
@@ -25,8 +25,7 @@ FILTERS = [Filter("verdict", "Verdict"), Filter("expected", "Expected"),
 
 
 def row_of(cell):
-    """The line of the atlas that a cell is on: its case, and its precision and rotation where
-    these are the point."""
+    """The row of a cell: its case, and its precision and rotation if they are not the usual."""
     rotation = str(cell["rotation"]).replace("tait_bryan", "angles")
     special = [cell["precision"]] * (cell["precision"] != "f64")
     special += [rotation] * (not is_missing(cell["rotation"]) and rotation != "quaternion")
@@ -34,7 +33,7 @@ def row_of(cell):
 
 
 def shown_figure(cells):
-    """The figure of the cell that is farthest from right, in three letters or a little more."""
+    """The worst figure of the cells of one place, in a few letters."""
     if (cells["verdict"] == "refused").all():
         return "refused"
     figures = cells["figure"].dropna()
@@ -51,7 +50,10 @@ def shown_figure(cells):
 
 
 def with_places(frame, rows, methods):
-    """Where cells stand: variations of one cell share its width."""
+    """Adds places and labels to `frame`: the cells of one row and method share its width.
+
+    @returns the number of cells that share a place
+    """
     group = frame.groupby(["row", "method"])
     place, count = group.cumcount(), group["line"].transform("count")
     frame["width"] = 1 / count
@@ -65,7 +67,7 @@ def with_places(frame, rows, methods):
 
 
 def atlas(results):
-    """A row a case, a column a method; the number is the figure behind the verdict."""
+    """Each case has a row, each method a column."""
     frame = results.table("failures", "case", "method", "precision", "metric", "verdict",
                           "expected", "why", "status", optional=["set", "figure", "rotation"])
     frame["figure"] = frame["figure"].astype(float)
@@ -79,18 +81,18 @@ def atlas(results):
         look = look.but(size=11 if count[cells.index].max() < 4 else 8)
         name = names[0]
         if names[-1] == "failed":
-            look, name = look.but(edge="ink"), f"{name}, not as theory says"
+            look, name = look.but(edge="ink"), f"{name}, differs from theory"
         series.append(Series(name, cells, "x", "y", look, keys_of(cells, *[
             one.key for one in FILTERS]), kind="tiles", label="number", width="width"))
     series.sort(key=lambda one: one.look.edge != "")
     wrong, refused = (frame["status"] == "failed").sum(), (frame["verdict"] != "ok").sum()
-    heading = ("Which method works on which case, and what becomes of it where it does not. A "
-               "cell with several variations has a part for each; the number is the figure behind "
-               "the verdict, of several the one farthest from right.")
-    findings = (f"{len(frame)} cells, {refused} of them not ok; {wrong if wrong else 'none'} "
-                f"{'is' if wrong < 2 else 'are'} other than theory says"
-                f"{' (thick edge)' if wrong else ''}. Each cell says its verdict, the expected one "
-                "and the reason.")
+    heading = ("The verdict of each method on each case. A cell with several variations has a "
+               "part for each of them. The number is the figure that gives the verdict; of "
+               "several variations it is the worst.")
+    findings = (f"{refused} of {len(frame)} cells are not ok; {wrong if wrong else 'none'} "
+                f"{'differs' if wrong < 2 else 'differ'} from theory"
+                f"{' (thick edge)' if wrong else ''}. Each cell has its verdict, the expected "
+                "verdict and the reason.")
     names = [method.replace("_", "\n", 1) for method in methods]
     x = Axis(ticks=dict(enumerate(names)), limits=(-0.6, len(methods) - 0.4), is_at_top=True)
     measures = frame.groupby("row")["metric_name"].first()

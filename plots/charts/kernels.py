@@ -1,5 +1,4 @@
-"""Kernels under the ceilings that were measured in the same session, and where the time of a
-step goes."""
+"""Kernels under measured ceilings, and the time of a step by its parts."""
 from description import (MARKS, Axis, Chart, Filter, Look, Panel, Series, by_order, colours_of,
                          guide, keys_of, marks_in_words)
 from tables.results import NotMeasured
@@ -12,20 +11,20 @@ KERNEL_COLUMNS = {
     "measured_ns_per_element": "ns an element", "measured_ns_per_element_low": "from",
     "measured_ns_per_element_high": "to", "share_of_roof": "share of its roof",
     "limiter": "limiter", "check": "check", "status": "status", "reason": "reason"}
-# A step is made of these; the other kernels are parts of them.
+# A step consists of these kernels; the others are parts of them.
 WHOLE = ["rk4_step", "rates", "stage_row", "stage_row_last"]
 ROOFLINE_FILTERS = [
     Filter("precision", "Precision", is_single=True), Filter("threads", "Threads", is_single=True),
     Filter("variant", "Variant"),
     Filter("kernel", "Kernel", first=("whole rows and steps", WHOLE)), Filter("level", "Level"),
     Filter("model", "Model")]
-# The instruction set that a variant is made of; others have the name of theirs.
+# The instruction set of a variant, if its name is another.
 ISA_OF = {"scalar-native": "scalar", "reference": "scalar", "opencl-rhs": "opencl"}
 LEVEL_LINES = ["solid", "dash", "dashdot", "dot"]
 
 
 def roofs(results, variants, least, most):
-    """The ceilings of each variant: of each memory level the slope, up to the peak."""
+    """The ceilings of each variant: the slope of each memory level, up to the peak."""
     try:
         frame = results.table("ceilings", "kind", "benchmark", "isa", "threads", "measured_per_s",
                               optional=["precision", "level"])
@@ -37,7 +36,7 @@ def roofs(results, variants, least, most):
     best = peaks.groupby(["isa", "precision", "threads"])["measured_per_s"].idxmax()
     for _, peak in peaks.loc[best].iterrows():
         own = bandwidths[bandwidths["threads"] == peak["threads"]]
-        # All instruction sets share the levels of the processor; a device has its own.
+        # All instruction sets share the memory of the processor; a device has its own.
         is_own = own["isa"] == peak["isa"]
         own = own[is_own] if is_own.any() else own[own["isa"] != "opencl"]
         for variant in [name for name in variants if ISA_OF.get(name, name) == peak["isa"]]:
@@ -71,10 +70,11 @@ def roofline(results):
         series.append(Series(f"{kernel}, {variant}", rows, "intensity_flop_per_byte",
                              "flops_per_s", looks[variant].but(colour=colours[kernel]),
                              keys_of(rows, *keys), entry=kernel))
-    roof = ("Grey lines are ceilings as measured in this session, by memory level." if has_roof
+    roof = ("Grey lines are measured ceilings: a slope is the bandwidth of a memory level, a "
+            "horizontal line the peak of one instruction set." if has_roof
             else "The ceilings were not measured: run `dssbench experiment kernels`.")
-    heading = ("Declared flops over the measured time, against declared flops over bytes. A colour "
-               "is a kernel (of all at once some share one), a mark a variant "
+    heading = ("Declared flops over the measured time, against declared flops over declared bytes. "
+               "A colour is a kernel (some kernels share one), a mark a variant "
                f"({marks_in_words(looks)}). {roof}")
     legend = [(name, Look(colours[name], line="solid", width=4)) for name in whole]
     legend += list(looks.items())
@@ -89,7 +89,7 @@ def roofline(results):
 
 
 def closest_to_roof(rows):
-    """The kernel with the largest share of its roof, in words."""
+    """The kernel with the largest share of its ceiling, in words."""
     if rows["share_of_roof"].isna().all():
         return ""
     best = rows.loc[rows["share_of_roof"].idxmax()]
@@ -103,20 +103,20 @@ PART_COLUMNS = {
     "variant": "variant", "model": "model", "precision": "precision", "problem": "scene",
     "threads": "threads", "part": "part", "count_per_step": "a step",
     "measured_ns_per_element_step": "ns an element and step", "share_of_step": "share of the step",
-    "share_of_ceiling": "share of its ceiling", "measured_in_l1_ns": "by itself in L1 [ns]",
+    "share_of_ceiling": "share of its ceiling", "measured_in_l1_ns": "timed alone in L1 [ns]",
     "share_of_ceiling_in_l1": "share of its ceiling, in L1",
     "mix_bound_ns": "bound: its instructions [ns]",
-    "mix_without_stack_bound_ns": "bound: these without the stack [ns]",
+    "mix_without_stack_bound_ns": "bound: its instructions without the stack [ns]",
     "peak_bound_ns": "bound: its flops [ns]", "traffic_bound_ns": "bound: its bytes [ns]",
     "limiter": "limiter", "sum_over_step": "sum of parts over the step"}
 PART_FILTERS = [Filter("variant", "Variant"), Filter("model", "Model"),
                 Filter("precision", "Precision"), Filter("problem", "Scene"),
                 Filter("threads", "Threads")]
-HATCHES = ["", "/", "x", ".", "-", "|", "+"]  # parts differ without their colours too
+HATCHES = ["", "/", "x", ".", "-", "|", "+"]  # parts differ in more than their colours
 
 
 def attribution(results):
-    """Kernels and the rest, stacked; a mark is the step itself."""
+    """The parts of a step as stacked bars; a mark is the step itself."""
     frame = results.table("attribution", "variant", "scene", "part",
                           "measured_ns_per_element_step",
                           optional=["model", "precision", "n", "threads", "sum_over_step"])
@@ -141,11 +141,11 @@ def attribution(results):
     ends = dict.fromkeys(f"{end:.3g}" for end in (sums.min(), sums.max()))
     findings = "" if sums.empty else (f"The parts add up to {' to '.join(ends)} of the step's own "
                                       "time.")
-    heading = ("Time of an element and step, by part; each part says its limiter, its bounds and "
-               "its shares of ceilings. A part below zero (the rest, where the step is faster than "
-               "its rows by themselves) points to the left.")
+    heading = ("Time of a step for one element, by part. The rest is the step less its row "
+               "kernels timed alone. It is below zero, to the left, if the step is faster than "
+               "these. Threads: t1 is one thread.")
     bars = list(dict.fromkeys(frame["bar"]))
-    panel = Panel(Axis("ns an element and step"),
+    panel = Panel(Axis("time of an element and step [ns]"),
                   Axis(scale="category", categories=bars, is_reversed=True), series)
     return Chart("attribution", frame, PART_COLUMNS, [panel], heading, findings, PART_FILTERS,
                  height=180 + 30 * len(bars), size=(7.5, 0.9 + 0.3 * len(bars)))

@@ -1,9 +1,9 @@
-"""Which models suffice for which scene, and what they cost."""
+"""The model ladder: which models suffice for a scene, and what they cost."""
 from description import (Axis, Chart, Filter, Look, Panel, Series, colours_of, guide, keys_of)
 from tables.results import NotMeasured
 from tables.words import is_missing, problem
 
-# Okabe and Ito's colours, and grey, from the least work to the most.
+# From the least work to the most.
 COLOURS = {"axial": "#56B4E9", "bending": "#E69F00", "membrane": "#999999", "planar": "#009E73",
            "linear": "#CC79A7", "small": "#D55E00", "spatial": "#0072B2"}
 MARKS = {"axial": "triangle-up", "bending": "square", "membrane": "diamond", "planar": "circle",
@@ -11,17 +11,17 @@ MARKS = {"axial": "triangle-up", "bending": "square", "membrane": "diamond", "pl
 COLUMNS = {
     "problem": "scene", "model": "model", "verdict": "verdict", "error": "error",
     "tolerance": "tolerance", "wall_s": "time [s]", "provable": "provable", "why_not": "why not",
-    "ends_with": "auto ends with", "promotions": "promotions", "status": "status",
+    "ends_with": "last model of auto", "promotions": "promotions", "status": "status",
     "reason": "reason"}
-# Verdicts differ in their marks too.
 VERDICTS = {"sufficient": Look("#009E73", "square", size=13),
             "insufficient": Look("#D55E00", "x", size=13)}
 OTHER = Look("#5F5F5F", "triangle-up", size=13)
 RING = Look("ink", "circle", is_hollow=True, size=21)
-LEAST, MOST = 1e-17, 1e3  # errors beyond are drawn there
+LEAST, MOST = 1e-17, 1e3  # errors beyond these limits are drawn at them
 
 
 def rows_of(results):
+    """Rows with the name of their problem."""
     frame = results.table("model_ladder", "scene", "model", "tolerance", "verdict", "status",
                           optional=["set", "precision", "wall_s", "error", "provable", "why_not",
                                     "ends_with", "promotions", "steps"])
@@ -31,7 +31,7 @@ def rows_of(results):
 
 
 def verdicts(results):
-    """Scenes by models: verdicts, and a ring round the model that auto ends with."""
+    """The verdicts of models on scenes, and a ring round the last model of `auto`."""
     frame = rows_of(results)
     models = frame[frame["model"] != "auto"]
     chosen = frame[(frame["model"] == "auto") & frame["ends_with"].notna()]
@@ -42,15 +42,15 @@ def verdicts(results):
         series.append(Series(names[0], rows, "model", "problem", VERDICTS.get(names[0], OTHER),
                              keys_of(rows, "verdict", "provable")))
     if not chosen.empty:
-        series.append(Series("auto ends with it", chosen, "ends_with", "problem", RING))
+        series.append(Series("last model of auto", chosen, "ends_with", "problem", RING))
     order = [model for model in COLOURS if model in set(models["model"])]
     order += sorted(set(models["model"]) - set(order))
     scenes = list(dict.fromkeys(frame["problem"]))
     good = chosen["error"].le(chosen["tolerance"]).sum()
-    heading = ("Squares: the model meets the scene's tolerance; crosses: it does not; a ring: the "
-               "model that `--model auto` ends with.")
-    findings = (f"Auto meets the tolerance on {good} of {len(chosen)} scenes. Each mark says its "
-                "error and why the model is not proven to suffice.")
+    heading = ("A square: the model meets the tolerance of the scene. A cross: it does not. A "
+               "ring: the last model of `--model auto`.")
+    findings = (f"`--model auto` meets the tolerance on {good} of {len(chosen)} scenes. Each mark "
+                "has its error, and the reason if the model is not proven to suffice.")
     x = Axis(scale="category", categories=order, is_at_top=True)
     y = Axis(scale="category", categories=scenes, is_reversed=True)
     return Chart("model_ladder", frame, COLUMNS, [Panel(x, y, series)], heading, findings,
@@ -59,8 +59,7 @@ def verdicts(results):
 
 
 def series_of(frame):
-    """Points by model; models without the degrees of freedom have no time and stand at the left
-    edge."""
+    """Points of models; a model without a time, which lacks degrees of freedom, is at the left."""
     colours = colours_of(frame["model"].unique(), COLOURS)
     for (_, model, verdict), rows in frame.groupby(["problem", "model", "verdict"], sort=False):
         if model == "auto":
@@ -79,7 +78,7 @@ def series_of(frame):
 
 
 def errors(results):
-    """Error against time, a panel a scene."""
+    """Error against time; each scene has a panel."""
     frame = rows_of(results)
     if frame["wall_s"].isna().all():
         raise NotMeasured("no model was timed")
@@ -99,11 +98,10 @@ def errors(results):
     legend = [(model, Look(COLOURS[model], MARKS[model], size=9)) for model in models]
     legend += [("does not suffice", Look("soft", "circle", is_hollow=True, size=9)),
                ("auto", RING.but(size=17)), ("tolerance", Look("soft", line="dash", width=1))]
-    heading = ("Error against the spatial oracle over the time of a run; above each panel the "
-               "model that `--model auto` ends with. Filled marks are within the scene's "
-               "tolerance, hollow ones are not; at the left edge: models without the degrees of "
-               "freedom, which have no time. "
-               f"Errors beyond {LEAST:g} and {MOST:g} are drawn there.")
+    heading = ("Error against the spatial oracle, over the time of a run. The title has the last "
+               "model of `--model auto`. Filled marks are within the tolerance of the scene, "
+               "hollow marks are not. Models that lack degrees of freedom were not timed and stand "
+               f"at the left edge. Errors beyond {LEAST:g} and {MOST:g} are drawn at these limits.")
     y = Axis("relative error", "log", limits=(LEAST / 3, 30 * MOST))
     panel = Panel(Axis("time of a run [s]", "log"), y, series)
     return Chart("model_ladder", frame, COLUMNS, [panel], heading,

@@ -1,4 +1,4 @@
-"""Where methods are stable, and what a stable step does to the energy of an undamped mode."""
+"""The stability limits of methods, and the energy of an undamped mode in a stable step."""
 import pandas
 from description import (Axis, Chart, ColourScale, Filter, Look, Panel, Series, guide, keys_of,
                          looks_of)
@@ -13,8 +13,8 @@ COLUMNS = {
     "prediction": "prediction"}
 NO_DAMPING = 1e-3  # where zeta = 0 is drawn on a logarithmic axis
 STEP = "step times frequency, h omega [rad]"
-# From blue (the step shrinks every motion) by white (neither) to red (some motion grows): RdBu,
-# safe with any colour vision.
+# From blue (every motion shrinks) over white (no change) to red (some motion grows). Any colour
+# vision can tell these apart.
 RADIUS = ColourScale("spectral radius of one step", 0, 1.5, (
     (0, "#2166AC"), (0.35, "#92C5DE"), (0.6533, "#F7F7F7"), (0.6668, "#F7F7F7"),
     (0.69, "#F4A582"), (1, "#B2182B")))
@@ -23,7 +23,7 @@ KINDS = {"one mode": Look("#000000", "circle", size=8),
 
 
 def map_of(rows):
-    """Theory of one method: its spectral radius, and the line of its limit."""
+    """The theory of one method: its spectral radius and the line of its limit."""
     keys = keys_of(rows, "integrator")
     yield Series("theory", rows, "h_omega", "zeta", Look(), keys, entry="", kind="field",
                  z="spectral_radius", scale=RADIUS)
@@ -33,7 +33,7 @@ def map_of(rows):
 
 
 def stability(results):
-    """A map a method, with measured limits."""
+    """A map of each method with its measured limits."""
     limits = results.table("stability", "scene", "integrator", "zeta", "status", optional=[
         "set", "predicted_h_omega", "measured_h_omega", "ratio", "prediction"])
     theory = results.table("stability_map", "integrator", "zeta", "h_omega", "spectral_radius",
@@ -52,13 +52,12 @@ def stability(results):
     is_exact = limits["prediction"].astype(str).str.startswith("exact")
     ratios = measured.loc[(measured["status"] == "ok") & is_exact, "ratio"].dropna()
     farthest = 100 * (ratios - 1).abs().max()
-    words = (f"Of {len(ratios)} limits with an exact prediction the farthest is off by "
+    words = (f"{len(ratios)} limits have an exact prediction; the largest difference to it is "
              f"{farthest:.2g} %. " if len(ratios) else "")
-    heading = ("Blue: a step shrinks every motion; red: some motion grows; the line is the limit "
-               "in theory, the marks are limits as runs show them (undamped ones at the lower "
-               "edge).")
-    findings = (f"{words}The map has {len(theory)} points of theory, which are in "
-                "tables/stability_map.csv; the table below has the limits.")
+    heading = ("Blue: a step shrinks every motion. Red: some motion grows. The line is the limit "
+               "in theory, the marks are measured limits. Undamped ones are at the lower edge.")
+    findings = (f"{words}The {len(theory)} points of theory are in tables/stability_map.csv, the "
+                "measured limits in the table below.")
     x, y = theory["h_omega"], theory["zeta"]
     ticks = {tick: f"{tick:g}" for tick in (0.01, 0.1, 1, 10)}
     panel = Panel(Axis(STEP, "log", limits=(0.9 * x.min(), None)),
@@ -75,7 +74,7 @@ ENERGY_COLUMNS = {
 
 
 def energy(results):
-    """Change of energy in a step: with its sign, and its size on a logarithmic axis."""
+    """The change of energy in a step, with its sign, and below its size on a logarithmic axis."""
     theory, seen = "theory_energy_change_per_step", "measured_energy_change_per_step"
     frame = results.table("stability_energy", "integrator", "h_omega", theory, seen)
     frame = frame.sort_values(["integrator", "h_omega"], kind="stable")
@@ -86,10 +85,10 @@ def energy(results):
         keys, look = keys_of(rows, "integrator"), looks[method]
         drawn.append(tuple(rows[theory].round(9)))
         alike = drawn.count(drawn[-1]) - 1
-        if alike:  # the marks of methods with the same theory stand round each other
+        if alike:  # methods with the same theory: one mark stands round the other
             look = look.but(is_hollow=True, size=7 + 5 * alike)
         line = look.but(mark="", line="solid")
-        # Rounding is all that is measured where theory has no change.
+        # Where theory has no change, only rounding is measured.
         changing = rows[rows[theory] != 0].copy()
         changing["size"] = changing[seen].abs()
         shown = pandas.DataFrame({"x": rows["h_omega"], "y": rows[theory]})
@@ -100,10 +99,10 @@ def energy(results):
         sizes += [Series(method, changing, "h_omega", "size", look, keys),
                   guide(f"{method}, theory", shown.to_numpy(), line, **named)]
     worst = frame.loc[frame[seen].idxmin()]
-    heading = ("Change of energy in one step of an undamped mode: lines are theory, marks are "
-               "runs. Stable is not accurate: most is lost by "
-               f"{worst['integrator']} at h omega = {worst['h_omega']:.3g}, "
-               f"{100 * worst[seen]:.0f} % in a step, and stable.")
+    heading = ("Change of energy in one step of an undamped mode. Lines are theory, marks are "
+               "runs. Stable is not accurate: the largest loss of a stable step is "
+               f"{-100 * worst[seen]:.0f} %, of {worst['integrator']} at h omega = "
+               f"{worst['h_omega']:.3g}.")
     x = Axis(STEP)
     return Chart("stability_energy", frame, ENERGY_COLUMNS, [
         Panel(x, Axis("change of energy in a step", is_percent=True, limits=(-1.05, 0.6)), signed),

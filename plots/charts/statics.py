@@ -1,4 +1,4 @@
-"""Solvers of states of rest: their time, and how far they are from Newton's state."""
+"""Solvers of states of rest: their times, and their differences to Newton's method."""
 from description import Axis, Chart, Filter, Look, Panel, Series, guide, keys_of, looks_of
 from tables.results import NotMeasured
 from tables.words import problem
@@ -8,11 +8,11 @@ COLUMNS = {
     "unknowns": "unknowns", "wall_s": "time [s]", "iterations": "iterations", "steps": "steps",
     "residual": "residual", "difference": "difference", "bar": "bar", "status": "status",
     "reason": "reason", "note": "note"}
-LEAST = 1e-16  # a difference below it is drawn there
+LEAST = 1e-16  # a smaller difference is drawn here
 
 
 def statics(results):
-    """Time over unknowns, and difference over time."""
+    """Time over the number of unknowns, and difference over time."""
     frame = results.table("statics", "scene", "solver", "unknowns", "status", optional=[
         "set", "model", "loads", "wall_s", "difference", "bar"])
     frame["problem"] = [problem(row["scene"], row["set"]) for _, row in frame.iterrows()]
@@ -40,9 +40,10 @@ def statics(results):
     failed = int((frame["status"] == "failed").sum())
     words = (f"{len(held)} comparisons agree within {held.max():.2g} of the largest displacement "
              f"(bar {frame['bar'].max():g})." if len(held) else "")
-    heading = ("Time of each solver over the number of unknowns, and the difference of its "
-               "displacements to those of Newton's method. Hollow marks: linear equations at "
-               f"loads that are not small, which need not meet the bar. {failed or 'None'} failed.")
+    heading = ("Left: the time of each solver. Right: the difference between its displacements and "
+               "those of Newton's method. Hollow marks: linear equations at loads that are not "
+               f"small; they need not meet the bar. {failed or 'No'} "
+               f"comparison{'s' * (failed > 1)} failed.")
     panels = [Panel(Axis("unknowns", "log"), Axis("time of a solution [s]", "log"), times),
               Panel(Axis("time of a solution [s]", "log"),
                     Axis("largest difference to Newton's, relative", "log"), gaps)]

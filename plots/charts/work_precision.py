@@ -1,14 +1,14 @@
-"""Error against time and against evaluations, and the points that no other beats in both."""
+"""Error against time and against evaluations, and the points of the Pareto fronts."""
 from description import (MARKS, PRECISION_LINES, Axis, Chart, Filter, Look, Panel, Series, by_order,
                          colours_of, guide, keys_of, marks_in_words)
 from tables.results import NotMeasured
 from tables.words import problem
 
-# Two shades are of others: the adaptive dopri5's of its own, the smoothed Verlet's of Verlet's.
+# dopri5 adaptive has a shade of dopri5, smoothed_verlet one of velocity_verlet.
 COLOURS = {"rk4": "#0072B2", "velocity_verlet": "#D55E00", "midpoint": "#009E73",
            "symplectic_euler": "#CC79A7", "dopri5": "#E69F00", "dopri5 adaptive": "#8B6100",
            "rkc2": "#56B4E9", "implicit_midpoint": "ink", "smoothed_verlet": "#7A1F00"}
-# What becomes of a point that has no error, in words.
+# The reason why a point has no error.
 EDGE = {"refused": "above the stability limit", "unstable": "unstable",
         "inaccurate": "no correct digit", "wrong": "wrong", "failed": "failed"}
 COLUMNS = {
@@ -26,7 +26,7 @@ FRONT = Look("soft", line="solid", width=7, opacity=0.35, is_step=True)
 
 
 def rows_of(results):
-    """Rows with the name of their problem; methods with adaptive steps are methods of their own."""
+    """Rows with the name of their problem; a method with adaptive steps has its own name."""
     frame = results.table("work_precision", "scene", "variant", "precision", "integrator", "status",
                           optional=["set", "end_time_s", "dt_s", "rtol", "error_max",
                                     "measured_wall_s", *INTERVAL, "evaluations", "pareto",
@@ -38,9 +38,8 @@ def rows_of(results):
 
 
 def failed_at_edge(failed, colours):
-    """Crosses at the upper edge for what has no error."""
-    groups = failed.groupby("problem", sort=False)
-    for _, own in groups:
+    """Crosses at the upper edge, for points without an error."""
+    for _, own in failed.groupby("problem", sort=False):
         for place, (names, rows) in enumerate(own.groupby(KEYS, sort=False)):
             words = rows["status"].map(lambda status: EDGE.get(status, status))
             rows = rows.assign(edge_x=0.02 + 0.03 * (place % 30), status=words)
@@ -50,7 +49,7 @@ def failed_at_edge(failed, colours):
 
 
 def legend_of(frame, colours, marks):
-    """What colours, lines and marks mean, each by itself."""
+    """The meanings of colours, of lines and of marks."""
     methods = [name for name in colours if name in set(frame["integrator"])]
     entries = [(name, Look(colours[name], line="solid", width=2.4)) for name in methods]
     entries += [(name, Look("soft", line=line)) for name, line in PRECISION_LINES.items()
@@ -67,7 +66,7 @@ def legend_of(frame, colours, marks):
 
 
 def against(work, axis):
-    """Error against a column of work."""
+    """The chart of error against `work`, a column. axis: of the work"""
     def make(results):
         frame = rows_of(results)
         good, failed = frame[frame["status"] == "ok"], frame[frame["status"].isin(EDGE)]
@@ -92,11 +91,11 @@ def against(work, axis):
                                  interval_of="x", hollow="is_hollow"))
         series += failed_at_edge(failed, colours)
         heading = ("Lower and further left is better. A colour is a method, a line a precision "
-                   f"(solid f64, dotted f32, dashed f32c), a mark a variant "
-                   f"({marks_in_words(marks)}); hollow marks are below ten times the solution's "
-                   "own error.")
-        findings = (f"{len(good)} points were measured; {len(failed)} failed and stand as crosses "
-                    "at the upper edge.")
+                   "(solid f64, dotted f32, dashed f32c), a mark a variant "
+                   f"({marks_in_words(marks)}). Hollow marks: the error is below ten times the "
+                   "error of the solution it is compared with.")
+        findings = (f"{len(good)} points were measured. {len(failed)} points failed; they are "
+                    "crosses at the upper edge.")
         titles = {(name,): f"{name}, to {rows['end_time_s'].iloc[0]:g} s"
                   for name, rows in frame.groupby("problem", sort=False)}
         return Chart("work_precision", frame, COLUMNS, [Panel(axis, ERROR, series)], heading,
@@ -110,7 +109,7 @@ against_evaluations = against("evaluations", Axis("force evaluations x elements"
 
 
 def pareto(results):
-    """The fronts of all scenes."""
+    """The Pareto fronts of all scenes."""
     frame = rows_of(results)
     frame = frame[(frame["pareto"] == "yes") & frame["error_max"].notna()]
     frame = frame.sort_values("measured_wall_s")
@@ -134,10 +133,10 @@ def pareto(results):
     cheapest = frame.loc[frame.groupby("problem", sort=False)["measured_wall_s"].idxmin()]
     words = "; ".join(f"{row['problem']}: {row['integrator']} in {row['precision']}"
                       for _, row in cheapest.iterrows())
-    heading = ("Points that no other one beats both in time and in error: what to take. A colour "
-               f"is a method, a mark a scene ({marks_in_words(marks)}); hollow marks are in single "
+    heading = ("Pareto fronts: no other point is better both in time and in error. A colour is a "
+               f"method, a mark a scene ({marks_in_words(marks)}). Hollow marks are in single "
                "precision.")
-    findings = f"The fastest point that has a correct digit at all is of {words}."
+    findings = f"The fastest points with a correct digit are, by scene: {words}."
     legend = [(method, Look(colours[method], line="solid", width=2.4))
               for method in frame["integrator"].unique()]
     return Chart("work_precision", frame, COLUMNS, [Panel(TIME, ERROR, series)], heading, findings,

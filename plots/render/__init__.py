@@ -1,1 +1,1 @@
-"""The renderers of a chart's description: PNG files (png.py) and the page (page.py)."""
+"""The renderers of a Chart: PNG files (png.py) and the page (page.py)."""

@@ -1,4 +1,4 @@
-"""Axes of a chart on axes of Matplotlib: scale, limits, ticks, title."""
+"""Puts an Axis of a chart on axes of Matplotlib: scale, limits, ticks and title."""
 import math
 
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
@@ -7,7 +7,7 @@ TITLE, TICKS = 9, 8  # font sizes
 
 
 def set_axis(axes, letter, described):
-    """The x or the y axis."""
+    """Sets the x or the y axis."""
     axis = axes.xaxis if letter == "x" else axes.yaxis
     if described.scale == "log":
         axes.set(**{f"{letter}scale": "log"})
@@ -31,7 +31,7 @@ def set_axis(axes, letter, described):
 
 
 def set_ticks(axis, described):
-    """Ticks with words, in per cent, or few enough to be read."""
+    """Sets ticks: with given words, in per cent, or few enough to be readable."""
     if described.ticks:
         axis.set_ticks(list(described.ticks), list(described.ticks.values()))
         axis.set_minor_locator(NullLocator())
@@ -49,12 +49,12 @@ def set_ticks(axis, described):
 
 
 def steps(decades):
-    """Which of 1 to 10 have a tick, for an axis that is so many decades long."""
+    """The factors of a power of ten that have a tick, for an axis of this length."""
     return (1, 2, 5) if decades < 1.3 else (1, 3)
 
 
 def number(value):
-    """A number in the least space."""
+    """A number in few characters."""
     if value == 0 or 1e-3 <= abs(value) < 1e5:
         return f"{value:.3g}" if abs(value) < 1000 else f"{value:g}"
     mantissa, exponent = f"{value:.1e}".split("e")

@@ -1,5 +1,8 @@
-"""The check of every PNG after layout: all text on the canvas, no legend over data, and no two
-series of one panel that look alike. render/pictures.py runs it whenever it writes a figure."""
+"""Checks a figure after its layout.
+
+All text is on the canvas, no legend covers data, and no two series of a panel have the same look.
+render/pictures.py runs the check on every figure that it writes.
+"""
 import matplotlib.colors
 import numpy
 from matplotlib.collections import PathCollection
@@ -13,23 +16,23 @@ OUTSIDE = "place it outside of the axes"
 
 
 class Unreadable(Exception):
-    """A figure that a reader cannot read; its message has a line for each violation."""
+    """A figure is unreadable; the message has a line for each violation."""
 
 
 def violations(figure):
-    """What makes a figure unreadable, one sentence each."""
+    """A sentence for each violation in a figure."""
     figure.draw_without_rendering()
     return [*text_beyond_canvas(figure), *legends_over_data(figure), *series_alike(figure)]
 
 
 def is_shown(artist):
-    """Neither the artist nor anything that it is part of is hidden."""
+    """The artist and its axes are visible."""
     axes = getattr(artist, "axes", None)
     return artist.get_visible() and (axes is None or axes.get_visible())
 
 
 def tick_labels(axis):
-    """(all labels of ticks, those that are drawn): ticks outside of the limits are not."""
+    """(all labels of ticks, those that are drawn); ticks beyond the limits are not drawn."""
     place_of = axis.get_transform().transform
     low, high = sorted(place_of(axis.get_view_interval()))
     room = 1e-9 * (high - low)
@@ -42,7 +45,7 @@ def tick_labels(axis):
 
 
 def drawn_texts(figure):
-    """All texts that a reader sees."""
+    """All visible texts."""
     axes = [axis for one in figure.axes for axis in (one.xaxis, one.yaxis)]
     ticks = [tick_labels(axis) for axis in axes]
     skipped = {id(label) for labels, _ in ticks for label in labels}
@@ -54,7 +57,7 @@ def drawn_texts(figure):
 
 
 def text_beyond_canvas(figure):
-    """Texts that are cut off, with the side and by how much."""
+    """Texts that are cut off, with the side and the length [pixels]."""
     canvas, found = figure.bbox, []
     for text in drawn_texts(figure):
         box = text.get_window_extent()
@@ -68,7 +71,7 @@ def text_beyond_canvas(figure):
 
 
 def data_artists(axes):
-    """Lines, marks and bars with data, without guides over the whole axes such as axhline."""
+    """Lines, marks and bars with data. Guides over the whole axes, such as axhline, have none."""
     within = (axes.transData, axes.get_xaxis_transform(), axes.get_yaxis_transform())
     for line in axes.lines:
         if is_shown(line) and len(line.get_xdata()) and line.get_transform() not in within[1:]:
@@ -97,7 +100,7 @@ def pixels(artist):
 
 
 def legends_over_data(figure):
-    """Legends that cover a part of the data, or a text of it."""
+    """Legends that cover data or their labels."""
     found = []
     for legend in figure.findobj(Legend):
         if not is_shown(legend):
@@ -120,11 +123,12 @@ def legends_over_data(figure):
 
 
 def name_of(artist):
+    """The name of a series in quotes."""
     return f'"{artist.get_gid() or artist.get_label()}"'
 
 
 def look_of(artist):
-    """Everything that tells one series from another: mark, colours, line and hatch."""
+    """The properties that distinguish series: mark, colours, line and hatch."""
     if isinstance(artist, Line2D):
         has_mark = artist.get_marker() not in ("None", "none", " ", "", None)
         mark = (artist.get_marker(), matplotlib.colors.to_hex(artist.get_markerfacecolor())
@@ -139,11 +143,12 @@ def look_of(artist):
 
 
 def words_of(look):
+    """The known properties of a look."""
     return ", ".join(str(part) for part in look[1:] if part)
 
 
 def series_alike(figure):
-    """Pairs of series of one panel with one look. An artist's gid is the name of its series."""
+    """Pairs of series of one panel with one look. The gid of an artist names its series."""
     found = []
     for axes in figure.axes:
         names = {}

@@ -1,4 +1,4 @@
-"""Series of a chart on axes of Matplotlib. The gid of an artist is the name of its series."""
+"""Draws series of a chart on axes of Matplotlib. The gid of an artist names its series."""
 from matplotlib.patches import Rectangle
 
 THEME = {"ink": "#000000", "soft": "#6b6b6b", "ground": "#ffffff"}
@@ -13,11 +13,12 @@ LABEL_GAP = 4  # points between a bar and its label
 
 
 def colour(name):
+    """A colour, which may be one of the theme."""
     return THEME.get(name, name)
 
 
 def line_style(look):
-    """What Line2D takes for the line of a look."""
+    """The properties of Line2D for the line of a look."""
     if not look.line:
         return {"linestyle": "none", "color": colour(look.colour)}
     return {"linestyle": LINES[look.line], "linewidth": 0.85 * look.width,
@@ -26,7 +27,7 @@ def line_style(look):
 
 
 def mark_style(look):
-    """What Line2D takes for the marks of a look."""
+    """The properties of Line2D for the marks of a look."""
     if not look.mark:
         return {}
     face = "none" if look.is_hollow else colour(look.colour)
@@ -36,7 +37,7 @@ def mark_style(look):
 
 
 def draw(axes, panel, series, ends):
-    """One series: points, bars or tiles. ends: where the bars that are drawn so far end."""
+    """Draws points, bars or tiles. ends: of the bars that are already drawn"""
     if series.kind == "bars":
         draw_bars(axes, panel, series, ends)
     elif series.kind == "tiles":
@@ -46,14 +47,14 @@ def draw(axes, panel, series, ends):
 
 
 def places(axis, values):
-    """Values on an axis: those of a category axis are numbered."""
+    """Values on an axis; the values of a category axis are numbered."""
     if axis.scale == "category":
         return values.map({name: place for place, name in enumerate(axis.categories)})
     return values
 
 
 def draw_points(axes, panel, series):
-    """Marks, lines or both; hollow marks are drawn over the filled ones."""
+    """Draws marks, lines or both; hollow marks are drawn over the filled ones."""
     rows = series.rows
     x, y, more = places(panel.x, rows[series.x]), places(panel.y, rows[series.y]), {}
     if series.edge == "top":
@@ -70,7 +71,7 @@ def draw_points(axes, panel, series):
 
 
 def draw_interval(axes, series, x, y):
-    """Whiskers where an interval is known."""
+    """Draws whiskers where an interval is known."""
     rows = series.rows
     if not series.low or not {series.low, series.high} <= set(rows):
         return
@@ -87,7 +88,7 @@ def draw_interval(axes, series, x, y):
 
 
 def draw_bars(axes, panel, series, ends):
-    """Bars, stacked where several are at one place; on a logarithmic axis from its limit."""
+    """Draws bars and stacks those of one place; a logarithmic axis starts them at its limit."""
     rows, is_flat = series.rows, panel.y.scale == "category"
     where, along = (panel.y, panel.x) if is_flat else (panel.x, panel.y)
     at = places(where, rows[series.y if is_flat else series.x])
@@ -112,7 +113,7 @@ def draw_bars(axes, panel, series, ends):
 
 
 def add_label(axes, text, place, end, is_flat):
-    """A text beside the end of a bar; fit_labels makes room for it."""
+    """Writes a text beside the end of a bar; fit_labels makes room for it."""
     where, offset = ((end, place), (LABEL_GAP, 0)) if is_flat else ((place, end), (0, LABEL_GAP))
     axes.annotate(text, where, xytext=offset, textcoords="offset points", fontsize=LABEL,
                   ha="left" if is_flat else "center", va="center" if is_flat else "bottom",
@@ -148,7 +149,7 @@ def fit_labels(axes):
 
 
 def draw_tiles(axes, series):
-    """Cells of a matrix, each centred at its x and y; a label is the number in the cell."""
+    """Draws cells of a matrix, centred at their x and y, with their labels."""
     for _, row in series.rows.iterrows():
         width = row[series.width] if series.width else 1
         corner = (row[series.x] - width / 2, row[series.y] - 0.5)

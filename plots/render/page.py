@@ -1,25 +1,28 @@
-"""A chart for the page: traces and layout of Plotly as plain data. report/page.js applies filters
-and puts in the colours of the theme."""
+"""Turns a chart into traces and a layout of Plotly, as plain data.
+
+report/page.js applies the filters and the colours of the theme.
+"""
 import math
 import textwrap
 
 from tables.words import escaped, hover, is_missing
 
-EDGE = 20  # axes of fractions, for marks at an edge, are numbered from here
+EDGE = 20  # first number of the axes of fractions, which marks at an edge need
 GAP = 55  # pixels between panels
-NAME = 18  # characters in a line of the name of a category below the axis
-GROWTH = 0.75  # each further panel adds this part of a chart's height
+NAME = 18  # characters in a line of the name of a category below an axis
+GROWTH = 0.75  # each further panel adds this part of the height of a chart
 
 
 def spec(chart):
-    """{traces, layout, height, hovers} of a chart; its panels are below each other."""
+    """{traces, layout, height, hovers} of a chart, with its panels below each other."""
     traces, layout, hovers = [], {}, {}
     height = round(chart.height * (1 + GROWTH * (len(chart.panels) - 1)))
     for number, (panel, domain) in enumerate(zip(chart.panels, domains(chart.panels, height)), 1):
         suffix = str(number) if number > 1 else ""
         layout[f"xaxis{suffix}"] = names_below(panel.x, axis(panel.x))
         layout[f"yaxis{suffix}"] = axis(panel.y)
-        if any(panel.x is other.x for other in chart.panels[number:]):  # said once, below
+        # The lowest panel of those that share an axis has its title.
+        if any(panel.x is other.x for other in chart.panels[number:]):
             layout[f"xaxis{suffix}"].update(title={"text": ""},
                                             showticklabels=panel.x.scale != "category")
         if len(chart.panels) > 1:
@@ -38,7 +41,7 @@ def spec(chart):
 
 
 def share_hovers(trace, hovers):
-    """Moves what points say to `hovers`, by line of the table: panels show the same rows."""
+    """Moves the texts of points to `hovers`, by line of the table, as panels show the same rows."""
     name = "hovertext" if trace["type"] == "bar" else "text"
     said = dict(zip(trace.get("customdata", []), trace.get(name) or []))
     if all(hovers.setdefault(line, text) == text for line, text in said.items()):
@@ -46,7 +49,7 @@ def share_hovers(trace, hovers):
 
 
 def domains(panels, height):
-    """[low, high] of each panel on the page, from the top."""
+    """[low, high] of each panel as fractions of the height, from the top."""
     gap = GAP / height
     room = 1 - gap * (len(panels) - 1)
     whole, top, found = sum(panel.height for panel in panels), 1.0, []
@@ -58,7 +61,7 @@ def domains(panels, height):
 
 
 def plain(values, digits=5):
-    """Numbers as JSON takes them, and no longer than a chart needs."""
+    """Numbers for JSON, with as many digits as a chart needs."""
     out = []
     for value in values:
         if is_missing(value) or (isinstance(value, float) and math.isinf(value)):
@@ -92,7 +95,7 @@ def axis(described):
 
 
 def names_below(described, found):
-    """Names of categories below an axis, in lines that leave room for each other."""
+    """Breaks names of categories below an axis into short lines."""
     if described.scale == "category" and described.categories and not described.is_at_top:
         lines = ["<br>".join(textwrap.wrap(str(name), NAME)) for name in described.categories]
         found.update(tickvals=list(described.categories), ticktext=lines, tickangle=0)
@@ -111,7 +114,7 @@ def limits(described):
 
 
 def marker(look, hollow=None):
-    """Marks of a look; hollow: for each point, if they differ."""
+    """Marks of a look. hollow: for each point, if the points differ"""
     is_open = [look.is_hollow] if hollow is None else hollow
     symbols = [look.mark + ("-open" if one else "") for one in is_open]
     is_thick, is_thin = look.mark == "line-ns" or look.edge, look.mark != "x-thin"
@@ -121,7 +124,7 @@ def marker(look, hollow=None):
 
 
 def whiskers(series):
-    """The intervals of a series, where they are known."""
+    """The intervals of a series."""
     middle = series.rows[series.x if series.interval_of == "x" else series.y]
     up, down = series.rows[series.high] - middle, middle - series.rows[series.low]
     return {"type": "data", "symmetric": False, "thickness": 1, "width": 2,
@@ -130,7 +133,7 @@ def whiskers(series):
 
 
 def common(chart, series):
-    """What traces of all kinds have: data, filter keys, and what a point says."""
+    """The part of a trace that all kinds have: data, keys of filters, and texts of points."""
     rows = series.rows
     trace = {"x": plain(rows[series.x]), "y": plain(rows[series.y]), "meta": series.keys,
              "name": series.entry, "legendgroup": series.entry, "opacity": series.look.opacity}
@@ -158,7 +161,7 @@ def points(chart, panel, series):
 
 
 def bars(chart, panel, series):
-    """Bars say their label beside them, and the rest when pointed at."""
+    """Bars with their labels beside them."""
     trace = common(chart, series)
     trace.update(type="bar", orientation="h" if panel.y.scale == "category" else "v",
                  hovertext=trace.pop("text", None), hovertemplate="%{hovertext}<extra></extra>",
@@ -186,7 +189,7 @@ def field(chart, panel, series):
 
 
 def to_edge(trace, series, layout, suffix, number):
-    """Moves a trace to axes of fractions over those of its panel."""
+    """Moves a trace to axes of fractions that lie over those of its panel."""
     def over(letter):
         layout[f"{letter}axis{number}"] = {"overlaying": f"{letter}{suffix}", "range": [0, 1],
                                            "visible": False, "fixedrange": True}

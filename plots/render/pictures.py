@@ -1,7 +1,7 @@
-"""PNG files: each is checked when it is written, and says what made it.
+"""Writes figures. Each is checked, and a PNG notes what made it.
 
-A picture of a table says what its record in raw/ says; one of anything else, who drew it and
-when. The time of a file is when git checked it out.
+A figure of a table has the commit and the time of its record in raw/. Any other figure has the
+commit and the time of drawing: the time of a file is only when git checked it out.
 """
 import datetime
 import pathlib
@@ -22,14 +22,14 @@ def revision():
 
 
 def drawn_now():
-    """For pictures that no record is behind."""
+    """The note in a figure without a record."""
     now = datetime.datetime.now(datetime.timezone.utc)
     return f"drawn by commit {revision() or 'unknown'}, {now:%Y-%m-%d %H:%M} UTC"
 
 
 def measured_by(directory, table):
-    """What DIR/raw/NAME.json says of DIR/tables/NAME.csv; empty if there is none."""
-    from tables.age import Record  # needs pandas, which pictures of bodies do without
+    """The note in a figure of DIR/tables/TABLE.csv; empty if raw/ has no record of it."""
+    from tables.age import Record  # needs pandas; pictures of bodies do not
     from tables.results import study_of
     try:
         known = Record(pathlib.Path(directory) / "raw" / f"{study_of(table)}.json")
@@ -39,9 +39,9 @@ def measured_by(directory, table):
 
 
 def save(figure, output, source, **more):
-    """Checks and writes a figure; only PNG files say where they are from.
+    """Checks and writes a figure. source: the note in a PNG
 
-    @throws check.Unreadable after writing it, so that one can look at what is wrong
+    @throws check.Unreadable after the figure is written, so that one can look at it
     """
     from . import check
     is_png = pathlib.Path(output).suffix.lower() == ".png"
@@ -53,7 +53,7 @@ def save(figure, output, source, **more):
 
 
 def made_by(path):
-    """The line in a PNG; says so if there is none."""
+    """The note in a PNG, or that its age is unknown."""
     from PIL import Image  # comes with Matplotlib
     try:
         with Image.open(path) as picture:

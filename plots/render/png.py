@@ -1,7 +1,7 @@
-"""Charts as one PNG: a grid of panels, a heading above and the legend at the right of them.
+"""Draws charts as one PNG: a grid of panels, a heading above it and the legend at its right.
 
-The legend and the heading get room of their own, texts are wrapped to the width that they have,
-and axes grow until the labels of their bars fit, so that the check in check.py passes.
+The legend and the heading have their own room. Texts are wrapped to their width. Axes grow until
+the labels of their bars fit. So a figure passes check.py.
 """
 import dataclasses
 
@@ -17,13 +17,13 @@ from . import axis_styles, marks, pictures
 
 DPI = 130
 HEADING, TITLE, LEGEND = 9, 9, 8.5  # font sizes
-PAD = 0.1  # inches round the figure, and between it and its legend
+PAD = 0.1  # inches round the figure, and beside the legend
 
 
 def draw(charts, output, source):
-    """Writes the figure of charts that share it.
+    """Writes the figure that `charts` share. source: the note in the PNG
 
-    @throws check.Unreadable where a reader could not read it
+    @throws check.Unreadable if a reader could not read it
     """
     figure = Figure(dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
@@ -48,16 +48,16 @@ def draw(charts, output, source):
     if fields:
         add_colour_scale(figure, *fields[0])
     arrange(figure, charts, shown, sum(widths), sum(heights))
-    for _ in range(3):  # the layout moves a little with the texts
+    for _ in range(3):  # wrapping a text changes the layout a little
         figure.draw_without_rendering()
         if not any([wrap_texts(axes) | marks.fit_labels(axes) for axes in figure.axes]):
             break
-    figure.set_layout_engine("none")  # it is found
+    figure.set_layout_engine("none")  # keeps the layout
     pictures.save(figure, output, source)
 
 
 def cells_of(charts):
-    """(row, column, chart, panel, facet) of every panel that has data."""
+    """(row, column, chart, panel, facet) of every panel with data."""
     panels = [(chart, panel) for chart in charts for panel in chart.panels]
     count, columns, found = len(panels), charts[0].columns_of_facets, []
     facets = facets_of(charts)
@@ -74,7 +74,7 @@ def cells_of(charts):
 
 
 def facets_of(charts):
-    """The values of the facets of which there is data, in order."""
+    """The values of the facets with data, in order."""
     found = {}
     for chart in charts:
         for series in (one for panel in chart.panels for one in panel.series):
@@ -85,12 +85,12 @@ def facets_of(charts):
 
 
 def facet_title(chart, facet):
-    """What sets a facet apart."""
+    """The title of a facet."""
     return chart.titles.get(facet, ", ".join(facet))
 
 
 def label_outer(axes, cell, cells):
-    """Axes that panels share are named once: at the left, and below the lowest panel."""
+    """Leaves the title of a shared axis to the leftmost and the lowest panel."""
     row, column, chart, panel, _ = cell
     below = [other for other in cells if other[1] == column and other[0] > row]
     if any(other[3].x.title == panel.x.title for other in below):
@@ -103,7 +103,7 @@ def label_outer(axes, cell, cells):
 
 
 def series_of(chart, panel, facet):
-    """The series of one panel of the figure; none if only guides are left."""
+    """The series of one panel; none if it has only guides."""
     wanted = dict(zip(chart.facets, facet))
     first = {one.key: one.first[1] for one in chart.filters if one.first}
     for key, values in first.items():
@@ -119,7 +119,7 @@ def series_of(chart, panel, facet):
 
 
 def draw_panel(axes, chart, panel, facet):
-    """One pair of axes. @returns (colours, scale) of fields in it"""
+    """Draws one panel. @returns (colours, scale) of its fields"""
     fields, ends, shown = [], {}, series_of(chart, panel, facet)
     panel = dataclasses.replace(panel, x=with_shown(panel.x, [one.rows[one.x] for one in shown]),
                                 y=with_shown(panel.y, [one.rows[one.y] for one in shown]))
@@ -140,7 +140,7 @@ def draw_panel(axes, chart, panel, facet):
 
 
 def with_shown(axis, columns):
-    """An axis with those categories alone that a panel shows."""
+    """An axis with only the categories that a panel shows."""
     if axis.scale != "category":
         return axis
     shown = {value for values in columns for value in values}
@@ -148,7 +148,7 @@ def with_shown(axis, columns):
 
 
 def draw_field(axes, series):
-    """A colour for each x and y."""
+    """Draws a colour for each x and y."""
     grid = series.rows.pivot(index=series.y, columns=series.x, values=series.z)
     scale = series.scale
     colours = LinearSegmentedColormap.from_list("scale", list(scale.stops))
@@ -158,7 +158,7 @@ def draw_field(axes, series):
 
 
 def add_colour_scale(figure, colours, scale):
-    """One scale for all panels."""
+    """Adds one bar of colours for all panels."""
     bar = figure.colorbar(colours, ax=figure.axes, label=scale.title, extend="max", aspect=40)
     bar.ax.tick_params(labelsize=8)
 
@@ -181,7 +181,7 @@ def wrapped(figure, text, width, size):
 
 
 def wrap_texts(axes):
-    """Wraps the title of a panel, and the names of categories below it, to the width they have.
+    """Wraps the title of a panel and the names of categories below it to their widths.
 
     @returns whether a text has changed
     """
@@ -202,12 +202,12 @@ def wrap_texts(axes):
 
 
 def arrange(figure, charts, shown, width, height):
-    """Sizes the figure so that the panels, the legend and the heading each have their room."""
+    """Sizes the figure: the panels, the legend and the heading have their own room."""
     legend = legend_of(figure, charts, shown)
     box = legend.get_window_extent(figure.canvas.get_renderer()) if legend else None
     aside = box.width / DPI + 2 * PAD if legend else 0
     height = max(height, box.height / DPI + PAD if legend else 0)
-    words = "\n".join(dict.fromkeys(chart.heading for chart in charts))
+    words = "\n".join(dict.fromkeys(chart.heading.replace("`", "") for chart in charts))
     heading = figure.text(0, 1, wrapped(figure, words, width + aside - 2 * PAD, HEADING),
                           fontsize=HEADING, ha="left", va="top")
     above = heading.get_window_extent(figure.canvas.get_renderer()).height / DPI + 2 * PAD
@@ -221,10 +221,12 @@ def arrange(figure, charts, shown, width, height):
 
 
 def legend_of(figure, charts, shown):
-    """The entries of all charts, or of the series that are shown; none if there is but one."""
-    entries = dict(entry for chart in charts for entry in chart.legend or ())
+    """The entries of all charts, or of the shown series; None if there is only one entry."""
+    entries, known = dict(entry for chart in charts for entry in chart.legend or ()), set()
     if not any(chart.legend is not None for chart in charts):
-        for series in shown:
+        known = {id(series) for series in shown}
+    for panel in (panel for chart in charts for panel in chart.panels):
+        for series in (one for one in panel.series if id(one) in known):
             entries.setdefault(series.entry, (series.look, series.kind))
     handles = [handle(name, *look) if isinstance(look, tuple) else handle(name, look)
                for name, look in entries.items() if name]

@@ -1,5 +1,5 @@
 "use strict";
-// Theme, filters and charts of the page. What is drawn was made by plots/render/page.py; nothing is computed here.
+// Theme, filters and charts of the page. plots/render/page.py made what is drawn here.
 (() => {
   const root = document.documentElement;
   const specs = JSON.parse(document.getElementById("charts").textContent);
@@ -8,91 +8,132 @@
 
   const isDark = () => (root.dataset.theme || (system.matches ? "dark" : "light")) === "dark";
   const colour = (name) => getComputedStyle(root).getPropertyValue("--" + name).trim();
+  const axesOf = (layout, letters) =>
+    Object.keys(layout).filter((name) => new RegExp(`^[${letters}]axis`).test(name));
 
-  // Choices of a section's filters, by key; "" is all, and a choice of several values has a line for each.
-  const chosenIn = (section) => Object.fromEntries([...section.querySelectorAll("select")].map((select) => [select.name, select.value]));
-  const fits = (keys, chosen) => Object.entries(chosen).every(([key, value]) => !value || keys[key] === undefined || value.split("\n").includes(keys[key]));
+  // The choices of a section's filters, by key. "" is all values; several values have lines.
+  function chosenIn(section) {
+    const selects = [...section.querySelectorAll("select")];
+    return Object.fromEntries(selects.map((select) => [select.name, select.value]));
+  }
 
-  // The layout that all charts share, in the theme's colours; a chart's own goes on top.
+  const fits = (keys, chosen) => Object.entries(chosen).every(([key, value]) =>
+    !value || keys[key] === undefined || value.split("\n").includes(keys[key]));
+
+  // The layout that all charts share, in the colours of the theme, with that of the chart on top.
   function layoutOf(spec, node, entries) {
-    const axis = { gridcolor: colour("edge"), zerolinecolor: colour("edge"), linecolor: colour("edge"), automargin: true };
+    const edge = colour("edge");
+    const axis = { gridcolor: edge, zerolinecolor: edge, linecolor: edge, automargin: true };
     const isNarrow = node.clientWidth < 600;
+    const size = isNarrow ? 10 : 12;
     const layout = {
-      paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: { color: colour("ink"), size: isNarrow ? 10 : 12, family: "system-ui, sans-serif" },
-      margin: { l: 10, r: 10, t: 30, b: 10 }, hovermode: "closest", hoverlabel: { align: "left", font: { size: isNarrow ? 10 : 12 } }, dragmode: isNarrow ? false : "zoom",
-      legend: { orientation: "h", x: 0, y: 1.02, xanchor: "left", yanchor: "bottom" }, height: spec.height + (isNarrow ? 14 : 4) * entries,
+      paper_bgcolor: "rgba(0,0,0,0)",
+      plot_bgcolor: "rgba(0,0,0,0)",
+      font: { color: colour("ink"), size, family: "system-ui, sans-serif" },
+      margin: { l: 10, r: 10, t: 30, b: 10 },
+      hovermode: "closest",
+      hoverlabel: { align: "left", font: { size } },
+      dragmode: isNarrow ? false : "zoom",
+      legend: { orientation: "h", x: 0, y: 1.02, xanchor: "left", yanchor: "bottom" },
+      height: spec.height + (isNarrow ? 14 : 4) * entries,
       ...spec.layout,
     };
-    for (const key of Object.keys(layout).filter((name) => /^[xy]axis/.test(name))) layout[key] = { ...axis, ...layout[key] };
+    for (const name of axesOf(layout, "xy")) layout[name] = { ...axis, ...layout[name] };
     if (layout.xaxis.side === "top") Object.assign(layout.legend, { y: 0, yanchor: "top" });
     if (isNarrow) narrow(layout, spec.traces);
     return layout;
   }
 
-  // On a phone names of rows would leave no room for the rows: they are cut, and said whole by each mark and in the table.
+  // A phone has no room for long names of rows: they are cut. Marks and the table have them whole.
   function narrow(layout, traces) {
-    for (const axis of Object.keys(layout).filter((key) => /^yaxis/.test(key)).map((key) => layout[key])) {
-      if (axis.type === "category") axis.tickvals = axis.ticktext = axis.categoryarray || [...new Set(traces.flatMap((trace) => trace.y))];
-      if (axis.ticktext) axis.ticktext = axis.ticktext.map((text) => text.length > 16 ? text.slice(0, 15) + "\u2026" : text);
+    const cut = (text) => text.length > 16 ? text.slice(0, 15) + "\u2026" : text;
+    for (const axis of axesOf(layout, "y").map((name) => layout[name])) {
+      if (axis.type === "category") {
+        const values = axis.categoryarray || [...new Set(traces.flatMap((trace) => trace.y))];
+        axis.tickvals = axis.ticktext = values;
+      }
+      if (axis.ticktext) axis.ticktext = axis.ticktext.map(cut);
     }
-    for (const key of Object.keys(layout).filter((key) => /^xaxis/.test(key))) if (layout[key].ticktext) layout[key].tickangle = -90;
-    for (const trace of traces.filter((one) => one.marker)) {
-      const size = trace.marker.size;
-      if (Array.isArray(size)) trace.marker.size = size.map((one) => 0.5 * one);
-      else if (size > 10) trace.marker.size = 0.65 * size;
+    for (const axis of axesOf(layout, "x").map((name) => layout[name])) {
+      if (axis.ticktext) axis.tickangle = -90;
+    }
+    for (const { marker } of traces.filter((trace) => trace.marker)) {
+      if (Array.isArray(marker.size)) marker.size = marker.size.map((size) => 0.5 * size);
+      else if (marker.size > 10) marker.size = 0.65 * marker.size;
     }
   }
 
-  function draw(section) {
-    const chosen = chosenIn(section), node = section.querySelector(".chart"), output = section.querySelector("output");
-    let rows = 0;
-    for (const row of section.querySelectorAll("tr[data-keys]")) {
-      row.hidden = !fits(JSON.parse(row.dataset.keys), chosen);
-      rows += row.hidden ? 0 : 1;
+  // Hides rows of the section's table. Returns the number of the others.
+  function filterRows(section, chosen) {
+    const rows = [...section.querySelectorAll("tr[data-keys]")];
+    for (const row of rows) row.hidden = !fits(JSON.parse(row.dataset.keys), chosen);
+    return rows.filter((row) => !row.hidden).length;
+  }
+
+  // The traces that fit the choices, with texts of points, and one entry of the legend a group.
+  function tracesOf(spec, chosen, groups) {
+    const traces = spec.traces.filter((trace) => fits(trace.meta, chosen));
+    for (const trace of traces) {
+      const text = trace.type === "bar" ? "hovertext" : "text";
+      if (trace.customdata && !trace[text]) {
+        trace[text] = trace.customdata.map((line) => spec.hovers[line]);
+      }
+      const group = trace.legendgroup || trace.name;
+      trace.showlegend = trace.showlegend !== false && Boolean(trace.name)
+        && trace.type !== "heatmap" && !groups.has(group);
+      groups.add(group);
     }
+    return traces;
+  }
+
+  function draw(section) {
+    const chosen = chosenIn(section), node = section.querySelector(".chart");
+    const output = section.querySelector("output"), rows = filterRows(section, chosen);
     if (output) output.textContent = rows + " rows";
     if (!node || !hasLibrary) return;
-    const words = { ink: colour("ink"), soft: colour("soft"), ground: colour("ground") };
-    const spec = JSON.parse(JSON.stringify(specs[node.dataset.chart]), (key, value) => words[value] || value);
-    const traces = spec.traces.filter((trace) => fits(trace.meta, chosen)), seen = new Set();
-    for (const trace of traces) {
-      // What points say stands once for each row of the table.
-      const hover = trace.type === "bar" ? "hovertext" : "text";
-      if (trace.customdata && !trace[hover]) trace[hover] = trace.customdata.map((line) => spec.hovers[line]);
-      const group = trace.legendgroup || trace.name;
-      trace.showlegend = trace.showlegend !== false && Boolean(trace.name) && trace.type !== "heatmap" && !seen.has(group);
-      seen.add(group);
-    }
+    const theme = { ink: colour("ink"), soft: colour("soft"), ground: colour("ground") };
+    const spec = JSON.parse(JSON.stringify(specs[node.dataset.chart]),
+      (key, value) => theme[value] || value);
+    const groups = new Set(), traces = tracesOf(spec, chosen, groups);
     node.dataset.traces = traces.length;
-    Plotly.react(node, traces, layoutOf(spec, node, seen.size), { responsive: true, displayModeBar: false });
+    Plotly.react(node, traces, layoutOf(spec, node, groups.size),
+      { responsive: true, displayModeBar: false });
     if (!node.dataset.listens) {
       node.dataset.listens = "yes";
       node.on("plotly_click", (event) => show(section, event.points[0].customdata));
     }
   }
 
-  // A point that is clicked shows its row.
+  // A click on a point shows its row.
   function show(section, line) {
     const row = section.querySelector(`tr[data-line="${line}"]`);
     if (!row) return;
     section.querySelector("details").open = true;
-    section.querySelectorAll("tr.marked").forEach((other) => other.classList.remove("marked"));
+    for (const other of section.querySelectorAll("tr.marked")) other.classList.remove("marked");
     row.classList.add("marked");
     row.scrollIntoView({ block: "center" });
   }
 
   const sections = [...document.querySelectorAll("section.part")];
   const button = document.getElementById("theme");
-  const name = () => { button.textContent = isDark() ? "Light theme" : "Dark theme"; };
-  const redraw = () => { name(); sections.forEach(draw); };
+
+  function redraw() {
+    button.textContent = isDark() ? "Light theme" : "Dark theme";
+    sections.forEach(draw);
+  }
 
   button.addEventListener("click", () => {
     root.dataset.theme = isDark() ? "light" : "dark";
     redraw();
   });
   system.addEventListener("change", redraw);
-  window.matchMedia("(max-width: 640px)").addEventListener("change", redraw); // a phone that is turned
-  for (const section of sections) section.querySelectorAll("select").forEach((select) => select.addEventListener("change", () => draw(section)));
+  // A phone may be turned.
+  window.matchMedia("(max-width: 640px)").addEventListener("change", redraw);
+  for (const section of sections) {
+    for (const select of section.querySelectorAll("select")) {
+      select.addEventListener("change", () => draw(section));
+    }
+  }
   redraw();
   root.dataset.ready = "yes";
 })();

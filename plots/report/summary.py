@@ -1,16 +1,18 @@
-"""Three sentences on the whole, with figures from the tables."""
-from charts.chain import best_link
+"""The summary: three sentences with values from the tables."""
+from charts.chain import best_stage
 from tables.results import FAULTS, NotMeasured
 from tables.words import shown, with_interval
 
 
 def of_speed(results):
-    """What the fastest variant does, against the straightforward code."""
+    """The fastest configuration of Table 1, against the reference and against scalar."""
     exact, scaled = "speedup_vs_reference", "extrapolated_speedup_vs_reference"
     try:
-        frame = results.table("table1_host", "source", "label", "scene", "set", "steps", "measured_wall_s", "status", "check", "speedup_vs_scalar", exact, scaled)
+        frame = results.table("table1_host", "source", "label", "scene", "set", "steps", "status",
+                              "check", "speedup_vs_scalar",
+                              optional=["measured_wall_s", exact, scaled])
     except NotMeasured:
-        return "How fast the variants are was not measured (`dssbench experiment table1_host`)."
+        return "The variants were not timed (`dssbench experiment table1_host`)."
     frame = frame[(frame["source"] == "measured") & (frame["status"] == "ok")]
     against = frame[exact].fillna(frame[scaled])
     if against.dropna().empty:
@@ -20,71 +22,113 @@ def of_speed(results):
     def interval(column):
         return with_interval(best[column], best.get(f"{column}_low"), best.get(f"{column}_high"))
 
-    what = f"{best['label']}, computes {shown(best['steps'])} steps of {best['scene']} {best['set']} in {shown(best['measured_wall_s'])} s"
-    return (f"The fastest configuration of Table 1 on this machine, {what}: {interval(exact) or interval(scaled)} times as fast as the straightforward `reference`{'' if interval(exact) else ' (scaled from fewer steps)'} and "
-            f"{interval('speedup_vs_scalar')} times as fast as `scalar`, one thread each, with {(frame['check'] == 'passed').sum()} of {len(frame)} cells checked against the oracle.")
+    is_scaled, ratio = not interval(exact), interval(exact) or interval(scaled)
+    passed = (frame["check"] == "passed").sum()
+    return (f"The fastest configuration of Table 1 on this machine is {best['label']}: it computes "
+            f"{shown(best['steps'])} steps of {best['scene']} {best['set']} in "
+            f"{shown(best['measured_wall_s'])} s, which is {ratio} times as fast as the "
+            f"straightforward `reference`{' (scaled from fewer steps)' * is_scaled} and "
+            f"{interval('speedup_vs_scalar')} times as fast as `scalar`, each on one thread; "
+            f"{passed} of {len(frame)} cells passed the check against the oracle.")
+
+
+def of_chain(results):
+    """The fastest stage of the chain within the allowed error."""
+    best = best_stage(results.table("chain", "label", "factor_vs_reference", "error_max",
+                                    "error_bar", "status"))
+    if best is None:
+        return "no stage of the chain keeps the allowed error"
+    return (f"the fastest stage of the chain within an error of {shown(best['error_bar'])} is "
+            f"{shown(best['factor_vs_reference'])} times as fast as the reference "
+            f"({best['label']}), with an error of {shown(best['error_max'])}")
+
+
+def of_cheapest(results):
+    """The first comparison of a method with the paper's; empty if there is none."""
+    pairs = results.table("work_precision_comparisons", "scene", "base", "contender",
+                          "contender_error_max", optional=["times_cheaper", "space_error",
+                                                           "times_cheaper_than_best_base"])
+    pairs = pairs.dropna(subset=["times_cheaper"])
+    if pairs.empty:
+        return ""
+    row = pairs.iloc[0]
+    fair = shown(row["times_cheaper_than_best_base"])
+    if fair:
+        fair = (f" ({fair} times cheaper than {row['base'].split()[0]} at the step that this "
+                "accuracy needs)")
+    return (f"on {row['scene']}, {row['contender']} is {shown(row['times_cheaper'])} times cheaper "
+            f"than the paper's {row['base']}{fair} at an error of "
+            f"{shown(row['contender_error_max'], 2)}, where the error of the grid is "
+            f"{shown(row['space_error'], 2)}")
+
+
+def of_advice(results):
+    """How many tolerances the advice keeps, and at what cost."""
+    advice = results.table("advise", "tolerance", "true_error", optional=["time_over_cheapest"])
+    kept = (advice["true_error"] <= advice["tolerance"]).sum()
+    most = shown(advice["time_over_cheapest"].max())
+    over = f" at no more than {most} times the cheapest time of a full search" if most else ""
+    return f"`dssbench advise` keeps {kept} of {len(advice)} tolerances{over}"
 
 
 def of_accuracy(results):
-    """What an accuracy costs."""
+    """The cost of an accuracy."""
     parts = []
-    try:
-        best = best_link(results.table("chain", "label", "factor_vs_reference", "error_max", "error_bar", "status"))
-        parts.append("no link of the chain keeps the allowed error" if best is None else
-                     f"the chain from the reference to the cheapest run within an error of {shown(best['error_bar'])} reaches {shown(best['factor_vs_reference'])} times ({best['label']}) "
-                     f"with an error of {shown(best['error_max'])}")
-    except NotMeasured:
-        pass
-    try:
-        pair = results.table("work_precision_comparisons", "scene", "base", "contender", "times_cheaper", "contender_error_max", "space_error").dropna(subset=["times_cheaper"])
-        if len(pair):
-            row = pair.iloc[0]
-            best = row.get("times_cheaper_than_best_base")
-            fair = f" ({shown(best)} times than {row['base'].split()[0]} at the step that this accuracy needs)" if best == best and best else ""
-            parts.append(f"on {row['scene']} {row['contender']} is {shown(row['times_cheaper'])} times cheaper than the paper's {row['base']}{fair} at an error of "
-                         f"{shown(row['contender_error_max'], 2)}, where the grid's own is {shown(row['space_error'], 2)}")
-    except NotMeasured:
-        pass
-    try:
-        advice = results.table("advise", "tolerance", "true_error", "time_over_cheapest")
-        most = shown(advice["time_over_cheapest"].max())
-        kept = (advice["true_error"] <= advice["tolerance"]).sum()
-        parts.append(f"`dssbench advise` keeps {kept} of {len(advice)} tolerances" + (f" at no more than {most} times the cheapest that a full search finds" if most else ""))
-    except NotMeasured:
-        pass
-    if not parts:
-        return "What an accuracy costs was not measured (`dssbench experiment work_precision`)."
-    sentence = "; ".join(parts)
+    for part in (of_chain, of_cheapest, of_advice):
+        try:
+            parts.append(part(results))
+        except NotMeasured:
+            pass
+    sentence = "; ".join(filter(None, parts))
+    if not sentence:
+        return "The cost of an accuracy was not measured (`dssbench experiment work_precision`)."
     return sentence[0].upper() + sentence[1:] + "."
+
+
+def counted(count, one, several):
+    """A number with the words that fit it: `one` after 1, else `several`."""
+    return f"{count} {one if count == 1 else several}"
 
 
 def of_age(ages):
     """How many records are old, and how many tables have none."""
-    old, count, unknown = len(ages.old()), len(ages.records), len(ages.unknown())
-    words = f"{old} of {count} records {'are' if old != 1 else 'is'} old, wholly or in part" if old else "no record is known to be old"
-    return words + (f", while {unknown} table{'s have' if unknown != 1 else ' has'} no record, so that {'their' if unknown != 1 else 'its'} age is unknown" if unknown else "")
+    old, unknown = len(ages.old()), len(ages.unknown())
+    words = "no record is known to be old"
+    if old:
+        verb = "are" if old != 1 else "is"
+        words = f"{old} of {len(ages.records)} records {verb} old, wholly or in part"
+    if unknown:
+        words += ", and " + counted(unknown, "table has no record, so that its age is unknown",
+                                    "tables have no record, so that their age is unknown")
+    return words
 
 
 def of_trust(results, missing, ages):
-    """What holds, what is missing and what is old."""
+    """What agrees with theory, what is missing and what is old."""
     parts = []
-    for table, words in (("failures", "cells of the failure atlas are as theory says"), ("model_ladder", "rows of the model ladder are as expected"),
-                         ("stability", "step limits agree with theory or are on the safe side")):
+    for table, words in (
+            ("failures", "cells of the failure atlas are as theory says"),
+            ("model_ladder", "rows of the model ladder are as expected"),
+            ("stability", "step limits agree with theory or are on the safe side")):
         try:
             status = results.table(table, "status")["status"]
-            parts.append(f"{status.isin(['ok', 'passed', 'bound']).sum()} of {len(status)} {words}")
         except NotMeasured:
-            pass
-    held = ", ".join(parts) if parts else "nothing was held against theory"
+            continue
+        held = status.isin(["ok", "passed", "bound"]).sum()
+        parts.append(f"{held} of {len(status)} {words}")
+    checked = ", ".join(parts) or "nothing was compared with theory"
     faults = sum(lack.is_fault for lack in missing)
     count = len(missing) - faults
-    lack = f"{count} section{'s are' if count != 1 else ' is'} not measured" if count else "nothing is missing"
-    lack += f", {faults} section{'s' if faults != 1 else ''} cannot be drawn" if faults else ""
-    return f"{held[0].upper()}{held[1:]}; in this report {lack}, and {of_age(ages)}."
+    lack = "nothing is missing"
+    if count:
+        lack = counted(count, "section is not measured", "sections are not measured")
+    if faults:
+        lack += ", " + counted(faults, "section cannot be drawn", "sections cannot be drawn")
+    return (f"{checked[0].upper()}{checked[1:]}; in this report {lack}, and {of_age(ages)}.")
 
 
 def said(make, *of):
-    """A sentence; one on tables with values of an unexpected kind says that."""
+    """A sentence; if its tables have values of an unexpected kind, it says so."""
     try:
         return make(*of)
     except FAULTS as fault:
@@ -92,4 +136,6 @@ def said(make, *of):
 
 
 def sentences(results, missing, ages):
-    return [said(of_speed, results), said(of_accuracy, results), said(of_trust, results, missing, ages)]
+    """All sentences, in order."""
+    return [said(of_speed, results), said(of_accuracy, results),
+            said(of_trust, results, missing, ages)]

@@ -1,2 +1,4 @@
-"""A directory of results as charts and the report read it: tables, ages of
-records, numbers as words."""
+"""A directory of results, as charts and the report read it.
+
+Modules: tables, ages of records, and numbers as words.
+"""

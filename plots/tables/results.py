@@ -1,4 +1,4 @@
-"""A directory of results: tables with the line of each row, and what is not there."""
+"""A directory of results: tables with the line of each row, and reasons for what is missing."""
 import dataclasses
 import pathlib
 
@@ -8,16 +8,16 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 class NotMeasured(Exception):
-    """Why a part of the report cannot be shown, in words."""
+    """A part of the report cannot be shown; the message says why."""
 
 
-# What a table with values of an unexpected kind makes of the code that draws it.
+# The code that draws a table raises these if the table has values of an unexpected kind.
 FAULTS = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError)
 
 
 @dataclasses.dataclass(frozen=True)
 class Lack:
-    """A section that is not there. `is_fault`: its table is, and cannot be drawn."""
+    """A section that is missing. is_fault: its table is there, but cannot be drawn."""
     name: str
     title: str
     table: str
@@ -33,10 +33,11 @@ class Results:
         self._read = {}
 
     def table(self, name, *needed, optional=()):
-        """Rows of tables/NAME.csv; the column `line` is a row's line in the file.
+        """Rows of tables/NAME.csv; the column `line` is the line of a row in the file.
 
-        optional: columns that may be empty; one that the table lacks is empty.
-        @throws NotMeasured if the table, or a column that is needed, is missing
+        needed: columns that have values. optional: columns that may be empty; the program leaves
+        out columns that are empty in every row, and they are added here.
+        @throws NotMeasured if the table, or a needed column, is missing
         """
         if name not in self._read:
             self._read[name] = self._load(name)
@@ -48,6 +49,7 @@ class Results:
         return frame.reindex(columns=list(dict.fromkeys([*frame.columns, *optional])))
 
     def has(self, name):
+        """The table is there."""
         return (self.directory / "tables" / f"{name}.csv").exists()
 
     def _load(self, name):
@@ -55,25 +57,26 @@ class Results:
         if not path.exists():
             raise NotMeasured("not measured")
         try:
-            # An empty value is "not measured"; words such as `none` are words.
+            # An empty value means "not measured"; `none` is a word.
             frame = pandas.read_csv(path, keep_default_na=False, na_values=["", "nan"])
         except (ValueError, UnicodeDecodeError) as fault:
             raise NotMeasured(f"tables/{name}.csv cannot be read: {fault}") from None
         if frame.empty:
             raise NotMeasured(f"tables/{name}.csv has no rows")
-        frame["line"] = range(2, len(frame) + 2)  # a record is a line, and the head is the first
+        frame["line"] = range(2, len(frame) + 2)  # line 1 has the names of the columns
         return frame
 
     def names(self):
-        """All tables that are there."""
+        """Names of all tables."""
         return sorted(path.stem for path in (self.directory / "tables").glob("*.csv"))
 
     def others(self):
-        """Results of other machines in folders of this one, as results/h100."""
+        """Results of other machines, in folders of this one such as results/h100."""
         found = sorted(self.directory.glob("*/tables/table3.csv"))
         return [Results(path.parent.parent) for path in found]
 
     def figures(self):
+        """Files of all figures."""
         return sorted((self.directory / "figures").glob("*.png"))
 
 
@@ -83,7 +86,7 @@ def studies():
 
 
 def study_of(table):
-    """The study that writes a table: the longest name of a study that it begins with."""
+    """The study that writes a table: the longest study name that the table name begins with."""
     known = [name for name in studies() if table == name or table.startswith(f"{name}_")]
     special = {"cluster_simulated": "cluster", "ceilings": "kernels", "attribution": "kernels"}
     return special.get(table) or max(known, key=len, default=table)

@@ -5,13 +5,16 @@ import re
 
 import pandas
 
+HOVER = 70  # characters in a line of the text of a point
+
 
 def is_missing(value):
+    """The value is None or not a number."""
     return value is None or (not isinstance(value, str) and pandas.isna(value))
 
 
 def shown(value, digits=3):
-    """A number with a few digits, a text as it is, an empty text for what was not measured."""
+    """A number with a few digits, a text as it is, and an empty text for a missing value."""
     if is_missing(value):
         return ""
     if isinstance(value, str):
@@ -26,19 +29,20 @@ def shown(value, digits=3):
 
 
 def with_interval(value, low, high):
-    """A median with its 95 % interval, where there is one."""
-    if is_missing(value):
-        return ""
-    return shown(value) if is_missing(low) or is_missing(high) else f"{shown(value)} [{shown(low)}, {shown(high)}]"
+    """A median with its 95 % interval, if one is known."""
+    if is_missing(value) or is_missing(low) or is_missing(high):
+        return shown(value)
+    return f"{shown(value)} [{shown(low)}, {shown(high)}]"
 
 
 def problem(scene, overrides, *more):
-    """A scene with what was overridden, without the long names of constants."""
+    """A scene with its overridden values; constants have short names."""
     parts = [str(scene), *("" if is_missing(overrides) else str(overrides)).split(), *more]
     return " ".join(part.rsplit("/", 1)[-1].rsplit("constants.", 1)[-1] for part in parts if part)
 
 
 def escaped(text):
+    """Text in HTML, also within quotes."""
     return html.escape(str(text), quote=True)
 
 
@@ -48,23 +52,30 @@ def prose(text):
 
 
 def hover(row, table, columns):
-    """What a point says: its columns by name, and its line. A line break is <br>, as Plotly wants it; long texts are broken."""
+    """The text of a point: its columns by name, and its line in the table.
+
+    columns: heading by column. Lines end with <br>, as Plotly wants it; long ones are broken.
+    """
     lines = []
     for column, heading in columns.items():
         text = shown(row[column], 4) if column in row.index else ""
         if text:
-            words = f"{heading}: {text}"
-            while len(words) > 70:
-                cut = words.rfind(" ", 0, 70)
-                if cut <= 0:
-                    break
-                lines.append(escaped(words[:cut]))
-                words = "   " + words[cut + 1:]
-            lines.append(escaped(words))
-    lines.append(f"tables/{table}.csv:{row['line']}")
-    return "<br>".join(lines)
+            lines += map(escaped, broken(f"{heading}: {text}"))
+    return "<br>".join([*lines, f"tables/{table}.csv:{row['line']}"])
+
+
+def broken(words):
+    """A text in lines of at most HOVER characters; further lines are indented."""
+    lines = []
+    while len(words) > HOVER:
+        cut = words.rfind(" ", 0, HOVER)
+        if cut <= 0:
+            break
+        lines.append(words[:cut])
+        words = "   " + words[cut + 1:]
+    return [*lines, words]
 
 
 def choice(value):
-    """A value as a filter's choice."""
+    """A value as one choice of a filter."""
     return shown(value) or "none"

@@ -1,4 +1,4 @@
-"""The report in headless Chromium, opened from disk: it draws, filters, changes its theme, fits a phone, and asks no network."""
+"""Tests the report in headless Chromium: charts, filters, themes, a phone, and no network."""
 import json
 import os
 import pathlib
@@ -24,24 +24,44 @@ DRIVER = shutil.which("chromedriver")
 if not DRIVER or not shutil.which("chromium"):
     report.skip_all("there is no chromium with chromium-driver")
 
-# What is to be seen of a chart: marks of its traces that have a size.
+# Reads what a chart shows: its size, its traces, and its marks that have a size.
 DRAWN = """
-const chart = arguments[0], seen = (selector) => [...chart.querySelectorAll(selector)].filter((mark) => {
+const chart = arguments[0], box = chart.getBoundingClientRect();
+const all = (selector) => [...chart.querySelectorAll(selector)];
+const hasSize = (mark) => {
   const box = mark.getBoundingClientRect();
   return box.width + box.height > 0;
-}).length;
-const look = [...chart.querySelectorAll(".scatterlayer path, .barlayer path, .heatmaplayer image")]
-  .map((mark) => (mark.getAttribute("transform") || "") + (mark.getAttribute("d") || mark.getAttribute("href") || "")).join();
-return {look, main: chart.querySelectorAll("svg.main-svg").length, traces: Number(chart.dataset.traces),
-        marks: seen(".scatterlayer .trace path, .barlayer .point path, .heatmaplayer image"),
-        width: chart.getBoundingClientRect().width, height: chart.getBoundingClientRect().height};
+};
+const look = (mark) =>
+  ["transform", "d", "href"].map((name) => mark.getAttribute(name) || "").join("");
+return {
+  look: all(".scatterlayer path, .barlayer path, .heatmaplayer image").map(look).join(),
+  main: all("svg.main-svg").length,
+  traces: Number(chart.dataset.traces),
+  marks: all(".scatterlayer .trace path, .barlayer .point path, .heatmaplayer image")
+    .filter(hasSize).length,
+  width: box.width,
+  height: box.height,
+};
 """
-SECTIONS = ["speedups-1-host", "speedups-1", "speedups-2", "speedups-3", "figure-9", "work-precision-time", "work-precision-evaluations", "pareto", "scaling-1", "scaling-2", "cluster",
-            "cluster-nodes", "balance", "stability", "energy", "ladder", "ladder-errors", "atlas", "advice", "error-budget", "continuum", "statics"]
+SECTIONS = ["speedups-1-host", "speedups-1", "speedups-2", "speedups-3", "figure-9",
+            "work-precision-time", "work-precision-evaluations", "pareto", "scaling-1",
+            "scaling-2", "cluster", "cluster-nodes", "balance", "stability", "energy", "ladder",
+            "ladder-errors", "atlas", "advice", "error-budget", "continuum", "statics"]
+FOCUS = """
+const at = document.activeElement, section = at.closest("section");
+return [at.tagName, at.id || at.name || at.className, section ? section.id : ""];
+"""
+BACKGROUND = "getComputedStyle(document.body).backgroundColor"
 SAMPLE_SECTIONS = ["chain", "roofline", "attribution", "atlas", "speedups-1-host"]
+BROWSER_OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                   "--window-size=1280,900", "--no-first-run", "--disable-background-networking",
+                   "--disable-component-update"]
 
 
 class BrowserTest(unittest.TestCase):
+    """Pages of the sample and of the committed results in a browser."""
+
     @classmethod
     def setUpClass(cls):
         holder = tempfile.TemporaryDirectory(prefix="dssbench-report-")
@@ -58,51 +78,83 @@ class BrowserTest(unittest.TestCase):
                 report.skip_all(result.stderr.strip())
             cls.urls[name] = (directory / name / "report.html").as_uri()
         options = Options()
-        for argument in ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1280,900", "--no-first-run",
-                         "--disable-background-networking", "--disable-component-update", f"--user-data-dir={directory / 'profile'}"):
+        for argument in (*BROWSER_OPTIONS, f"--user-data-dir={directory / 'profile'}"):
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        os.environ["no_proxy"] = "localhost,127.0.0.1"  # the driver is here, whatever proxy leads elsewhere
+        os.environ["no_proxy"] = "localhost,127.0.0.1"  # the driver is on this machine
         cls.browser = webdriver.Chrome(service=Service(DRIVER), options=options)
         cls.addClassCleanup(cls.browser.quit)
         cls.windows = {}
 
     def open(self, name, width=1280):
-        """The page at a width, in a window of its own that stays."""
+        """Shows a page at a width; its window stays open for further tests."""
         if (name, width) in self.windows:
             self.browser.switch_to.window(self.windows[name, width])
-        else:
-            self.windows[name, width] = self.browser.execute_cdp_cmd("Target.createTarget", {"url": "about:blank"})["targetId"]
-            self.browser.switch_to.window(self.windows[name, width])
-            self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600})
-            self.browser.get(self.urls[name])
-            WebDriverWait(self.browser, 30).until(lambda browser: browser.execute_script("return document.documentElement.dataset.ready") == "yes")
+            return
+        window = self.command("Target.createTarget", url="about:blank")["targetId"]
+        self.windows[name, width] = window
+        self.browser.switch_to.window(window)
+        self.command("Emulation.setDeviceMetricsOverride", width=width, height=900,
+                     deviceScaleFactor=1, mobile=width < 600)
+        self.browser.get(self.urls[name])
+        ready = "document.documentElement.dataset.ready"
+        WebDriverWait(self.browser, 30).until(lambda _: self.value(ready) == "yes")
 
     def tearDown(self):
-        """Whatever a test does, the console stays empty and no network is asked."""
+        """After each test the console is empty, and no page has used the network."""
         self.assertEqual([entry["message"] for entry in self.browser.get_log("browser")], [])
-        self.assertEqual([url for url in self.requests() if url not in self.urls.values() and not url.startswith(("data:", "blob:"))], [])
+        local = ("data:", "blob:", *self.urls.values())
+        self.assertEqual([url for url in self.requests() if not url.startswith(local)], [])
 
     def requests(self):
-        """What our pages have asked for since this was last looked at; not what the browser asks for itself."""
-        events = [json.loads(entry["message"])["message"] for entry in self.browser.get_log("performance")]
-        asked = [event["params"] for event in events if event["method"] == "Network.requestWillBeSent"]
+        """The requests of the pages since the last call, without those of the browser itself."""
+        events = [json.loads(entry["message"])["message"]
+                  for entry in self.browser.get_log("performance")]
+        asked = [event["params"] for event in events
+                 if event["method"] == "Network.requestWillBeSent"]
         return [one["request"]["url"] for one in asked if one["documentURL"] in self.urls.values()]
 
+    def command(self, name, **options):
+        """Runs a command of the DevTools protocol."""
+        return self.browser.execute_cdp_cmd(name, options)
+
+    def value(self, expression, *arguments):
+        """The value of an expression in JavaScript."""
+        return self.browser.execute_script(f"return {expression}", *arguments)
+
+    def find(self, selector):
+        """The first element that a CSS selector finds."""
+        return self.browser.find_element(By.CSS_SELECTOR, selector)
+
+    def find_all(self, selector):
+        """All elements that a CSS selector finds."""
+        return self.browser.find_elements(By.CSS_SELECTOR, selector)
+
     def chart(self, section):
-        return self.browser.find_element(By.CSS_SELECTOR, f"#{section} .chart")
+        """The chart of a section."""
+        return self.find(f"#{section} .chart")
+
+    def of_traces(self, section, expression):
+        """The values of an expression for each `trace` of a chart, in one list."""
+        return self.value(f"arguments[0].data.flatMap((trace) => {expression})",
+                          self.chart(section))
 
     def drawn(self, section):
+        """What the chart of a section shows, as DRAWN reads it."""
         return self.browser.execute_script(DRAWN, self.chart(section))
 
     def select(self, section, key):
-        return Select(self.browser.find_element(By.CSS_SELECTOR, f'#{section} select[name="{key}"]'))
+        """A filter of a section."""
+        return Select(self.find(f'#{section} select[name="{key}"]'))
 
     def rows(self, section):
-        return self.browser.execute_script("return [...document.querySelectorAll(arguments[0])].filter((row) => !row.hidden).length", f"#{section} tbody tr")
+        """The number of visible rows in the table of a section."""
+        rows = "[...document.querySelectorAll(arguments[0])]"
+        return self.value(f"{rows}.filter((row) => !row.hidden).length", f"#{section} tbody tr")
 
     def assert_all_drawn(self, sections):
-        found = [chart.get_attribute("data-chart") for chart in self.browser.find_elements(By.CSS_SELECTOR, ".chart")]
+        """The page has a chart in each of these sections, and no other."""
+        found = [chart.get_attribute("data-chart") for chart in self.find_all(".chart")]
         self.assertEqual(sorted(found), sorted(sections))
         for section in sections:
             chart = self.drawn(section)
@@ -114,52 +166,65 @@ class BrowserTest(unittest.TestCase):
 
     def test_every_chart_of_the_committed_results_draws(self):
         self.open("committed")
-        present = [section for section in SECTIONS + SAMPLE_SECTIONS[:3] if not self.browser.find_elements(By.CSS_SELECTOR, f"#{section}[data-missing]")]
-        self.assertLessEqual(set(SECTIONS), set(present))  # what is committed stays there
+        present = [section for section in SECTIONS + SAMPLE_SECTIONS[:3]
+                   if not self.find_all(f"#{section}[data-missing]")]
+        self.assertLessEqual(set(SECTIONS), set(present))
         self.assert_all_drawn(present)
 
     def test_charts_of_kernels_and_of_the_chain_draw(self):
         self.open("sample")
         self.assert_all_drawn(SAMPLE_SECTIONS)
         self.assertGreaterEqual(self.drawn("attribution")["marks"], 6)
-        self.assertGreaterEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "section[data-missing]")), 10)
+        self.assertGreaterEqual(len(self.find_all("section[data-missing]")), 10)
 
     def test_the_roofline_opens_with_whole_rows_and_steps_and_shows_every_kernel_when_asked(self):
+        def kernels():
+            return set(self.of_traces("roofline", "trace.meta.kernel || []"))
         self.open("sample")
-        kernels, rows = "return [...new Set(arguments[0].data.map((trace) => trace.meta.kernel).filter((name) => name))].sort()", self.rows("roofline")
-        self.assertEqual(self.browser.execute_script(kernels, self.chart("roofline")), ["rk4_step", "stage_row"])
+        rows = self.rows("roofline")
+        self.assertEqual(kernels(), {"rk4_step", "stage_row"})
         choice = self.select("roofline", "kernel")
         choice.select_by_value("")
-        self.assertEqual(self.browser.execute_script(kernels, self.chart("roofline")), ["rk4_step", "rotation", "stage_row"])
+        self.assertEqual(kernels(), {"rk4_step", "rotation", "stage_row"})
         self.assertGreater(self.rows("roofline"), rows)
         choice.select_by_value("rotation")
-        self.assertEqual(self.browser.execute_script(kernels, self.chart("roofline")), ["rotation"])
+        self.assertEqual(kernels(), {"rotation"})
         choice.select_by_index(0)
         self.assertEqual(self.rows("roofline"), rows)
 
     def test_a_rest_below_zero_points_to_the_left_and_the_step_itself_is_marked(self):
         self.open("sample")
-        chart = self.chart("attribution")
-        self.assertLess(self.browser.execute_script("return arguments[0].layout.xaxis.range[0]", chart), -20)
-        self.assertEqual(self.browser.execute_script("return arguments[0].data.filter((trace) => trace.name === 'the step itself').map((trace) => trace.x[0])", chart), [1000, 100])
-        self.assertIn("bound: its instructions [ns]: 462", self.browser.execute_script("return arguments[0].data.flatMap((trace) => trace.hovertext || []).join()", chart))
+        left = self.value("arguments[0].layout.xaxis.range[0]", self.chart("attribution"))
+        self.assertLess(left, -20)
+        steps = self.of_traces("attribution",
+                               "trace.name === 'the step itself' ? trace.x[0] : []")
+        self.assertEqual(steps, [1000, 100])
+        texts = self.of_traces("attribution", "trace.hovertext || []")
+        self.assertIn("bound: its instructions [ns]: 462", "".join(texts))
 
     def test_a_filter_changes_what_the_chart_and_its_table_show(self):
         self.open("committed")
-        for section, key, value in (("atlas", "verdict", "unstable"), ("work-precision-time", "problem", "tumbling_box damping_ratio=0"),
-                                    ("work-precision-time", "precision", "f32"), ("scaling-1", "variant", "avx2"),
-                                    ("stability", "integrator", "velocity_verlet"), ("ladder", "verdict", "insufficient")):
-            choice = self.select(section, key)
-            before, first = (self.drawn(section), self.rows(section)), choice.first_selected_option.get_attribute("value")
-            choice.select_by_value(value)
-            after = (self.drawn(section), self.rows(section))
-            self.assertGreaterEqual(after[0]["marks"], 1, (section, key))
-            self.assertGreater(after[1], 0, (section, key))
-            self.assertNotEqual(before[0]["look"], after[0]["look"], (section, key))
-            names = self.browser.execute_script("return arguments[0].data.map((trace) => trace.meta[arguments[1]]).filter((value) => value !== undefined)", self.chart(section), key)
-            self.assertEqual(set(names), {value}, (section, key))
-            choice.select_by_value(first)
-            self.assertEqual((self.drawn(section)["marks"], self.rows(section)), (before[0]["marks"], before[1]), (section, key))
+        for section, key, value in (
+                ("atlas", "verdict", "unstable"),
+                ("work-precision-time", "problem", "tumbling_box damping_ratio=0"),
+                ("work-precision-time", "precision", "f32"),
+                ("scaling-1", "variant", "avx2"),
+                ("stability", "integrator", "velocity_verlet"),
+                ("ladder", "verdict", "insufficient")):
+            with self.subTest(section=section, key=key):
+                choice = self.select(section, key)
+                first = choice.first_selected_option.get_attribute("value")
+                before, rows = self.drawn(section), self.rows(section)
+                choice.select_by_value(value)
+                after = self.drawn(section)
+                self.assertGreaterEqual(after["marks"], 1)
+                self.assertGreater(self.rows(section), 0)
+                self.assertNotEqual(before["look"], after["look"])
+                values = self.of_traces(section, f"trace.meta.{key} ?? []")
+                self.assertEqual(set(values), {value})
+                choice.select_by_value(first)
+                self.assertEqual(self.drawn(section)["marks"], before["marks"])
+                self.assertEqual(self.rows(section), rows)
 
     def test_a_filter_changes_a_table_of_the_paper(self):
         self.open("committed")
@@ -170,44 +235,49 @@ class BrowserTest(unittest.TestCase):
 
     def test_each_cell_of_the_atlas_says_why_and_a_click_shows_its_row(self):
         self.open("committed")
-        texts = self.browser.execute_script("return arguments[0].data.flatMap((trace) => trace.text)", self.chart("atlas"))
+        texts = self.of_traces("atlas", "trace.text")
         self.assertGreater(len(texts), 300)
         for text in texts:
             for word in ("verdict: ", "expected: ", "why: ", "tables/failures.csv:"):
                 self.assertIn(word, text)
-        self.browser.execute_script("const chart = arguments[0]; chart.emit('plotly_click', {points: [{customdata: chart.data[0].customdata[0]}]})", self.chart("atlas"))
-        marked = self.browser.find_elements(By.CSS_SELECTOR, "#atlas tr.marked")
+        line = self.of_traces("atlas", "trace.customdata")[0]
+        self.browser.execute_script(
+            "arguments[0].emit('plotly_click', {points: [{customdata: arguments[1]}]})",
+            self.chart("atlas"), line)
+        marked = self.find_all("#atlas tr.marked")
         self.assertEqual(len(marked), 1)
         self.assertTrue(marked[0].is_displayed())
 
     def test_the_theme_button_changes_page_and_charts_and_back(self):
         self.open("committed")
-        look = "return [getComputedStyle(document.body).backgroundColor, getComputedStyle(document.querySelector('#advice .chart .xtick text')).fill]"
-        button, before = self.browser.find_element(By.ID, "theme"), self.browser.execute_script(look)
+        def looks():
+            tick = self.find("#advice .chart .xtick text")
+            return self.value(BACKGROUND), self.value("getComputedStyle(arguments[0]).fill", tick)
+        button, before = self.find("#theme"), looks()
         label = button.text
         self.browser.execute_script("arguments[0].scrollIntoView()", button)
         button.click()
-        after = self.browser.execute_script(look)
-        self.assertNotEqual(before[0], after[0])
-        self.assertNotEqual(before[1], after[1])
+        for old, new in zip(before, looks()):
+            self.assertNotEqual(old, new)
         self.assertNotEqual(label, button.text)
         self.assertGreaterEqual(self.drawn("advice")["marks"], 3)
         button.click()
-        self.assertEqual(self.browser.execute_script(look), before)
+        self.assertEqual(looks(), before)
 
     def test_the_systems_dark_theme_is_followed(self):
         self.open("sample")
-        colour = "return getComputedStyle(document.body).backgroundColor"
-        light = self.browser.execute_script(colour)
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
-        dark = self.browser.execute_script(colour)
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+        light = self.value(BACKGROUND)
+        self.command("Emulation.setEmulatedMedia",
+                     features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        dark = self.value(BACKGROUND)
+        self.command("Emulation.setEmulatedMedia", features=[])
         self.assertNotEqual(light, dark)
 
     def test_a_phone_does_not_scroll_sideways(self):
         for name, sections in (("committed", SECTIONS), ("sample", SAMPLE_SECTIONS)):
             self.open(name, 360)
-            self.assertEqual(self.browser.execute_script("return [innerWidth, document.documentElement.scrollWidth]"), [360, 360], name)
+            widths = self.value("[innerWidth, document.documentElement.scrollWidth]")
+            self.assertEqual(widths, [360, 360], name)
             for section in sections:
                 self.assertLessEqual(self.drawn(section)["width"], 360)
                 self.assertGreaterEqual(self.drawn(section)["marks"], 3, section)
@@ -218,15 +288,17 @@ class BrowserTest(unittest.TestCase):
         reached = []
         for _ in range(150):
             self.browser.switch_to.active_element.send_keys(Keys.TAB)
-            reached.append(self.browser.execute_script("const at = document.activeElement; return [at.tagName, at.id || at.name || at.className, at.closest('section') ? at.closest('section').id : '']"))
+            reached.append(self.browser.execute_script(FOCUS))
             if reached[-1][0] == "BODY":
                 break
         self.assertIn(["BUTTON", "theme", ""], reached)
         self.assertIn(["SELECT", "variant", "roofline"], reached)
         self.assertIn(["SELECT", "verdict", "atlas"], reached)
-        self.assertTrue([at for at in reached if at[0] == "DIV" and "scroll" in at[1] and at[2] == "table-1-host"], reached)
+        self.assertTrue([at for at in reached if at[0] == "DIV" and "scroll" in at[1]
+                         and at[2] == "table-1-host"], reached)
         self.assertTrue([at for at in reached if at[0] == "SUMMARY" and at[2] == "chain"], reached)
-        before, choice = self.drawn("roofline")["marks"], self.browser.find_element(By.CSS_SELECTOR, '#roofline select[name="variant"]')
+        before = self.drawn("roofline")["marks"]
+        choice = self.find('#roofline select[name="variant"]')
         choice.send_keys(Keys.ARROW_DOWN)
         self.assertNotEqual(self.drawn("roofline")["marks"], before)
         choice.send_keys(Keys.ARROW_UP)
@@ -234,17 +306,26 @@ class BrowserTest(unittest.TestCase):
     def test_each_chart_is_also_words_and_a_table(self):
         self.open("committed")
         for section in SECTIONS:
-            self.assertGreater(len(self.chart(section).get_attribute("aria-label")), 60, section)
-            self.assertGreater(self.browser.execute_script("return document.querySelectorAll(arguments[0]).length", f"#{section} details tbody td"), 20, section)
+            label = self.chart(section).get_attribute("aria-label")
+            self.assertGreater(len(label), 60, section)
+            cells = self.value("document.querySelectorAll(arguments[0]).length",
+                               f"#{section} details tbody td")
+            self.assertGreater(cells, 20, section)
 
     def test_the_logs_that_every_test_looks_at_are_on(self):
         self.open("sample")
-        self.browser.execute_script("console.error('seen'); const image = new Image(); image.src = 'https://example.invalid/asked.png'")
-        found = []
-        WebDriverWait(self.browser, 10).until(lambda browser: found.extend(browser.get_log("browser")) or len(found) >= 2)
-        self.assertTrue([entry for entry in found if "seen" in entry["message"]])
-        self.assertTrue([entry for entry in found if "Content Security Policy" in entry["message"]])  # and the page may not ask
-        self.assertIn("https://example.invalid/asked.png", self.requests())
+        address, found = "https://example.invalid/asked.png", []
+        self.browser.execute_script(
+            "console.error('seen'); new Image().src = arguments[0]", address)
+
+        def has_both(browser):
+            found.extend(browser.get_log("browser"))
+            return len(found) >= 2
+        WebDriverWait(self.browser, 10).until(has_both)
+        text = "".join(entry["message"] for entry in found)
+        self.assertIn("seen", text)
+        self.assertIn("Content Security Policy", text)  # the page must not ask
+        self.assertIn(address, self.requests())
 
 
 if __name__ == "__main__":

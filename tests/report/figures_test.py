@@ -1,8 +1,6 @@
-"""Every PNG is checked when it is drawn: violations that are planted here are found, and every
-committed table is drawn without one."""
+"""Tests the check of figures: it finds planted violations, and it passes every committed table."""
 import base64
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -28,24 +26,20 @@ from tables.results import Results  # noqa: E402
 FIELDS = {"l_bracket", "l_bracket_frames", "plate_paper"}  # pictures of bodies, not of tables
 
 
-def run_make_plots(directory):
-    command = [sys.executable, str(report.ROOT / "plots" / "make_plots.py"), "--results", directory]
-    return subprocess.run(command, capture_output=True, text=True, timeout=900)
-
-
 def chart_of(series, heading="A chart"):
-    """A chart of nothing but these series."""
+    """A chart with these series only."""
     axes = Axis("x [m]"), Axis("y [m]")
     return Chart("a_table", series[0].rows, {}, [Panel(*axes, series)], heading)
 
 
 def series_of(name, look, values=(1, 2, 3)):
+    """A series of three points."""
     rows = pandas.DataFrame({"x": [1, 2, 3], "y": values, "line": [2, 3, 4]})
     return Series(name, rows, "x", "y", look)
 
 
 def write_body(path, moved):
-    """Two elements side by side, as `dssbench run --output` writes them."""
+    """Writes two elements side by side, in the format of `dssbench run --output`."""
     corners = numpy.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))])
     points = numpy.concatenate([corners, corners + [1, 0, 0]]).astype("<f8")
     arrays = {"Points": ("points", points, 3),
@@ -61,13 +55,14 @@ def write_body(path, moved):
 
 
 class Planted(unittest.TestCase):
-    """What the check says of figures that are wrong."""
+    """The check finds planted violations."""
 
     def setUp(self):
         self.figure, self.axes = plt.subplots()
         self.addCleanup(plt.close, self.figure)
 
     def only_violation(self):
+        """The one violation of the figure."""
         found = check.violations(self.figure)
         self.assertEqual(len(found), 1, found)
         return found[0]
@@ -141,9 +136,10 @@ class Planted(unittest.TestCase):
 
 
 class Rendered(unittest.TestCase):
-    """The PNG renderer makes room, and its check sees the series of a description."""
+    """The PNG renderer makes room for texts and checks the series of a chart."""
 
     def draw(self, *series, **more):
+        """Draws a chart of series."""
         with tempfile.TemporaryDirectory() as directory:
             png.draw([chart_of(series, **more)], pathlib.Path(directory) / "chart.png", "")
 
@@ -182,18 +178,15 @@ class Committed(unittest.TestCase):
             committed = {path.stem for path in (folder / "figures").glob("*.png")} - FIELDS
             for path in (folder / "figures").glob("*.png"):
                 path.unlink()
-            result = run_make_plots(folder)
+            result = report.make_plots(folder)
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             drawn = {path.stem for path in (folder / "figures").glob("*.png")}
             self.assertEqual(drawn, committed)
 
     def test_a_column_that_is_empty_in_every_row_may_be_left_out(self):
         reduced = self.directory.parent / "reduced"
-        (reduced / "tables").mkdir(parents=True)
-        for path in (self.directory / "tables").glob("*.csv"):
-            table = pandas.read_csv(path, dtype=str, keep_default_na=False)
-            table = table.loc[:, (table != "").any()]
-            table.to_csv(reduced / "tables" / path.name, index=False)
+        report.copy_committed(reduced)
+        report.leave_out_empty_columns(reduced)
         whole, less = Results(self.directory), Results(reduced)
         for entry in CHARTS:
             specs = [page.spec(entry.make(results)) for results in (whole, less)]
@@ -208,7 +201,7 @@ class Committed(unittest.TestCase):
         table = pandas.read_csv(sick / "tables" / "stability_energy.csv")
         table["h_omega"] = "not a number"
         table.to_csv(sick / "tables" / "stability_energy.csv", index=False)
-        result = run_make_plots(sick)
+        result = report.make_plots(sick)
         self.assertEqual(result.returncode, 1)
         self.assertIn("stability_energy.png cannot be drawn", result.stderr)
         self.assertNotIn("Traceback", result.stderr)
@@ -236,7 +229,7 @@ class Committed(unittest.TestCase):
         (fields / "beam.pvd").write_text(f"<VTKFile><Collection>{states}</Collection></VTKFile>",
                                          encoding="utf-8")
         write_body(fields / "alone.vtu", 1e-3)
-        result = run_make_plots(fields.parent)
+        result = report.make_plots(fields.parent)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         drawn = {path.stem for path in (fields.parent / "figures").glob("*.png")}
         self.assertEqual(drawn, {"alone", "beam", "beam_frames"})

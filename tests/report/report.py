@@ -1,4 +1,8 @@
-"""What both tests of the report share: a page made by the command as a user gives it, and a way to be skipped that ctest sees."""
+"""The part that all tests of the report share.
+
+It runs the commands as a user gives them, and skips a test in a way that ctest sees.
+"""
+import csv
 import os
 import pathlib
 import shutil
@@ -12,22 +16,46 @@ SKIPPED = 77  # CMakeLists.txt: SKIP_RETURN_CODE
 
 
 def skip_all(reason):
-    """A whole test that cannot run here is no pass."""
+    """Ends a test that cannot run here; it does not count as passed."""
     print(f"skipped: {reason}")
     sys.exit(SKIPPED)
 
 
 def copy_committed(directory):
-    """The committed results, in a directory of the test's own."""
-    shutil.copytree(ROOT / "results", directory, ignore=shutil.ignore_patterns("oracle", "logs", "fields", "report.html"))
+    """Copies the committed results to a directory of the test."""
+    unused = shutil.ignore_patterns("oracle", "logs", "fields", "report.html")
+    shutil.copytree(ROOT / "results", directory, ignore=unused)
 
 
-def make_report(directory, environment=ENVIRONMENT, **options):
-    return subprocess.run([sys.executable, str(ROOT / "plots" / "make_report.py"), "--results", str(directory), "--environment", str(environment)], capture_output=True, text=True, timeout=150, **options)
+def leave_out_empty_columns(directory):
+    """Removes columns that are empty in every row from all tables, as the program does."""
+    for path in (directory / "tables").glob("*.csv"):
+        with open(path, encoding="utf-8", newline="") as file:
+            head, *rows = csv.reader(file)
+        kept = [place for place in range(len(head)) if any(row[place] for row in rows)]
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerows([row[place] for place in kept] for row in (head, *rows))
+
+
+def run(*command, timeout_s=150):
+    """Runs a program of plots/ with its arguments."""
+    return subprocess.run([sys.executable, ROOT / "plots" / command[0], *command[1:]],
+                          capture_output=True, text=True, timeout=timeout_s)
+
+
+def make_report(directory, environment=ENVIRONMENT):
+    """Runs make_report.py on a directory of results."""
+    return run("make_report.py", "--results", directory, "--environment", environment)
+
+
+def make_plots(directory):
+    """Runs make_plots.py on a directory of results."""
+    return run("make_plots.py", "--results", directory, timeout_s=900)
 
 
 def run_tests(module):
-    """unittest.main, but a run in which tests were skipped and none failed is skipped as a whole."""
+    """Runs all tests of a module. If some were skipped and none failed, the run is skipped."""
     program = unittest.main(module, exit=False, verbosity=2)
     if not program.result.wasSuccessful() or program.result.testsRun == 0:
         sys.exit(1)
