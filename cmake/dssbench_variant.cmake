@@ -26,6 +26,26 @@ function(dssbench_variant_module target)
     LINK_DEPENDS ${arg_EXPORTS})
 endfunction()
 
+# dssbench_engine_sources(OUT root)
+#
+# Sets OUT to the sources of the row engine under `root`: its own, and one for each model and type,
+# which are generated. The models are those of kernels/model.hpp.
+function(dssbench_engine_sources out root)
+  file(GLOB sources CONFIGURE_DEPENDS ${root}/variants/engine/*.cpp)
+  file(STRINGS ${root}/kernels/model.hpp models REGEX "^enum class Model {")
+  string(REGEX REPLACE ".*{ *(.*[^ ]) *}.*" "\\1" models "${models}")
+  string(REGEX REPLACE ", *" ";" models "${models}")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/kernels/model.hpp)
+  foreach(model IN LISTS models)
+    foreach(type double float)
+      set(source ${PROJECT_BINARY_DIR}/generated/variants/engine/kernels_${model}_${type}.cpp)
+      configure_file(${root}/variants/engine/kernels_of_model.cpp.in ${source} @ONLY)
+      list(APPEND sources ${source})
+    endforeach()
+  endforeach()
+  set(${out} ${sources} PARENT_SCOPE)
+endfunction()
+
 # dss_march_needs(OUT isa [flag...])
 #
 # Sets OUT to the CPU features that code uses if it is compiled with -march=isa and with those of

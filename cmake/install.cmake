@@ -14,7 +14,7 @@ install(DIRECTORY examples DESTINATION share/dssbench)
 install(DIRECTORY kernels solver DESTINATION include/dssbench
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 install(DIRECTORY variants/engine DESTINATION include/dssbench/variants
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.cpp")
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.cpp" PATTERN "*.cpp.in")
 install(DIRECTORY variants/api variants/loading variants/cost
   DESTINATION include/dssbench/variants FILES_MATCHING PATTERN "*.hpp")
 install(TARGETS dss_options dss_solver EXPORT dssbench ARCHIVE DESTINATION lib/dssbench)

@@ -23,12 +23,12 @@ struct KernelCase {
 /// All cases of all models. Operands are numbers of type `Real`.
 template <class Real>
 std::span<const KernelCase<Real>> kernel_cases() {
-  using S = SpatialPhysics<Real>;
-  using P = PlanarPhysics<Real>;
-  using V = SmallPhysics<Real>;
-  using L = LinearPhysics<Real>;
-  using B = BendingPhysics<Real>;
-  using M = MembranePhysics<Real>;
+  using S = Physics<Model::spatial, Real>;
+  using P = Physics<Model::planar, Real>;
+  using V = Physics<Model::small, Real>;
+  using L = Physics<Model::linear, Real>;
+  using B = Physics<Model::bending, Real>;
+  using M = Physics<Model::membrane, Real>;
   constexpr Model spatial = Model::spatial, small = Model::small, linear = Model::linear,
                   bending = Model::bending, membrane = Model::membrane, planar = Model::planar;
   static constexpr KernelCase<Real> cases[] = {

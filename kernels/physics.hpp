@@ -33,120 +33,71 @@ struct Terms {
 #define FMA(a, b, c) simd::fma(a, b, c)
 #define SPLAT(a) Real(a)
 
-// Each model: `fields` numbers an element; `axes` along which elements are linked; `is_common` if
-// many runs use the model, so that specialised code is worth its compile time.
+/// The physics of a model over numbers of type Real.
+template <Model model, class Real>
+struct Physics;
 
-template <class Real>
-struct SpatialPhysics {
+/// What a model's physics has besides the shared headers.
+template <Model model, class Real>
+struct PhysicsTraits {
   using real = Real;
-  static constexpr int fields = 13, axes = 3;
-  static constexpr bool is_common = true;
-#define AXES 3
-  // clang-format off
+  static constexpr int fields = int(descriptor(model).fields.size()), axes = descriptor(model).axes;
+  static constexpr bool is_common = descriptor(model).is_common;
+};
+
+// The order of the includes matters. end.h ends the words of the algebra.
+// clang-format off
+template <class Real>
+struct Physics<Model::spatial, Real> : PhysicsTraits<Model::spatial, Real> {
 #include "kernels/algebra/spatial.h"
 #include "kernels/laws.h"
 #define STRESS
 #include "kernels/stress/stress.h"
 #include "kernels/case_functions.h"
-#undef STRESS
-  // clang-format on
-#undef AXES
+#include "kernels/algebra/end.h"
 };
-
 template <class Real>
-struct SmallPhysics {
-  using real = Real;
-  static constexpr int fields = 12, axes = 3;
-  static constexpr bool is_common = false;
-#define AXES 3
-  // clang-format off
+struct Physics<Model::small, Real> : PhysicsTraits<Model::small, Real> {
 #include "kernels/algebra/small.h"
 #include "kernels/laws.h"
 #include "kernels/case_functions.h"
-  // clang-format on
-#undef AXES
+#include "kernels/algebra/end.h"
 };
-
 template <class Real>
-struct LinearPhysics {
-  using real = Real;
-  static constexpr int fields = 12, axes = 3;
-  static constexpr bool is_common = false;
-#define AXES 3
-#define LINEAR
-  // clang-format off
+struct Physics<Model::linear, Real> : PhysicsTraits<Model::linear, Real> {
 #include "kernels/algebra/linear.h"
 #include "kernels/laws.h"
 #include "kernels/case_functions.h"
-  // clang-format on
-#undef LINEAR
-#undef AXES
+#include "kernels/algebra/end.h"
 };
-
 template <class Real>
-struct BendingPhysics {
-  using real = Real;
-  static constexpr int fields = 6, axes = 2;
-  static constexpr bool is_common = false;
-#define AXES 2
-#define LINEAR
-  // clang-format off
+struct Physics<Model::bending, Real> : PhysicsTraits<Model::bending, Real> {
 #include "kernels/algebra/bending.h"
 #include "kernels/laws.h"
 #include "kernels/case_functions.h"
-  // clang-format on
-#undef LINEAR
-#undef AXES
+#include "kernels/algebra/end.h"
 };
-
 template <class Real>
-struct MembranePhysics {
-  using real = Real;
-  static constexpr int fields = 6, axes = 2;
-  static constexpr bool is_common = true;
-#define AXES 2
-#define PLANAR
-#define LINEAR
-  // clang-format off
+struct Physics<Model::membrane, Real> : PhysicsTraits<Model::membrane, Real> {
 #include "kernels/algebra/membrane.h"
 #include "kernels/laws.h"
 #include "kernels/case_functions.h"
-  // clang-format on
-#undef LINEAR
-#undef PLANAR
-#undef AXES
+#include "kernels/algebra/end.h"
 };
-
 template <class Real>
-struct PlanarPhysics {
-  using real = Real;
-  static constexpr int fields = 7, axes = 2;
-  static constexpr bool is_common = true;
-#define AXES 2
-#define PLANAR
-  // clang-format off
+struct Physics<Model::planar, Real> : PhysicsTraits<Model::planar, Real> {
 #include "kernels/algebra/planar.h"
 #include "kernels/laws.h"
 #include "kernels/case_functions.h"
-  // clang-format on
-#undef PLANAR
-#undef AXES
+#include "kernels/algebra/end.h"
 };
-
 template <class Real>
-struct AxialPhysics {
-  using real = Real;
-  static constexpr int fields = 2, axes = 1;
-  static constexpr bool is_common = false;
-#define AXES 1
-#define LINEAR
-  // clang-format off
+struct Physics<Model::axial, Real> : PhysicsTraits<Model::axial, Real> {
 #include "kernels/algebra/axial.h"
 #include "kernels/laws.h"
-  // clang-format on
-#undef LINEAR
-#undef AXES
+#include "kernels/algebra/end.h"
 };
+// clang-format on
 
 #undef REAL
 #undef FMA
@@ -154,24 +105,10 @@ struct AxialPhysics {
 
 /// Calls action.operator()<Physics>() with the physics of a model.
 template <class Real, class Action>
-auto with_physics(Model model, Action&& action) {
-  switch (model) {
-  case Model::small:
-    return action.template operator()<SmallPhysics<Real>>();
-  case Model::linear:
-    return action.template operator()<LinearPhysics<Real>>();
-  case Model::bending:
-    return action.template operator()<BendingPhysics<Real>>();
-  case Model::membrane:
-    return action.template operator()<MembranePhysics<Real>>();
-  case Model::planar:
-    return action.template operator()<PlanarPhysics<Real>>();
-  case Model::axial:
-    return action.template operator()<AxialPhysics<Real>>();
-  case Model::spatial:
-    break;
-  }
-  return action.template operator()<SpatialPhysics<Real>>();
+void with_physics(Model model, Action&& action) {
+  for_each_model([&]<Model each>() {
+    if (each == model) action.template operator()<Physics<each, Real>>();
+  });
 }
 
 /// Calls visit(component) for each component of a vec, spin, rotor or element, in the order in

@@ -23,20 +23,14 @@ struct ExplainArguments {
 
 /// How the chosen model describes rotations.
 Need rotations_of(const ModelChoice& choice) {
-  switch (choice.chosen) {
-  case Model::axial:
+  const Model model = choice.chosen;
+  const bool is_small = has_rotation_vectors(model);
+  const int rotations = degrees_of(model) & (dof_rx | dof_ry | dof_rz);
+  if (rotations == 0 || (is_small && !choice.is_bounded))
     return {"rotations", false, "nothing turns"};
-  case Model::planar:
+  if (!is_small && is_of_plane(model))
     return {"rotations", true, "finite, about z alone: one angle as a pair of numbers, exact"};
-  case Model::spatial:
-    return {"rotations", true, "finite, about any axis: quaternions"};
-  case Model::bending:
-  case Model::membrane:
-  case Model::linear:
-  case Model::small:
-    break;
-  }
-  if (!choice.is_bounded) return {"rotations", false, "nothing turns"};
+  if (!is_small) return {"rotations", true, "finite, about any axis: quaternions"};
   return {"rotations", true,
           fmt::format("vectors, as long as the bound of their error stays below {:g}: rotations of "
                       "so many rad at most",

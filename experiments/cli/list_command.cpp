@@ -1,6 +1,7 @@
 #include "experiments/base/text_table.hpp"
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
+#include "experiments/measure/cell_record.hpp"
 #include "experiments/measure/study_file.hpp"
 #include "experiments/run/plan/context.hpp"
 #include "experiments/run/plan/device_listing.hpp"
@@ -101,6 +102,18 @@ Listing kernel_listing() {
   return list;
 }
 
+/// The fields of records, raw/NAME.csv and tables of cells.
+Listing column_listing() {
+  Listing list = Listing::array();
+  for (const ColumnMeaning& column : column_meanings())
+    list.push_back({{"run --json", column.key},
+                    {"raw", column.raw},
+                    {"in tables", column.in_table},
+                    {"unit", column.unit},
+                    {"meaning", column.meaning}});
+  return list;
+}
+
 Listing listing(const ListArguments& arguments) {
   const std::string& what = arguments.what;
   if (arguments.is_measured && what != "devices")
@@ -111,6 +124,7 @@ Listing listing(const ListArguments& arguments) {
   if (what == "experiments") return study_listing();
   if (what == "methods") return method_listing();
   if (what == "kernels") return kernel_listing();
+  if (what == "columns") return column_listing();
   if (what == "devices") return device_listing(arguments.is_measured);
   throw InputError(fmt::format("list {}: unknown; {}", what, nearest_name(what, names_of("WHAT"))));
 }
@@ -140,11 +154,12 @@ int list(const ListArguments& arguments) {
 
 void add_list_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command =
-      app.add_subcommand("list", "List variants, scenes, experiments, methods, kernels or devices");
+      app.add_subcommand("list", "List what there is: variants, scenes, experiments, columns, ...");
   const auto arguments = std::make_shared<ListArguments>();
   command
-      ->add_option("WHAT", arguments->what,
-                   "variants, scenes, experiments, methods, kernels or devices")
+      ->add_option(
+          "WHAT", arguments->what,
+          "variants, scenes, experiments, methods, kernels, devices or columns (of records)")
       ->required();
   command->add_flag("--json", arguments->is_json, "Print JSON, with paths");
   command->add_flag(

@@ -12,6 +12,7 @@ struct CellField {
   const char* column;
   const char* meaning;
   std::string (*value)(const RecordPlace& at);
+  bool is_in_tables = true;
 };
 
 template <class Number>
@@ -24,7 +25,7 @@ const CellField cell_fields[] = {
     {"experiment", "the study", [](At at) { return at.study.name; }},
     {"scale", "scale of the study", [](At at) { return at.study.scale.name; }},
     {"cell", "everything that makes two rows comparable, in one text; (A/A): second of equal cells",
-     [](At at) { return at.cell.key(); }},
+     [](At at) { return at.cell.key(); }, false},
     {"scene", "the scene", [](At at) { return at.cell.scene; }},
     {"set", "its overrides", [](At at) { return at.cell.set_text(); }},
     {"variant", "variant, of ranks that of their parts", [](At at) { return at.cell.variant; }},
@@ -40,21 +41,32 @@ const CellField cell_fields[] = {
     {"device", "device asked for", [](At at) { return at.cell.device; }},
     {"hybrid", "members asked for", [](At at) { return at.cell.hybrid; }},
     {"twin", "second of an A/A pair: one cell measured as if it were two",
-     [](At at) { return std::string(at.cell.is_twin ? "true" : "false"); }},
+     [](At at) { return std::string(at.cell.is_twin ? "true" : "false"); }, false},
     {"cores", "cores that the study may use", [](At at) { return text(at.cores); }},
     {"steps", "steps asked for", [](At at) { return text(at.cell.steps); }},
     {"full_steps", "steps that times are scaled to, for variants too slow to run them all",
-     [](At at) { return text(at.cell.full_steps); }},
+     [](At at) { return text(at.cell.full_steps); }, false},
     {"rtol", "relative tolerance of adaptive steps",
-     [](At at) { return at.cell.rtol > 0 ? text(at.cell.rtol) : std::string(); }},
-    {"repetition", "number of the round", [](At at) { return text(at.repetition); }},
+     [](At at) { return at.cell.rtol > 0 ? text(at.cell.rtol) : std::string(); }, false},
+    {"repetition", "number of the round", [](At at) { return text(at.repetition); }, false},
     {"attempt", "number of the retry; the last attempt counts",
-     [](At at) { return text(at.attempt); }},
-    {"time_utc", "when it ended", [](At) { return measurement_time(); }},
+     [](At at) { return text(at.attempt); }, false},
+    {"time_utc", "when it ended", [](At) { return measurement_time(); }, false},
 };
 
-/// Columns that are measured outside the run.
-constexpr const char* further_columns[] = {"triad_bytes_per_s", "peak_flops_per_s", "process_s"};
+/// A column that is measured outside the run.
+struct FurtherColumn {
+  const char *column, *unit, *meaning;
+};
+constexpr FurtherColumn further_columns[] = {
+    {"triad_bytes_per_s", "B/s", "memory bandwidth of the device"},
+    {"peak_flops_per_s", "1/s", "fused multiply-adds of the device, two flops each"},
+    {"process_s", "s", "wall time of the whole process"}};
+
+const char* name_of(Aggregate aggregate) {
+  constexpr const char* names[] = {"", "last", "median", "largest", "all different"};
+  return names[std::size_t(aggregate)];
+}
 
 Record identity(const RecordPlace& at) {
   Record row;
@@ -76,10 +88,35 @@ const std::vector<std::string>& raw_columns() {
     for (const CellField& field : cell_fields) all.emplace_back(field.column);
     for (const RunField& field : run_fields())
       if (*field.column != '\0') all.emplace_back(field.column);
-    all.insert(all.end(), std::begin(further_columns), std::end(further_columns));
+    for (const FurtherColumn& further : further_columns) all.emplace_back(further.column);
     return all;
   }();
   return columns;
+}
+
+std::vector<ColumnMeaning> column_meanings() {
+  std::vector<ColumnMeaning> all;
+  for (const CellField& field : cell_fields)
+    all.push_back({"", field.column, field.is_in_tables ? "of the cell" : "", "", field.meaning});
+  for (const RunField& field : run_fields())
+    all.push_back({field.key, field.column, name_of(field.in_tables), field.unit, field.meaning});
+  for (const FurtherColumn& further : further_columns)
+    all.push_back({"", further.column, "", further.unit, further.meaning});
+  return all;
+}
+
+std::vector<std::string> identity_columns() {
+  std::vector<std::string> columns{"source", "label"};
+  for (const CellField& field : cell_fields)
+    if (field.is_in_tables) columns.emplace_back(field.column);
+  return columns;
+}
+
+void put_identity(const RecordPlace& place, Record& row) {
+  row["source"] = "measured";
+  row["label"] = place.cell.label();
+  for (const CellField& field : cell_fields)
+    if (field.is_in_tables) row[field.column] = field.value(place);
 }
 
 std::vector<std::string> run_arguments(const CellStudy& study, const Cell& cell,

@@ -21,6 +21,20 @@ struct RecordPlace {
 /// Columns of raw/NAME.csv. The file has one row for each attempt of each repetition.
 const std::vector<std::string>& raw_columns();
 
+/// A field of a run's record, in all places where it appears.
+struct ColumnMeaning {
+  std::string key;      ///< key in the JSON of `dssbench run`; empty: not there
+  std::string raw;      ///< column of raw/NAME.csv; empty: not there
+  std::string in_table; ///< how repetitions become one value of a table; empty: not there
+  std::string unit, meaning;
+};
+/// All fields of cells and runs, in the order of raw_columns().
+std::vector<ColumnMeaning> column_meanings();
+
+/// Columns of a table that say what the cell of a row is.
+std::vector<std::string> identity_columns();
+void put_identity(const RecordPlace& place, Record& row);
+
 /// Command line of one repetition.
 /// @param checks  options that name the reference of the check
 std::vector<std::string> run_arguments(const CellStudy& study, const Cell& cell,

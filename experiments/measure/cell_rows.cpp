@@ -1,4 +1,5 @@
 #include "experiments/measure/cell_rows.hpp"
+#include "experiments/measure/cell_record.hpp"
 #include "experiments/run/timed/run_fields.hpp"
 
 #include <algorithm>
@@ -48,26 +49,8 @@ void put_run_fields(const CellSample& sample, Record& row) {
 }
 
 void put_identity(const CellStudy& study, const Cell& cell, const CellSample& sample, Record& row) {
-  row["experiment"] = study.name;
-  row["scale"] = study.scale.name;
-  row["source"] = "measured";
-  row["label"] = cell.label();
-  row["device"] = cell.device;
-  row["hybrid"] = cell.hybrid;
-  row["scene"] = cell.scene;
-  row["set"] = cell.set_text();
+  put_identity({study, cell}, row);
   row["weak_base_set"] = cell.weak_base_set;
-  row["variant"] = cell.variant;
-  row["threads"] = fmt::format("{}", cell.threads);
-  row["ranks"] = fmt::format("{}", cell.ranks);
-  if (cell.ranks > 1) {
-    row["decomposition"] = cell.decomposition;
-    row["halo"] = cell.halo;
-  }
-  row["model"] = cell.model;
-  row["precision"] = cell.precision;
-  row["integrator"] = cell.integrator;
-  row["steps"] = fmt::format("{}", cell.steps);
   row["cores"] = text_in(sample.last, "cores");
   put_run_fields(sample, row);
 }

@@ -2,6 +2,8 @@
  * turn. A vector has only the component x. Spins and rotors have no components. They hold one
  * number that nothing reads, because C has no empty struct. space.h and spatial.h explain the
  * operations. */
+#define AXES 1
+#define LINEAR
 
 typedef struct {
   REAL x;

@@ -1,6 +1,8 @@
 /* Algebra of the bending model (shared subset): linear.h restricted to the deflection uz and the
  * rotations about x and y. A vector has the component z; spins and rotors have x and y. space.h and
  * spatial.h explain the operations. */
+#define AXES 2
+#define LINEAR
 
 typedef struct {
   REAL z;

@@ -1,6 +1,8 @@
 /* Algebra of the linear model (shared subset): small.h with arms that keep their direction at rest,
- * so forces are linear in the state. The includer defines LINEAR, which makes the material law
+ * so forces are linear in the state. LINEAR makes the material law
  * linear too (kernels/link_force/link_force.h). */
+#define AXES 3
+#define LINEAR
 #include "kernels/algebra/rotation_vector.h"
 
 #include "kernels/algebra/fixed_lever.h"

@@ -1,6 +1,9 @@
 /* Algebra of the membrane model (shared subset): linear.h restricted to the displacements ux, uy
  * and the rotation about z. A vector has the components x and y; spins and rotors have z. space.h
  * and spatial.h explain the operations. */
+#define AXES 2
+#define PLANAR
+#define LINEAR
 
 #include "kernels/algebra/plane.h"
 

@@ -1,6 +1,8 @@
 /* Algebra of the planar model (shared subset): spatial.h restricted to motion in a plane z = const.
  * It is exact for such motion. A vector has the components x and y, a spin has z, and a rotor is
  * the quaternion (1 + s, 0, 0, z). space.h and spatial.h explain the operations. */
+#define AXES 2
+#define PLANAR
 
 #include "kernels/algebra/plane.h"
 

@@ -2,6 +2,7 @@
  * quaternions, A = I + [theta]x, exact to first order in theta. Arms turn with the element.
  * Products of a rotation with forces or velocities are kept. The inertia stays in the axes of the
  * frame. */
+#define AXES 3
 #include "kernels/algebra/rotation_vector.h"
 #include "kernels/algebra/turning_lever.h"
 

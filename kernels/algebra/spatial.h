@@ -2,6 +2,7 @@
  * a unit quaternion. A model is an algebra: the laws of motion use only these operations, and every
  * other algebra defines the same list (kernels/README.md). The includer defines the words REAL,
  * FMA(a, b, c) = a * b + c and SPLAT(scalar). */
+#define AXES 3
 #include "kernels/algebra/space.h"
 
 typedef struct {

@@ -30,6 +30,11 @@ def rows_of(results):
     return frame
 
 
+def in_order(names):
+    """Each name once, from the least work to the most; models that are not in COLOURS are last."""
+    return sorted(set(names), key=lambda name: ([*COLOURS, name].index(name), name))
+
+
 def verdicts(results):
     """The verdicts of models on scenes, and a ring round the last model of `auto`."""
     frame = rows_of(results)
@@ -43,8 +48,7 @@ def verdicts(results):
                              keys_of(rows, "verdict", "provable")))
     if not chosen.empty:
         series.append(Series("last model of auto", chosen, "ends_with", "problem", RING))
-    order = [model for model in COLOURS if model in set(models["model"])]
-    order += sorted(set(models["model"]) - set(order))
+    order = in_order(models["model"])
     scenes = list(dict.fromkeys(frame["problem"]))
     good = chosen["error"].le(chosen["tolerance"]).sum()
     heading = ("A square: the model meets the tolerance of the scene. A cross: it does not. A "
@@ -94,8 +98,9 @@ def errors(results):
         titles[name,] = name if auto.empty or is_missing(auto.iloc[0]["ends_with"]) else (
             f"{name}: {auto.iloc[0]['ends_with']}"
             f"{', promoted' * bool((auto['promotions'] > 0).any())}")
-    models = [model for model in COLOURS if model in set(frame["model"])]
-    legend = [(model, Look(COLOURS[model], MARKS[model], size=9)) for model in models]
+    colours = colours_of(frame["model"].unique(), COLOURS)
+    legend = [(model, Look(colours[model], MARKS.get(model, "x"), size=9))
+              for model in in_order(frame["model"]) if model != "auto"]
     legend += [("does not suffice", Look("soft", "circle", is_hollow=True, size=9)),
                ("auto", RING.but(size=17)), ("tolerance", Look("soft", line="dash", width=1))]
     heading = ("Error against the spatial oracle, over the time of a run. The title has the last "

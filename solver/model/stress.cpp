@@ -11,7 +11,7 @@
 namespace dss {
 namespace {
 
-using Spatial = SpatialPhysics<double>;
+using Spatial = Physics<Model::spatial, double>;
 
 /// Element of the spatial model, or of the linear or small model if P has rotation vectors.
 template <class P>
@@ -116,8 +116,9 @@ std::vector<ElementStress> stress_by(const Problem& problem, std::span<const dou
 
 std::vector<ElementStress> element_stress(const Problem& problem, std::span<const double> state,
                                           Rotation equations) {
-  if (equations == Rotation::linearised) return stress_by<LinearPhysics<double>>(problem, state);
-  if (equations == Rotation::small) return stress_by<SmallPhysics<double>>(problem, state);
+  if (equations == Rotation::linearised)
+    return stress_by<Physics<Model::linear, double>>(problem, state);
+  if (equations == Rotation::small) return stress_by<Physics<Model::small, double>>(problem, state);
   return stress_by<Spatial>(problem, state);
 }
 

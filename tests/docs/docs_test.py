@@ -1,11 +1,13 @@
 """Every command of the pages: run in a scratch directory, described by the help, or left out."""
 import collections
 import concurrent.futures
+import json
 import tempfile
 import time
 import unittest
 
 import checks
+import columns_page
 import pages
 import plan
 import workplace
@@ -26,6 +28,14 @@ def run_page(commands):
             fault = "" if lack else checks.fault_of_run(command, text, LISTS, directory)
             results.append((command, fault, lack, time.monotonic() - start))
         return results
+
+
+class Columns(unittest.TestCase):
+    def test_the_page_of_columns_is_what_the_program_lists(self):
+        listed = json.loads(workplace.asked("list", "columns", "--json")[1])
+        self.assertGreater(len(listed), 100)
+        self.assertEqual(pages.read_page(workplace.SOURCE, "results/columns.md"),
+                         columns_page.page(listed), "make it again: see its first lines")
 
 
 class Pages(unittest.TestCase):

@@ -28,7 +28,7 @@ def furnish(directory, texts, files=()):
     for place in ("bin/dssbench", "build/release/dssbench"):
         os.makedirs(os.path.dirname(f"{directory}/{place}"))
         os.symlink(PROGRAM, f"{directory}/{place}")
-    for folder in ("results", "plots", "variants", "experiments"):
+    for folder in ("results", "plots", "variants", "experiments", "tests/docs"):
         if any(re.search(rf"(^|[\s=\"'(]){folder}(/|\s|$)", text) for text in texts):
             shutil.copytree(f"{SOURCE}/{folder}", f"{directory}/{folder}")
     for name, text in files:

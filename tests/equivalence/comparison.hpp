@@ -1,11 +1,11 @@
 #pragma once
 /// Runs a problem on a variant and compares states: with the oracle by tolerance, with variants
 /// with FMA to the last bit.
+#include "kernels/model.hpp"
 #include "solver/model/rotation_vector.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
 #include "tests/fixtures/schemes.hpp"
-#include "variants/engine/layout.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ inline State flattened(State state) {
 /// vector, or of its rotation in the plane.
 inline State restricted(State state, Model model) {
   if (model == Model::planar) return flattened(std::move(state));
-  const ModelLayout layout = model_layout(model);
+  const ModelDescriptor& layout = descriptor(model);
   for (std::size_t at = 0; at < state.size() && model != Model::spatial; at += field_count) {
     const auto fields = std::span(state).subspan(at, field_count);
     to_rotation_vector(fields);
@@ -64,7 +64,7 @@ inline State restricted(State state, Model model) {
 }
 /// The same for rates at a state that the model can hold.
 inline State restricted_rates(State rates, Model model) {
-  const ModelLayout layout = model_layout(model);
+  const ModelDescriptor& layout = descriptor(model);
   for (std::size_t at = 0; at < rates.size(); ++at) {
     const auto field = Field(at % field_count);
     if (field != qs && std::ranges::find(layout.fields, field) == layout.fields.end())

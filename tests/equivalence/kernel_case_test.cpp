@@ -27,7 +27,6 @@ inline long double fma(long double a, long double b, long double c) { return a *
 } // namespace dss
 
 #include "kernels/cases.hpp"
-#include "kernels/stage_row/cost.hpp"
 #include "kernels/stage_row/stage_row.hpp"
 #include "tests/equivalence/kernel_operands.hpp"
 #include "variants/loading/loader.hpp"
@@ -77,9 +76,9 @@ int stage_flops(row_action action) {
 
 TEST(StageRow, makes_the_flops_that_its_readme_declares) {
   for (const Model model : models)
-    with_physics<Counted>(model, [&]<class Physics>() {
-      EXPECT_EQ(stage_flops<Physics>(plain_stage), row_flops(model).stage) << name(model);
-      EXPECT_EQ(stage_flops<Physics>(combined_stage), row_flops(model).last_stage) << name(model);
+    with_physics<Counted>(model, [&]<class P>() {
+      EXPECT_EQ(stage_flops<P>(plain_stage), descriptor(model).flops.stage) << name(model);
+      EXPECT_EQ(stage_flops<P>(combined_stage), descriptor(model).flops.last_stage) << name(model);
     });
 }
 

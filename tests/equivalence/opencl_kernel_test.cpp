@@ -1,8 +1,8 @@
 /// The shared physics in OpenCL C: every kernel case is built for the CPU device and must give the
 /// bits of packs.
+#include "kernels/model.hpp"
 #include "tests/equivalence/kernel_operands.hpp"
 #include "tests/equivalence/opencl_run.hpp"
-#include "variants/engine/layout.hpp"
 #include "variants/opencl/queue.hpp"
 
 #include <filesystem>
@@ -31,9 +31,6 @@ std::string program_source(const CompiledKernel& kernel) {
   source += fmt::format(
       "#define REAL {0}8\n#define SPLAT(a) (({0}8)({0})(a))\n#define FMA(a, b, c) fma(a, b, c)\n",
       scalar);
-  source += fmt::format("#define AXES {}\n", model_layout(kernel.model).axes);
-  if (is_of_plane(kernel.model)) source += "#define PLANAR\n";
-  if (is_linear(kernel.model)) source += "#define LINEAR\n";
   source += shared_header(fmt::format("kernels/algebra/{}.h", name(kernel.model))) +
             shared_header("kernels/laws.h");
   if (kernel.model == Model::spatial)

@@ -18,7 +18,7 @@ namespace {
 bool is_common(Model model) { return model == Model::spatial || model == Model::planar; }
 /// The models of this build.
 #ifdef DSS_FEWER_MODELS
-bool is_built(Model model) { return model != Model::small && model != Model::linear; }
+bool is_built(Model model) { return !descriptor(model).is_heavy; }
 #else
 bool is_built(Model) { return true; }
 #endif

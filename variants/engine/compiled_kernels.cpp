@@ -3,10 +3,9 @@
 #include "variants/engine/compiled_kernels.hpp"
 
 #include "kernels/cases.hpp"
-#include "kernels/stage_row/cost.hpp"
+#include "kernels/model.hpp"
 #include "kernels/stage_row/row_case.hpp"
 #include "variants/engine/kernel_set.hpp"
-#include "variants/engine/layout.hpp"
 
 #include <vector>
 
@@ -29,19 +28,13 @@ DSS_FLATTEN void run_kernel(int kernel, const void* in, void* out, std::size_t e
   }
 }
 
-#ifdef DSS_FEWER_MODELS
-constexpr Model row_models[] = {Model::spatial, Model::bending, Model::membrane, Model::planar,
-                                Model::axial};
-#else
-constexpr auto& row_models = models;
-#endif
 constexpr Terms row_terms{.is_damped = true}; // the terms of the paper's plate
 
-/// @param kernel  twice the index in row_models, plus one for the last stage
+/// @param kernel  twice the index in `models`, plus one for the last stage
 template <class T>
 void run_rows(int kernel, const void* in, void* out, std::size_t elements, std::size_t stride) {
-  const Model model = row_models[kernel / 2];
-  const RowCase row_case{kernel % 2 != 0, int(model_layout(model).fields.size()), simd::lanes<T>};
+  const Model model = models[std::size_t(kernel / 2)];
+  const RowCase row_case{kernel % 2 != 0, int(descriptor(model).fields.size()), simd::lanes<T>};
   const KernelSet<T>& kernels = find_kernels<T>(model, row_shape(model, row_terms).terms);
   run_row_case(row_case, static_cast<const T*>(in), static_cast<T*>(out), elements, stride,
                [&](const RowTask<T>& task) { kernels.stage(task); });
@@ -53,11 +46,12 @@ void append(std::vector<CompiledKernel>& list, Precision precision) {
   for (const auto& c : kernel_cases<simd::Pack<T>>())
     list.push_back({c.name, c.model, precision, c.inputs, c.outputs, c.flops, simd::lanes<T>,
                     run_kernel<T>, index++});
-  for (std::size_t m = 0; m < std::size(row_models); ++m) {
-    const RowFlops flops = row_flops(row_models[m]);
-    const int fields = int(model_layout(row_models[m]).fields.size());
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (!is_built(models[m])) continue;
+    const RowFlops flops = descriptor(models[m]).flops;
+    const int fields = int(descriptor(models[m]).fields.size());
     for (const bool is_last : {false, true})
-      list.push_back({is_last ? "stage_row_last" : "stage_row", row_models[m], precision,
+      list.push_back({is_last ? "stage_row_last" : "stage_row", models[m], precision,
                       RowCase::inputs(is_last) * fields, fields,
                       is_last ? flops.last_stage : flops.stage, simd::lanes<T>, run_rows<T>,
                       int(2 * m) + is_last, true, is_last});

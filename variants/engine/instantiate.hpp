@@ -1,16 +1,17 @@
 #pragma once
-/// Compiles the table of kernel_set.hpp for one model and precision.
+/// Compiles the table of kernel_set.hpp for one model and type.
 #include "kernels/stage_row/stage_row.hpp"
 #include "variants/engine/kernel_set.hpp"
 
+#include <array>
 #include <stdexcept>
 #include <utility>
 
 namespace dss {
 
-template <template <class> class Physics, class T, Terms terms>
+template <Model model, class T, Terms terms>
 struct RowKernels {
-  using P = Physics<simd::Pack<T>>;
+  using P = Physics<model, simd::Pack<T>>;
   static constexpr int half_velocities =
       terms.is_velocity_dependent()
           ? component_count<typename P::vec>() + component_count<typename P::spin>()
@@ -60,7 +61,7 @@ struct RowKernels {
       if (axis == 2) row.prime(2);
   }
 
-  using S = Physics<T>;
+  using S = Physics<model, T>;
   static void extra_link(const ExtraLinkConstants<T>& link, const T* fields_i, const T* fields_j,
                          T* wrench_i, T* wrench_j) {
     typename S::element i, j;
@@ -93,23 +94,23 @@ struct RowKernels {
 };
 
 /// Null if these terms are not compiled for the model.
-template <template <class> class Physics, class T, Model model, std::size_t index>
+template <Model model, class T, Terms terms>
 constexpr const KernelSet<T>* compiled_set() {
-  if constexpr (is_compiled(model, compiled_terms[index]))
-    return &RowKernels<Physics, T, compiled_terms[index]>::set;
+  if constexpr (is_built(model) && is_compiled(model, terms))
+    return &RowKernels<model, T, terms>::set;
   else
     return nullptr;
 }
-template <template <class> class Physics, class T, Model model, std::size_t... index>
-const KernelSet<T>& of_terms(const Terms& terms, std::index_sequence<index...>) {
-  static constexpr const KernelSet<T>* sets[] = {compiled_set<Physics, T, model, index>()...};
+
+template <Model model, class T>
+const KernelSet<T>& kernels_of(const Terms& terms) {
+  static constexpr auto sets = []<std::size_t... index>(std::index_sequence<index...>) {
+    return std::array{compiled_set<model, T, compiled_terms[index]>()...};
+  }
+  (std::make_index_sequence<compiled_terms.size()>{});
   for (const KernelSet<T>* set : sets)
     if (set != nullptr && set->terms == terms) return *set;
   throw std::logic_error("kernel_set.hpp: this combination of terms is not compiled");
-}
-template <template <class> class Physics, class T, Model model>
-const KernelSet<T>& find_compiled(const Terms& terms) {
-  return of_terms<Physics, T, model>(terms, std::make_index_sequence<compiled_terms.size()>{});
 }
 
 } // namespace dss

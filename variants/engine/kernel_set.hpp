@@ -67,38 +67,30 @@ struct KernelSet {
                      T* wrench_j);
 };
 
-/// Finds the kernels of a model and the terms of a shape. Each (model, precision) is defined in one
-/// file variants/engine/kernels_*.cpp.
+/// True if this build has the kernels of a model.
+constexpr bool is_built([[maybe_unused]] Model model) {
 #ifdef DSS_FEWER_MODELS
-#define DSS_EACH_MODEL(act) act(spatial) act(bending) act(membrane) act(planar) act(axial)
+  return !descriptor(model).is_heavy;
 #else
-#define DSS_EACH_MODEL(act)                                                                        \
-  act(spatial) act(small) act(linear) act(bending) act(membrane) act(planar) act(axial)
+  return true;
 #endif
-#define DSS_DECLARE(model)                                                                         \
-  const KernelSet<double>& model##_f64_kernels(const Terms& terms);                                \
-  const KernelSet<float>& model##_f32_kernels(const Terms& terms);
-DSS_EACH_MODEL(DSS_DECLARE)
-#undef DSS_DECLARE
+}
 
+/// The kernels of a model for terms of compiled_terms. The build makes one file for each model and
+/// type (kernels_of_model.cpp.in), which instantiates the template of instantiate.hpp.
+template <Model model, class T>
+const KernelSet<T>& kernels_of(const Terms& terms);
+
+/// Finds the kernels of a model and the terms of a shape.
 template <class T>
 const KernelSet<T>& find_kernels(Model model, const Terms& terms) {
-  switch (model) { // no default: the compiler warns about a model without kernels
-#define DSS_FIND(name)                                                                             \
-  case Model::name:                                                                                \
-    if constexpr (sizeof(T) == sizeof(double))                                                     \
-      return name##_f64_kernels(terms);                                                            \
-    else                                                                                           \
-      return name##_f32_kernels(terms);
-    DSS_EACH_MODEL(DSS_FIND)
-#undef DSS_FIND
-#ifdef DSS_FEWER_MODELS
-  default:
-    break;
-#endif
-  }
-  throw std::logic_error("kernel_set.hpp: this model is not compiled");
+  const KernelSet<T>* found = nullptr;
+  for_each_model([&]<Model each>() {
+    if constexpr (is_built(each))
+      if (each == model) found = &kernels_of<each, T>(terms);
+  });
+  if (found == nullptr) throw std::logic_error("kernel_set.hpp: this model is not compiled");
+  return *found;
 }
-#undef DSS_EACH_MODEL
 
 } // namespace dss

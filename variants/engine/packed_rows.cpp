@@ -12,9 +12,9 @@ namespace dss {
 RowShape row_shape(Model model, const Terms& need) {
   for (const Terms& terms : compiled_terms) {
     if (!is_compiled(model, terms) || !terms.covers(need)) continue;
-    const ModelLayout layout = model_layout(model);
+    const ModelDescriptor& layout = descriptor(model);
     const int all = int(layout.wrench.size());
-    return {terms, terms.has_couples() ? all : layout.vec_size,
+    return {terms, terms.has_couples() ? all : layout.vec_size(),
             int(layout.fields.size()) + (terms.is_velocity_dependent() ? all : 0)};
   }
   throw std::logic_error("kernel_set.hpp: no compiled combination covers the terms of the problem");
@@ -46,9 +46,8 @@ Place place_of(const PackedRows<T, W>& packed, std::size_t element) {
 
 template <class T, int W>
 PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* part, Memory& where)
-    : memory(where), lattice(problem.lattice), layout(model_layout(model)),
-      rows(lattice.rows.size()), own_end(int(rows.size())), part_(part),
-      applied_index_(lattice.rows.size(), -1) {
+    : memory(where), lattice(problem.lattice), layout(descriptor(model)), rows(lattice.rows.size()),
+      own_end(int(rows.size())), part_(part), applied_index_(lattice.rows.size(), -1) {
   reach = lattice.row_reach();
   if (part_ != nullptr) find_layers();
   choose_shapes(problem, model);

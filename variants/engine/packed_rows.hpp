@@ -1,9 +1,9 @@
 #pragma once
 /// A problem cut into rows of packs: everything that is constant during a run.
+#include "kernels/model.hpp"
 #include "solver/decomposition/part.hpp"
 #include "variants/engine/buffer.hpp"
 #include "variants/engine/kernel_set.hpp"
-#include "variants/engine/layout.hpp"
 
 #include <optional>
 #include <vector>
@@ -40,7 +40,7 @@ public:
 
   Memory& memory;
   const Lattice& lattice;
-  const ModelLayout layout;
+  const ModelDescriptor& layout;
   std::vector<PackedRow<T>> rows;
   int reach = 0;        ///< largest distance of two linked elements [rows]
   int packs_across = 0; ///< packs of the widest body's grid

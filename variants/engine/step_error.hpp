@@ -82,7 +82,7 @@ void accept_row(const RowStorage& storage, int packs, int lanes, const T* next, 
   for (int p = 0; p < packs; ++p, next += pack_size, state += pack_size)
     for (std::size_t n = 0; n < fields; ++n) {
       const T y = state[n], s = state[low + n] + next[low + n], sum = next[n];
-      state[low + n] = SpatialPhysics<T>::lost_of_sum(y, s, sum);
+      state[low + n] = Physics<Model::spatial, T>::lost_of_sum(y, s, sum);
       state[n] = sum;
     }
 }

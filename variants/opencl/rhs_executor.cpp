@@ -67,8 +67,8 @@ struct RateScales {
     T factor;
   };
   Part parts[4];
-  RateScales(const BodyConstants<T>& body, const ModelLayout& layout, bool is_gyroscopic) {
-    const int force = layout.vec_size, turn = int(layout.wrench.size()) - force,
+  RateScales(const BodyConstants<T>& body, const ModelDescriptor& layout, bool is_gyroscopic) {
+    const int force = layout.vec_size(), turn = int(layout.wrench.size()) - force,
               rotor = int(layout.fields.size()) - 2 * force - turn;
     parts[0] = {force, T(1)};
     parts[1] = {force, body.inverse_mass};
@@ -152,8 +152,7 @@ int RhsExecutor<T, W>::step(std::span<const double> signals) {
     const bool is_plain = rows_.stored_fields() == packed_.fields();
     if (!is_plain) rows_.copy_plain(plain_.data(), [&](int r) { return row_of(in, r); });
     evaluate(is_plain ? in.data() : plain_.data(), signals.subspan(std::size_t(s) * width, width));
-    failed =
-        with_physics<T>(setup_.model, [&]<class Physics>() { return update_stage<Physics>(s); });
+    with_physics<T>(setup_.model, [&]<class P>() { failed = update_stage<P>(s); });
   }
   return failed;
 }

@@ -1,6 +1,6 @@
 #include "variants/opencl/source.hpp"
 
-#include "variants/engine/layout.hpp"
+#include "kernels/model.hpp"
 #include "variants/opencl/embedded.hpp"
 
 #include <fmt/format.h>
@@ -47,7 +47,8 @@ std::string vector_words(const ProgramKind& kind) {
 }
 
 /// Defines the components of a tuple that the model has, between two fields of a full state.
-std::string tuple_words(const ModelLayout& layout, std::string_view name, Field first, Field last) {
+std::string tuple_words(const ModelDescriptor& layout, std::string_view name, Field first,
+                        Field last) {
   const std::string_view letters = last - first == 3 ? "sxyz" : "xyz";
   std::string components, each;
   for (const Field field : layout.fields)
@@ -60,13 +61,11 @@ std::string tuple_words(const ModelLayout& layout, std::string_view name, Field 
 }
 
 std::string model_words(Model model) {
-  const ModelLayout layout = model_layout(model);
-  return fmt::format(
-      "#define AXES {}\n#define VEC_SIZE {}\n#define SPIN_SIZE {}\n#define FIELDS {}\n{}{}{}{}{}",
-      layout.axes, layout.vec_size, int(layout.wrench.size()) - layout.vec_size,
-      layout.fields.size(), tuple_words(layout, "VEC", ux, uz),
-      tuple_words(layout, "ROTOR", qs, qz), tuple_words(layout, "SPIN", wx, wz),
-      is_of_plane(model) ? "#define PLANAR\n" : "", is_linear(model) ? "#define LINEAR\n" : "");
+  const ModelDescriptor& layout = descriptor(model);
+  return fmt::format("#define VEC_SIZE {}\n#define SPIN_SIZE {}\n#define FIELDS {}\n{}{}{}",
+                     layout.vec_size(), int(layout.wrench.size()) - layout.vec_size(),
+                     layout.fields.size(), tuple_words(layout, "VEC", ux, uz),
+                     tuple_words(layout, "ROTOR", qs, qz), tuple_words(layout, "SPIN", wx, wz));
 }
 
 std::string head(const ProgramKind& kind, bool has_items) {

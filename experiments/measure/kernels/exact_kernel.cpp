@@ -33,12 +33,12 @@ std::vector<Exact> exact_row(const CompiledKernel& kernel, std::size_t elements,
     for (std::size_t n = 0; n < inputs; ++n)
       in[n / fields * elements * fields + e * fields + n % fields] =
           exact_operand(kernel, int(n), e);
-  with_physics<Exact>(kernel.model, [&]<class Physics>() {
+  with_physics<Exact>(kernel.model, [&]<class P>() {
     constexpr Terms terms{.is_damped = true};
     run_row_case(RowCase{kernel.is_last, int(fields), 1}, in.data(), out.data(), elements,
                  row_elements, [&](const RowTask<Exact>& task) {
-                   const StageRow<Physics, Exact, terms> row{task};
-                   RowUpdate<Physics, Exact> update(task, row.turn_scale());
+                   const StageRow<P, Exact, terms> row{task};
+                   RowUpdate<P, Exact> update(task, row.turn_scale());
                    row.run(update);
                  });
   });

@@ -3,13 +3,12 @@
 #include "experiments/measure/kernels/kernel_work.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "kernels/fields.hpp"
-#include "kernels/stage_row/cost.hpp"
+#include "kernels/model.hpp"
 #include "solver/error.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/scene/scene.hpp"
-#include "variants/engine/layout.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -90,7 +89,7 @@ double step_error(const Plugin& plugin, Model model, Precision precision, int n,
 
 /// Sets the fields that the model lacks to zero.
 std::vector<double> restricted(std::vector<double> fields, Model model) {
-  const std::span<const Field> kept = model_layout(model).fields;
+  const std::span<const Field> kept = descriptor(model).fields;
   for (std::size_t n = 0; n < fields.size(); ++n)
     if (std::ranges::find(kept, Field(n % field_count)) == kept.end()) fields[n] = 0;
   return fields;
@@ -238,7 +237,7 @@ static MicroCase plate_case(const Plugin& plugin, Model model, Precision precisi
   MicroCase one;
   one.model = model, one.precision = precision, one.n = n;
   one.variant = plugin.name, one.isa = plugin.isa, one.threads = threads;
-  one.bytes = 2 * double(model_layout(model).fields.size() * precision_bytes(precision));
+  one.bytes = 2 * double(descriptor(model).fields.size() * precision_bytes(precision));
   one.is_threaded_inside = true;
   if (model == Model::axial) one.skipped = "a plate is no bar";
   return one;
@@ -255,7 +254,7 @@ MicroCase step_case(const Plugin& plugin, Model model, Precision precision, int 
   MicroCase one = plate_case(plugin, model, precision, n, threads);
   one.kernel = step_kernel;
   if (one.skipped.empty()) one.skipped = why_no_steps(model);
-  one.flops = row_flops(model).rk4_step();
+  one.flops = descriptor(model).flops.rk4_step();
   one.working_set_bytes =
       std::size_t(n) * std::size_t(n) * std::size_t(one.bytes) / 2 / std::size_t(threads);
   one.level = level_of(one.working_set_bytes);
@@ -273,7 +272,7 @@ MicroCase step_case(const Plugin& plugin, Model model, Precision precision, int 
 MicroCase rates_case(const Plugin& plugin, Model model, Precision precision, int n, int threads) {
   MicroCase one = plate_case(plugin, model, precision, n, threads);
   one.kernel = rates_kernel;
-  one.flops = row_flops(model).stage; // out = 0 + 1 f, as in the first stage of a step
+  one.flops = descriptor(model).flops.stage; // out = 0 + 1 f, as in the first stage of a step
   one.working_set_bytes =
       std::size_t(n) * std::size_t(n) * std::size_t(one.bytes) / std::size_t(threads);
   one.level = level_of(one.working_set_bytes);

@@ -36,21 +36,14 @@ std::string why_no_watch(const Method& method) {
 }
 
 std::string why_exact(Model model) {
-  switch (model) {
-  case Model::axial:
+  if (has_rotation_vectors(model))
+    return "proven: all elements move alike, so no link is strained and nothing turns";
+  if (degrees_of(model) == dof_ux)
     return "proven: everything acts along x, on single rows or on rows that move alike, so nothing "
            "turns or shears";
-  case Model::planar:
+  if (is_of_plane(model))
     return "proven: one element thick, and loads, clamps and start are symmetric about the plane";
-  case Model::bending:
-  case Model::membrane:
-  case Model::linear:
-  case Model::small:
-    return "proven: all elements move alike, so no link is strained and nothing turns";
-  case Model::spatial:
-    return "six degrees of freedom and finite rotations: no smaller model is known to suffice";
-  }
-  return {};
+  return "six degrees of freedom and finite rotations: no smaller model is known to suffice";
 }
 
 double error_at_start(const Problem& problem, Model model) {

@@ -96,9 +96,11 @@ constexpr std::array kinds = {
          [] {
            return Names{"smoke", "host", "paper"};
          }},
-    Kind{
-        "WHAT",
-        [] { return Names{"variants", "scenes", "experiments", "methods", "kernels", "devices"}; }},
+    Kind{"WHAT",
+         [] {
+           return Names{"variants", "scenes",  "experiments", "methods",
+                        "kernels",  "devices", "columns"};
+         }},
     Kind{"SHELL",
          [] {
            return Names{"bash", "zsh", "fish"};

@@ -1,5 +1,5 @@
 #include "experiments/run/verify/verify.hpp"
-#include "variants/engine/layout.hpp"
+#include "kernels/model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ private:
 };
 
 bool has(Model model, Field field) {
-  const auto fields = model_layout(model).fields;
+  const auto fields = descriptor(model).fields;
   return std::ranges::find(fields, field) != fields.end();
 }
 

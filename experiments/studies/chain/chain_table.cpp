@@ -10,109 +10,137 @@
 namespace dss {
 namespace {
 
-/// Ratios of the times of whole runs, base over stage, of the same repetition.
-Estimate factor_over(const CellSample& base, double base_steps, const CellSample& link,
-                     double link_steps) {
-  std::vector<double> ratios = paired_ratios(base, link);
-  for (double& ratio : ratios) ratio *= base_steps / link_steps;
-  return estimate(ratios);
+const std::vector<std::string>& chain_columns() {
+  static const std::vector<std::string> columns = {"experiment",
+                                                   "scale",
+                                                   "link",
+                                                   "label",
+                                                   "scene",
+                                                   "set",
+                                                   "variant",
+                                                   "threads",
+                                                   "model",
+                                                   "precision",
+                                                   "integrator",
+                                                   "dt_s",
+                                                   "end_time_s",
+                                                   "steps",
+                                                   "timed_steps",
+                                                   "repetitions",
+                                                   "contaminated",
+                                                   "measured_wall_s",
+                                                   "measured_wall_low_s",
+                                                   "measured_wall_high_s",
+                                                   "extrapolated_wall_s",
+                                                   "factor_of_link",
+                                                   "factor_of_link_low",
+                                                   "factor_of_link_high",
+                                                   "factor_vs_reference",
+                                                   "factor_vs_reference_low",
+                                                   "factor_vs_reference_high",
+                                                   "error_max",
+                                                   "solution_error",
+                                                   "error_bar",
+                                                   "check",
+                                                   "check_error",
+                                                   "status",
+                                                   "reason"};
+  return columns;
+}
+
+/// The samples of all stages of a chain, and their records.
+class ChainSamples {
+public:
+  ChainSamples(const ChainStudy& study, const std::vector<Record>& records)
+      : study_(study), samples_(samples_of(records)) {}
+
+  const CellSample& of(std::size_t n) const {
+    return *std::ranges::find(samples_, chain_cell(n, study_.links[n]), &CellSample::key);
+  }
+  /// Ratio of the times of whole runs, stage `base` over stage n, of the same repetition.
+  Estimate factor(std::size_t base, std::size_t n) const {
+    std::vector<double> ratios = paired_ratios(of(base), of(n));
+    for (double& ratio : ratios) ratio *= steps_an_interval(base) / steps_an_interval(n);
+    return estimate(ratios);
+  }
+
+private:
+  double steps_an_interval(std::size_t n) const {
+    return double(study_.links[n].steps_an_interval);
+  }
+  const ChainStudy& study_;
+  const std::vector<CellSample> samples_;
+};
+
+double steps_of(const ChainStudy& study, const ChainLink& link) {
+  return double(link.steps_an_interval) * study.saved_times;
+}
+
+/// What a stage is, and its error.
+Record stage_record(const ChainStudy& study, std::size_t n, const CellSample& sample,
+                    ChainErrors& errors) {
+  const ChainLink& link = study.links[n];
+  return {{"experiment", study.name},
+          {"scale", study.scale},
+          {"link", fmt::format("{}", n)},
+          {"label", link.label},
+          {"scene", study.scene},
+          {"set", set_text(study.set)},
+          {"variant", link.variant},
+          {"threads", fmt::format("{}", link.threads)},
+          {"model", std::string(name(link.model))},
+          {"precision", std::string(name(link.precision))},
+          {"integrator", link.integrator},
+          {"dt_s", text_in(sample.last, "dt_s")},
+          {"end_time_s", number_text(study.end_time)},
+          {"steps", number_text(steps_of(study, link))},
+          {"timed_steps", text_in(sample.last, "steps")},
+          {"repetitions", fmt::format("{}", sample.repetitions.size())},
+          {"contaminated", fmt::format("{}", sample.contaminated)},
+          {"error_max", number_text(errors.of(link))},
+          {"solution_error", number_text(errors.of_solution())},
+          {"error_bar", number_text(study.bar)},
+          {"check", sample.check()},
+          {"check_error", number_text(sample.check_error())},
+          {"status", sample.status()},
+          {"reason", text_in(sample.last, "reason")}};
+}
+
+/// Its time, scaled to the steps of the whole chain if it ran fewer.
+void put_time(const CellSample& sample, double steps, Record& row) {
+  std::vector<double> walls;
+  for (const auto& [repetition, step_s] : sample.step_s()) walls.push_back(step_s * steps);
+  const Estimate wall = estimate(walls);
+  const bool is_whole = number_in(sample.last, "steps") >= steps;
+  row[is_whole ? "measured_wall_s" : "extrapolated_wall_s"] = number_text(wall.median);
+  if (!is_whole || !wall.interval) return;
+  row["measured_wall_low_s"] = number_text(wall.interval->low);
+  row["measured_wall_high_s"] = number_text(wall.interval->high);
+}
+
+/// No factor over a base that is wrong, or of threads that share a core.
+void put_factors(const ChainSamples& samples, std::size_t n, Record& row) {
+  const auto is_right = [&](std::size_t k) { return samples.of(k).status() == "ok"; };
+  if (!is_right(n) || !is_right(0) || samples.of(n).is_oversubscribed()) return;
+  put_interval(row, "factor_vs_reference", samples.factor(0, n));
+  if (n > 0 && is_right(n - 1)) put_interval(row, "factor_of_link", samples.factor(n - 1, n));
 }
 
 } // namespace
 
-std::string chain_cell(std::size_t link, const ChainLink& one) {
-  return fmt::format("{} {} {} t{} {}", link, one.label, one.variant, one.threads,
-                     numerics_of(one));
+std::string chain_cell(std::size_t n, const ChainLink& link) {
+  return fmt::format("{} {} {} t{} {}", n, link.label, link.variant, link.threads,
+                     numerics_of(link));
 }
 
 Table chain_table(const ChainStudy& study, const std::vector<Record>& records,
                   ChainErrors& errors) {
-  Table table{{"experiment",
-               "scale",
-               "link",
-               "label",
-               "scene",
-               "set",
-               "variant",
-               "threads",
-               "model",
-               "precision",
-               "integrator",
-               "dt_s",
-               "end_time_s",
-               "steps",
-               "timed_steps",
-               "repetitions",
-               "contaminated",
-               "measured_wall_s",
-               "measured_wall_low_s",
-               "measured_wall_high_s",
-               "extrapolated_wall_s",
-               "factor_of_link",
-               "factor_of_link_low",
-               "factor_of_link_high",
-               "factor_vs_reference",
-               "factor_vs_reference_low",
-               "factor_vs_reference_high",
-               "error_max",
-               "solution_error",
-               "error_bar",
-               "check",
-               "check_error",
-               "status",
-               "reason"},
-              {}};
-  const std::vector<CellSample> samples = samples_of(records);
-  const auto sample_of = [&](std::size_t link) -> const CellSample& {
-    return *std::ranges::find(samples, chain_cell(link, study.links[link]), &CellSample::key);
-  };
+  const ChainSamples samples(study, records);
+  Table table{chain_columns(), {}};
   for (std::size_t n = 0; n < study.links.size(); ++n) {
-    const ChainLink& link = study.links[n];
-    const CellSample& sample = sample_of(n);
-    const double steps = double(link.steps_an_interval) * study.saved_times;
-    std::vector<double> walls;
-    for (const auto& [repetition, step_s] : sample.step_s()) walls.push_back(step_s * steps);
-    const Estimate wall = estimate(walls);
-    Record row{{"experiment", study.name},
-               {"scale", study.scale},
-               {"link", fmt::format("{}", n)},
-               {"label", link.label},
-               {"scene", study.scene},
-               {"set", set_text(study.set)},
-               {"variant", link.variant},
-               {"threads", fmt::format("{}", link.threads)},
-               {"model", std::string(name(link.model))},
-               {"precision", std::string(name(link.precision))},
-               {"integrator", link.integrator},
-               {"dt_s", text_in(sample.last, "dt_s")},
-               {"end_time_s", number_text(study.end_time)},
-               {"steps", number_text(steps)},
-               {"timed_steps", text_in(sample.last, "steps")},
-               {"repetitions", fmt::format("{}", walls.size())},
-               {"contaminated", fmt::format("{}", sample.contaminated)},
-               {"error_max", number_text(errors.of(link))},
-               {"solution_error", number_text(errors.of_solution())},
-               {"error_bar", number_text(study.bar)},
-               {"check", sample.check()},
-               {"check_error", number_text(sample.check_error())},
-               {"status", sample.status()},
-               {"reason", text_in(sample.last, "reason")}};
-    const bool is_whole =
-        number_in(sample.last, "steps") >= steps; // of fewer steps the time is not a measured one
-    row[is_whole ? "measured_wall_s" : "extrapolated_wall_s"] = number_text(wall.median);
-    if (is_whole && wall.interval) {
-      row["measured_wall_low_s"] = number_text(wall.interval->low);
-      row["measured_wall_high_s"] = number_text(wall.interval->high);
-    }
-    // No factor over a base that is wrong, or of threads that share a core.
-    if (row["status"] == "ok" && sample_of(0).status() == "ok" && !sample.is_oversubscribed()) {
-      const auto steps_of = [&](std::size_t k) { return double(study.links[k].steps_an_interval); };
-      put_interval(row, "factor_vs_reference",
-                   factor_over(sample_of(0), steps_of(0), sample, steps_of(n)));
-      if (n > 0 && sample_of(n - 1).status() == "ok")
-        put_interval(row, "factor_of_link",
-                     factor_over(sample_of(n - 1), steps_of(n - 1), sample, steps_of(n)));
-    }
+    Record row = stage_record(study, n, samples.of(n), errors);
+    put_time(samples.of(n), steps_of(study, study.links[n]), row);
+    put_factors(samples, n, row);
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -131,7 +159,7 @@ std::string chain_text(const ChainStudy& study, const Table& table) {
                         : "",
                     shown(row, "error_max", "{:.1e}"), text_in(row, "status")});
   return fmt::format("{} ({})\n{}Bar of the error: {:.2g}.", study.title, study.name,
-                     text_table({"link", "variant", "threads", "model", "precision", "integrator",
+                     text_table({"stage", "variant", "threads", "model", "precision", "integrator",
                                  "dt [s]", "factor", "in all", "interval", "error", "status"},
                                 rows),
                      study.bar);

@@ -5,7 +5,7 @@
 namespace dss {
 
 /// Name of a stage's cell, which its records share.
-std::string chain_cell(std::size_t link, const ChainLink& one);
+std::string chain_cell(std::size_t n, const ChainLink& link);
 
 /// One row for each stage. A wrong stage keeps its time and gets no factor.
 Table chain_table(const ChainStudy& study, const std::vector<Record>& records, ChainErrors& errors);

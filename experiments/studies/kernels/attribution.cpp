@@ -1,37 +1,20 @@
 #include "experiments/studies/kernels/attribution.hpp"
-#include "experiments/base/clock.hpp"
 #include "experiments/measure/ceilings/executed_mix.hpp"
 #include "experiments/measure/ceilings/own_ceilings.hpp"
 #include "experiments/measure/kernels/micro_case.hpp"
 #include "experiments/measure/samples.hpp"
-#include "experiments/run/plan/context.hpp"
+#include "experiments/studies/kernels/timed_parts.hpp"
 #include "solver/error.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <memory>
 #include <string_view>
 
 namespace dss {
 namespace {
-
-/// Something that is timed in each round; ns is of an element and pass.
-struct Timed {
-  std::function<void()> pass;
-  double elements; ///< a pass
-  long passes = 1;
-  std::vector<double> ns{};
-  std::vector<std::string> time_utc{};
-};
-
-double seconds(Timed& timed) {
-  const auto start = Clock::now();
-  for (long pass = 0; pass < timed.passes; ++pass) timed.pass();
-  return seconds_since(start);
-}
 
 /// A row kernel, and the bounds of its time.
 struct RowPart {
@@ -81,50 +64,6 @@ RowPart row_part(const Plugin& plugin, const AttributionCase& one, bool is_last,
     part.mix_missing = error.what();
   }
   return part;
-}
-
-/// All that is timed, by name.
-using TimedParts = std::map<std::string, Timed>;
-
-void time_rounds(TimedParts& parts, int rounds, double sample_s) {
-  for (auto& [name, timed] : parts)
-    for (double time = seconds(timed); time < sample_s; time = seconds(timed))
-      timed.passes = std::max(timed.passes + 1,
-                              long(double(timed.passes) * std::min(8.0, 1.1 * sample_s / time)));
-  for (int round = 0; round < rounds; ++round)
-    for (auto& [name, timed] : parts) {
-      timed.time_utc.push_back(measurement_time());
-      timed.ns.push_back(1e9 * seconds(timed) / (timed.elements * double(timed.passes)));
-    }
-}
-
-/// Times of one round, by name; NaN for what was not timed.
-using RoundTimes = std::function<double(const std::string& name)>;
-
-/// A figure made from the times of a round.
-using Figure = std::function<double(const RoundTimes&)>;
-
-std::vector<double> figures(const TimedParts& parts, const Figure& figure) {
-  std::vector<double> values;
-  for (std::size_t round = 0; round < parts.begin()->second.ns.size(); ++round)
-    values.push_back(figure([&](const std::string& name) {
-      const auto found = parts.find(name);
-      return found == parts.end() ? std::nan("") : found->second.ns[round];
-    }));
-  return values;
-}
-
-/// Its median over the rounds; NaN for what was not timed.
-double over_rounds(const TimedParts& parts, const Figure& figure) {
-  const std::vector<double> values = figures(parts, figure);
-  return std::isnan(values.front()) ? values.front() : median(values);
-}
-
-/// The median with its interval, in columns NAME, NAME_low and NAME_high.
-void put_figure(Record& row, const std::string& column, const TimedParts& parts,
-                const Figure& figure) {
-  const std::vector<double> values = figures(parts, figure);
-  if (!std::isnan(values.front())) put_interval(row, column, estimate(values));
 }
 
 /// What a row kernel needs at least, by the times of a round: for its flops, its mix of
@@ -229,69 +168,77 @@ Record row_record(const AttributionCase& one, const TimedParts& parts, const Row
   return row;
 }
 
+/// What is timed for a case: the step, the peak, and each row kernel on the step's level, in L1, as
+/// its instructions and as those without the stack.
+TimedParts parts_of(const AttributionCase& one, const MicroCase& step, MicroWork& steps,
+                    const std::vector<RowPart>& rows, const GeneratedMix& peak) {
+  const Plugin& plugin = load_variant(one.variant);
+  const CompiledKernel& kernel = *rows.front().kernel;
+  const double lanes = kernel.lanes;
+  const double peak_flops_a_pass =
+      peak_instructions * lanes * (ceiling_isa(kernel) == std::string_view("scalar") ? 1 : 2);
+  // Rows of n elements fill packs: what the rest of the last one costs is a step's, too.
+  const double filled = one.n / (lanes * std::ceil(one.n / lanes));
+  TimedParts parts;
+  parts.try_emplace("step", Timed{[&] { steps.pass(); }, step.elements});
+  parts.try_emplace("peak", Timed{[&] { peak.run(100); }, 100 * peak_flops_a_pass}); // ns a flop
+  for (const RowPart& part : rows) {
+    const auto elements_on = [&](const std::string& level) {
+      return filled * kernel_case(plugin, *part.kernel, level, 1).elements;
+    };
+    parts.try_emplace(part.name,
+                      Timed{[&part] { part.in_level->pass(); }, elements_on(step.level)});
+    parts.try_emplace(part.name + " L1", Timed{[&part] { part.in_l1->pass(); }, elements_on("L1")});
+    if (part.as_executed == nullptr) continue;
+    parts.try_emplace(part.name + " mix",
+                      Timed{[&part] { part.as_executed->run(100); }, 100 * lanes * filled});
+    parts.try_emplace(part.name + " lean",
+                      Timed{[&part] { part.without_stack->run(100); }, 100 * lanes * filled});
+  }
+  return parts;
+}
+
+/// Sum of a figure over all row kernels of a step.
+double sum_of_rows(const std::vector<RowPart>& rows,
+                   const std::function<double(const RowPart&)>& figure) {
+  double total = 0;
+  for (const RowPart& part : rows) total += part.count * figure(part);
+  return total;
+}
+
+/// The record of what the rows alone do not explain.
+Record rest_record(const AttributionCase& one, const TimedParts& parts,
+                   const Figure& rows_over_step) {
+  Record row = head_row(one, "rest");
+  row["count_per_step"] = "1";
+  put_figure(row, "measured_ns_per_element_step", parts,
+             [&](const RoundTimes& of) { return of("step") * (1 - rows_over_step(of)); });
+  put_figure(row, "share_of_step", parts,
+             [&](const RoundTimes& of) { return 1 - rows_over_step(of); });
+  row["limiter"] = "what the rows by themselves do not explain; below zero: the step finds more "
+                   "in nearer caches than they do";
+  return row;
+}
+
+/// The record of the whole step.
+/// @param bound  what its rows need at least [ns]
+Record step_record(const AttributionCase& one, const TimedParts& parts, double flops,
+                   const Figure& bound, const Figure& rows_over_step) {
+  Record row = head_row(one, "step");
+  row["count_per_step"] = "1";
+  put_figure(row, "measured_ns_per_element_step", parts,
+             [](const RoundTimes& of) { return of("step"); });
+  row["share_of_step"] = "1";
+  row["flops_per_element_step"] = number_text(flops);
+  put_figure(row, "share_of_peak", parts,
+             [&](const RoundTimes& of) { return flops * of("peak") / of("step"); });
+  put_figure(row, "share_of_ceiling", parts,
+             [&](const RoundTimes& of) { return bound(of) / of("step"); });
+  put_figure(row, "sum_over_step", parts, rows_over_step);
+  return row;
+}
+
 } // namespace
-
-const std::vector<std::string>& attribution_columns() {
-  static const std::vector<std::string> columns = {"variant",
-                                                   "model",
-                                                   "precision",
-                                                   "scene",
-                                                   "n",
-                                                   "threads",
-                                                   "part",
-                                                   "count_per_step",
-                                                   "measured_ns_per_element_step",
-                                                   "measured_ns_per_element_step_low",
-                                                   "measured_ns_per_element_step_high",
-                                                   "share_of_step",
-                                                   "share_of_step_low",
-                                                   "share_of_step_high",
-                                                   "measured_in_l1_ns",
-                                                   "measured_in_l1_ns_low",
-                                                   "measured_in_l1_ns_high",
-                                                   "flops_per_element_step",
-                                                   "share_of_peak",
-                                                   "share_of_peak_low",
-                                                   "share_of_peak_high",
-                                                   "peak_bound_ns",
-                                                   "peak_bound_ns_low",
-                                                   "peak_bound_ns_high",
-                                                   "mix_bound_ns",
-                                                   "mix_bound_ns_low",
-                                                   "mix_bound_ns_high",
-                                                   "mix_without_stack_bound_ns",
-                                                   "mix_without_stack_bound_ns_low",
-                                                   "mix_without_stack_bound_ns_high",
-                                                   "traffic_bound_ns",
-                                                   "share_of_ceiling",
-                                                   "share_of_ceiling_low",
-                                                   "share_of_ceiling_high",
-                                                   "share_of_ceiling_in_l1",
-                                                   "share_of_ceiling_in_l1_low",
-                                                   "share_of_ceiling_in_l1_high",
-                                                   "limiter",
-                                                   "sum_over_step",
-                                                   "sum_over_step_low",
-                                                   "sum_over_step_high",
-                                                   "fma",
-                                                   "sums",
-                                                   "products",
-                                                   "shuffles",
-                                                   "loads",
-                                                   "stores",
-                                                   "stack_loads",
-                                                   "stack_stores",
-                                                   "status",
-                                                   "reason"};
-  return columns;
-}
-
-const std::vector<std::string>& attribution_raw_columns() {
-  static const std::vector<std::string> columns = {"variant", "model",    "precision", "scene",
-                                                   "n",       "threads",  "timed",     "round",
-                                                   "passes",  "elements", "wall_s",    "time_utc"};
-  return columns;
-}
 
 std::vector<Record> attribute_step(const AttributionCase& one, int rounds, double sample_s,
                                    const std::vector<Ceiling>& ceilings, RecordFile& raw) {
@@ -301,29 +248,9 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
   std::vector<RowPart> rows;
   for (const bool is_last : {false, true})
     rows.push_back(row_part(plugin, one, is_last, step.level));
-  const CompiledKernel& kernel = *rows.front().kernel;
-  const std::string isa = ceiling_isa(kernel), precision{name(one.precision)};
-  const GeneratedMix peak(peak_mix(isa == "scalar"), isa, precision);
-  const double lanes = kernel.lanes,
-               peak_flops_a_pass = peak_instructions * lanes * (isa == "scalar" ? 1 : 2);
-
-  // Rows of n elements fill packs: what the rest of the last one costs is a step's, too.
-  const double filled = one.n / (lanes * std::ceil(one.n / lanes));
-  TimedParts parts;
-  parts.try_emplace("step", Timed{[&] { steps->pass(); }, step.elements});
-  parts.try_emplace("peak", Timed{[&] { peak.run(100); }, 100 * peak_flops_a_pass}); // ns a flop
-  for (const RowPart& part : rows) {
-    const double l1_elements = filled * kernel_case(plugin, *part.kernel, "L1", 1).elements;
-    parts.try_emplace(part.name,
-                      Timed{[&part] { part.in_level->pass(); },
-                            filled * kernel_case(plugin, *part.kernel, step.level, 1).elements});
-    parts.try_emplace(part.name + " L1", Timed{[&part] { part.in_l1->pass(); }, l1_elements});
-    if (part.as_executed == nullptr) continue;
-    parts.try_emplace(part.name + " mix",
-                      Timed{[&part] { part.as_executed->run(100); }, 100 * lanes * filled});
-    parts.try_emplace(part.name + " lean",
-                      Timed{[&part] { part.without_stack->run(100); }, 100 * lanes * filled});
-  }
+  const std::string isa = ceiling_isa(*rows.front().kernel);
+  const GeneratedMix peak(peak_mix(isa == "scalar"), isa, std::string(name(one.precision)));
+  TimedParts parts = parts_of(one, step, *steps, rows, peak);
   time_rounds(parts, rounds, sample_s);
   record_rounds(one, parts, raw);
 
@@ -335,40 +262,17 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
   for (const RowPart& part : rows)
     records.push_back(row_record(one, parts, part, step.level, traffic_ns(part, step.level),
                                  traffic_ns(part, "L1")));
-  const auto sum = [&](const std::function<double(const RowPart&)>& figure) {
-    double total = 0;
-    for (const RowPart& part : rows) total += part.count * figure(part);
-    return total;
-  };
   const Figure rows_over_step = [&](const RoundTimes& of) {
-    return sum([&](const RowPart& part) { return of(part.name); }) / of("step");
+    return sum_of_rows(rows, [&](const RowPart& part) { return of(part.name); }) / of("step");
   };
-  Record rest = head_row(one, "rest");
-  rest["count_per_step"] = "1";
-  put_figure(rest, "measured_ns_per_element_step", parts,
-             [&](const RoundTimes& of) { return of("step") * (1 - rows_over_step(of)); });
-  put_figure(rest, "share_of_step", parts,
-             [&](const RoundTimes& of) { return 1 - rows_over_step(of); });
-  rest["limiter"] = "what the rows by themselves do not explain; below zero: the step finds more "
-                    "in nearer caches than they do";
-  records.push_back(rest);
-  Record whole = head_row(one, "step");
-  whole["count_per_step"] = "1";
-  put_figure(whole, "measured_ns_per_element_step", parts,
-             [](const RoundTimes& of) { return of("step"); });
-  whole["share_of_step"] = "1";
-  whole["flops_per_element_step"] = number_text(step.flops);
-  put_figure(whole, "share_of_peak", parts,
-             [&](const RoundTimes& of) { return step.flops * of("peak") / of("step"); });
-  put_figure(whole, "share_of_ceiling", parts, [&](const RoundTimes& of) {
-    return sum([&](const RowPart& part) {
-             return bound_ns(of, part, traffic_ns(part, step.level));
-           }) /
-           of("step");
-  });
-  put_figure(whole, "sum_over_step", parts, rows_over_step);
-  whole["limiter"] = records.front().at("limiter");
-  records.push_back(whole);
+  const Figure bound = [&](const RoundTimes& of) {
+    return sum_of_rows(rows, [&](const RowPart& part) {
+      return bound_ns(of, part, traffic_ns(part, step.level));
+    });
+  };
+  records.push_back(rest_record(one, parts, rows_over_step));
+  records.push_back(step_record(one, parts, step.flops, bound, rows_over_step));
+  records.back()["limiter"] = records.front().at("limiter");
   return records;
 }
 

@@ -1,9 +1,7 @@
 #include "experiments/studies/speedup/device_columns.hpp"
 #include "experiments/studies/speedup/scaling.hpp"
 #include "kernels/model.hpp"
-#include "kernels/stage_row/cost.hpp"
 #include "variants/api/member.hpp"
-#include "variants/engine/layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +32,8 @@ void put_shares_of_ceilings(const Cell& cell, Record& row) {
   row["bandwidth_share"] = number_text(speed * 2 * state_bytes(cell.model, cell.precision) / triad);
   if (cell.integrator == "rk4")
     row["peak_share"] = number_text(
-        speed * row_flops(find_model(cell.model).value_or(Model::spatial)).rk4_step() / peak);
+        speed * descriptor(find_model(cell.model).value_or(Model::spatial)).flops.rk4_step() /
+        peak);
 }
 
 /// However many steps: times are compared by step.
@@ -98,7 +97,7 @@ double of_sum(const CellStudy& study, const StudySamples& samples, const Cell& c
 
 double state_bytes(const std::string& model, const std::string& precision) {
   // f32c keeps two numbers of four bytes a field
-  return double(model_layout(*find_model(model)).fields.size()) * (precision == "f32" ? 4.0 : 8.0);
+  return double(descriptor(*find_model(model)).fields.size()) * (precision == "f32" ? 4.0 : 8.0);
 }
 
 const std::vector<std::string>& device_columns() {

@@ -1,5 +1,6 @@
 #include "experiments/studies/speedup/speedup_table.hpp"
 #include "experiments/measure/cell_bases.hpp"
+#include "experiments/measure/cell_record.hpp"
 #include "experiments/measure/cell_rows.hpp"
 #include "experiments/measure/study_samples.hpp"
 #include "experiments/studies/speedup/device_columns.hpp"
@@ -15,36 +16,11 @@ namespace dss {
 namespace {
 
 std::vector<std::string> table_columns(const SpeedupStudy& study) {
-  std::vector<std::string> columns = {"experiment",
-                                      "scale",
-                                      "source",
-                                      "label",
-                                      "scene",
-                                      "set",
-                                      "variant",
-                                      "threads",
-                                      "ranks",
-                                      "decomposition",
-                                      "halo",
-                                      "device",
-                                      "hybrid",
-                                      "cores",
-                                      "model",
-                                      "precision",
-                                      "integrator",
-                                      "steps",
-                                      "repetitions",
-                                      "contaminated",
-                                      "short",
-                                      "outliers",
-                                      "measured_wall_s",
-                                      "measured_wall_low_s",
-                                      "measured_wall_high_s",
-                                      "half_width",
-                                      "converged",
-                                      "extrapolated_wall_s",
-                                      "extrapolated_to_steps",
-                                      "element_steps_per_s"};
+  std::vector<std::string> columns = identity_columns();
+  columns.insert(columns.end(),
+                 {"repetitions", "contaminated", "short", "outliers", "measured_wall_s",
+                  "measured_wall_low_s", "measured_wall_high_s", "half_width", "converged",
+                  "extrapolated_wall_s", "extrapolated_to_steps", "element_steps_per_s"});
   for (const std::string& base : study.bases)
     for (const char* form :
          {"speedup_vs_{}", "speedup_vs_{}_low", "speedup_vs_{}_high", "extrapolated_speedup_vs_{}",

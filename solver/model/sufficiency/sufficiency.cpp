@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <stdexcept>
 
 namespace dss {
 namespace {
@@ -84,20 +85,17 @@ std::string why_not_in_translation(const Problem& problem) {
 }
 
 std::string why_not(Model model, const Problem& problem) {
-  switch (model) {
-  case Model::axial:
+  switch (degrees_of(model)) {
+  case dof_all:
+    return {};
+  case dof_ux:
     return why_not_axial(problem);
-  case Model::bending:
+  case dof_uz | dof_rx | dof_ry:
     return why_not_bending(problem);
-  case Model::membrane:
-  case Model::planar:
+  case dof_ux | dof_uy | dof_rz:
     return why_not_planar(problem);
-  case Model::linear:
-  case Model::small:
-  case Model::spatial:
-    break;
   }
-  return {};
+  throw std::logic_error("sufficiency.cpp: no proof for these degrees of freedom");
 }
 
 std::string why_not_exact(Model model, const Problem& problem) {
