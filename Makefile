@@ -25,8 +25,8 @@ build: dependencies
 	@rm -f $(PRESET).configure.log
 	@cmake --build --preset $(PRESET) $(TARGETS)
 
-# The tests of the report need a browser.
-test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium
+# The tests of the report need a browser, that of sizes needs ctags.
+test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium universal-ctags
 test: build
 	@ctest --preset $(PRESET)
 

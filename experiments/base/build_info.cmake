@@ -1,16 +1,16 @@
-# Writes build_info.cpp: commit, compiler and flags of this build. Runs at every build, and changes the file only if
-# a value changed.
+# Writes build_info.cpp: commit, compiler and flags of this build. Runs at every build, and changes
+# the file only if a value changed.
 find_program(git git)
 set(commit "unknown")
 set(dirty "true")
 if(git)
-  execute_process(COMMAND ${git} rev-parse HEAD WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE found RESULT_VARIABLE failed
-    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  execute_process(COMMAND ${git} rev-parse HEAD WORKING_DIRECTORY ${SOURCE}
+    OUTPUT_VARIABLE found RESULT_VARIABLE failed OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   if(NOT failed)
     set(commit "${found}")
-    # results/ is output of the program, so changes there do not make the source dirty
-    execute_process(COMMAND ${git} status --porcelain --untracked-files=no -- . :!results WORKING_DIRECTORY ${SOURCE}
-      OUTPUT_VARIABLE changes ERROR_QUIET)
+    # The program writes results/, so changes there do not make the source dirty.
+    execute_process(COMMAND ${git} status --porcelain --untracked-files=no -- . :!results
+      WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE changes ERROR_QUIET)
     if(changes STREQUAL "")
       set(dirty "false")
     endif()

@@ -153,8 +153,7 @@ private:
     default:
       break;
     }
-    // An action that is not compiled must fail the check.
-    check.add_one(R(std::numeric_limits<T>::quiet_NaN()));
+    check.add_one(R(std::numeric_limits<T>::quiet_NaN())); // an action that is not compiled
   }
   static R load(const T* p) { return simd::load(p); }
   template <class Tuple>

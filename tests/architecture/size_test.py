@@ -11,8 +11,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("cmake", "examples", "experiments", "kernels", "plots", "solver", "tests", "variants")
 SOURCES = (".h", ".hpp", ".cpp", ".cl", ".py", ".cmake", ".sh", ".in", ".js", ".css")
 COLUMNS, LINES = 100, 60
-# Lists, whose entries a reader looks up one by one.
-LISTS = {"kernel_cases": "kernels/cases.hpp", "status_name": "variants/opencl/opencl.cpp"}
+EXCEPTIONS = {
+    # Lists, whose entries a reader looks up one by one.
+    "kernels/cases.hpp": "kernel_cases", "variants/opencl/opencl.cpp": "status_name",
+    # The hot loop. Its machine code changes with each cut.
+    "kernels/stage_row/stage_row.hpp": "run",
+}
 
 
 def sources():
@@ -57,8 +61,8 @@ class Sizes(unittest.TestCase):
 
     @unittest.skipIf(why_no_ctags(), why_no_ctags())
     def test_functions_have_at_most_60_lines(self):
-        found = {name: file for _, file, name in long_functions(sources(), ROOT)}
-        self.assertEqual(found, LISTS)
+        found = {file: name for _, file, name in long_functions(sources(), ROOT)}
+        self.assertEqual(found, EXCEPTIONS)
 
     @unittest.skipIf(why_no_ctags(), why_no_ctags())
     def test_a_long_function_is_found(self):

@@ -84,7 +84,8 @@ TEST_F(scene_file, may_name_a_voxel_file_beside_it) {
 TEST_F(scene_file, selects_elements_of_rows_with_holes_by_their_cells) {
   const std::string bodies =
       R"({"scene": "holes", "title": "t", "run": {"dt": 1e-6, "steps": 1}, "bodies": [{"name": "b",
-      "element": 1, "constants": {"law": "paper"}, "geometry": {"voxels": {"layers": [["#.##", "####"]]}}}],
+      "element": 1, "constants": {"law": "paper"},
+      "geometry": {"voxels": {"layers": [["#.##", "####"]]}}}],
        "clamps": )";
   const auto clamped = [&](const std::string& select) {
     std::vector<std::size_t> elements;

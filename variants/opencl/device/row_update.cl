@@ -113,26 +113,11 @@ static inline REAL kept_leapfrog_update(device d, global const row_stage* task, 
   return finite_check(v, w, FMA(rotor_sign_of_life(q), SPLAT(0), check));
 }
 
-static inline REAL row_update(device d, global const row_stage* task, const long place, element e,
-                              vec force, REAL inverse_mass, spin angular, REAL turn_scale,
-                              REAL check) {
+static inline REAL runge_kutta_update(device d, global const row_stage* task, const long place,
+                                      element e, vec force, REAL inverse_mass, spin angular,
+                                      REAL turn_scale, REAL check) {
   const int action = task->action;
   global NUMBER* p = d.arena + task->out + place;
-  if (HAS(bare_rates) && action == bare_rates) {
-    put_vec(e.v, p);
-    put_vec(force, p + VEC_SIZE * W);
-    put_rotor(rotor_spun(e.q, e.w), p + 2 * VEC_SIZE * W);
-    put_spin(angular, p + (FIELDS - SPIN_SIZE) * W);
-    return check;
-  }
-  if ((HAS(leapfrog_step) && action == leapfrog_step) ||
-      (HAS(predicted_step) && action == predicted_step))
-    return leapfrog_update(d, task, place, e, force, inverse_mass, angular, turn_scale,
-                           action == predicted_step, check);
-  if ((HAS(kept_leapfrog) && action == kept_leapfrog) ||
-      (HAS(kept_predicted) && action == kept_predicted))
-    return kept_leapfrog_update(d, task, place, e, force, inverse_mass, angular, turn_scale,
-                                action == kept_predicted, check);
   global const NUMBER* y = d.arena + task->base + place;
   const NUMBER h = task->beta * d.step;
   vec next_u = e.v, next_v = force;
@@ -177,4 +162,27 @@ static inline REAL row_update(device d, global const row_stage* task, const long
   EACH_OF_ROTOR(LATE, next_q)
   EACH_OF_SPIN(LATE, next_w)
   return task->is_last ? finite_check(next_v, next_w, check) : check;
+}
+
+static inline REAL row_update(device d, global const row_stage* task, const long place, element e,
+                              vec force, REAL inverse_mass, spin angular, REAL turn_scale,
+                              REAL check) {
+  const int action = task->action;
+  global NUMBER* p = d.arena + task->out + place;
+  if (HAS(bare_rates) && action == bare_rates) {
+    put_vec(e.v, p);
+    put_vec(force, p + VEC_SIZE * W);
+    put_rotor(rotor_spun(e.q, e.w), p + 2 * VEC_SIZE * W);
+    put_spin(angular, p + (FIELDS - SPIN_SIZE) * W);
+    return check;
+  }
+  if ((HAS(leapfrog_step) && action == leapfrog_step) ||
+      (HAS(predicted_step) && action == predicted_step))
+    return leapfrog_update(d, task, place, e, force, inverse_mass, angular, turn_scale,
+                           action == predicted_step, check);
+  if ((HAS(kept_leapfrog) && action == kept_leapfrog) ||
+      (HAS(kept_predicted) && action == kept_predicted))
+    return kept_leapfrog_update(d, task, place, e, force, inverse_mass, angular, turn_scale,
+                                action == kept_predicted, check);
+  return runge_kutta_update(d, task, place, e, force, inverse_mass, angular, turn_scale, check);
 }
