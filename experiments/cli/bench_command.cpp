@@ -39,7 +39,7 @@ void narrow(const BenchArguments& arguments, MicroStudy& study) {
 
 int bench(const BenchArguments& arguments) {
   const StudyFile file = open_study(arguments.study, arguments.scale);
-  if (!file.root.has("microbenchmarks"))
+  if (!ObjectNode(file.root).has("microbenchmarks"))
     throw InputError(fmt::format("--study {}: is not a study of microbenchmarks; give kernels",
                                  arguments.study));
   MicroStudy study = read_micro_study(file);

@@ -2,10 +2,11 @@
 #include "experiments/measure/cell_devices.hpp"
 #include "experiments/measure/study_names.hpp"
 #include "experiments/run/plan/job.hpp"
+#include "experiments/run/plan/names.hpp"
 #include "kernels/model.hpp"
 #include "solver/decomposition/decomposition.hpp"
+#include "solver/error.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
-#include "solver/nearest_name.hpp"
 #include "solver/numerics/method.hpp"
 
 #include <algorithm>
@@ -19,24 +20,25 @@ namespace dss {
 namespace {
 
 /// Reads numbers of threads or ranks, in ascending order and without repeats.
-std::vector<int> counts(const JsonPlace& place, int cores, const char* what) {
+std::vector<int> read_counts(ObjectNode& block, const char* key, int cores) {
+  const auto node = block.find(key);
+  if (!node) return {1};
   std::vector<int> numbers;
-  for (const JsonPlace& item : place.items()) {
-    if (item.value() == "cores")
+  for (const Node& item : node->list()) {
+    if (item.json() == "cores")
       numbers.push_back(cores);
-    else if (item.value() == "rest")
+    else if (item.json() == "rest")
       numbers.push_back(std::max(1, cores - 1));
-    else if (item.value() == "1..cores") {
+    else if (item.json() == "1..cores") {
       for (int number = 1; number <= cores; ++number) numbers.push_back(number);
-    } else if (item.value().is_number_integer()) {
-      numbers.push_back(int(item.count(1)));
+    } else if (item.is_number()) {
+      numbers.push_back(item.count(1));
     } else {
       item.fail(fmt::format(
           "{} is neither a number of {} nor \"cores\", \"rest\" (all but one) nor \"1..cores\"",
-          item.value().dump(), what));
+          item.shown(), key));
     }
   }
-  if (numbers.empty()) place.fail(fmt::format("is empty; give at least one number of {}", what));
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
@@ -59,6 +61,7 @@ struct WeakScaling {
 
 /// The values that a block of cells lists.
 struct Block {
+  std::string scene;
   Sets sets;
   std::vector<std::string> variants, models, precisions, integrators, decompositions, halos;
   std::vector<std::string> hybrids = {""};
@@ -69,102 +72,94 @@ struct Block {
 
 /// Reads a list of names and checks each.
 /// @param otherwise  value if the block has no such key
-std::vector<std::string> known_names(const JsonPlace& block, const std::string& key,
+std::vector<std::string> known_names(ObjectNode& block, const std::string& key,
                                      const char* otherwise, const char* what,
                                      const std::vector<std::string>& known) {
-  if (!block.has(key)) return {otherwise};
-  const std::vector<std::string> names = block[key].texts();
-  for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      block[key].fail(fmt::format("unknown {} \"{}\"; {}", what, name, nearest_name(name, known)));
+  const auto node = block.find(key);
+  if (!node) return {otherwise};
+  std::vector<std::string> names;
+  for (const Node& item : node->list()) names.push_back(item.known_name(what, known));
   return names;
 }
 
-std::vector<std::string> halo_names() {
-  std::vector<std::string> names = {"auto"};
-  for (const HaloStrategy& strategy : halo_strategies()) names.emplace_back(strategy.name);
-  return names;
-}
-
-void read_ranks(const JsonPlace& place, int cores, Block& block) {
-  block.ranks = place.has("ranks") ? counts(place["ranks"], cores, "ranks") : std::vector<int>{1};
-  const auto methods_known = decomposition_methods();
-  block.decompositions = known_names(place, "decompositions", "strips", "decomposition",
-                                     {methods_known.begin(), methods_known.end()});
-  block.halos = known_names(place, "halos", "auto", "halo strategy", halo_names());
+void read_ranks(ObjectNode& object, int cores, Block& block) {
+  block.ranks = read_counts(object, "ranks", cores);
+  block.decompositions =
+      known_names(object, "decompositions", "strips", "decomposition", names_of("DECOMPOSITION"));
+  block.halos = known_names(object, "halos", "auto", "halo strategy", names_of("HALO"));
   for (const std::string& variant : block.variants)
     if (block.ranks.back() > 1 && !can_distribute(variant))
-      place["ranks"].fail(fmt::format(
+      object.require("ranks").fail(fmt::format(
           "variant \"{}\" cannot compute parts, and runs on 1 rank; give it a block of its own",
           variant));
-  if (!place.has("weak")) return;
-  const JsonPlace weak = place["weak"];
-  weak.require_keys({"parameter", "power"});
-  block.weak = {weak["parameter"].text(), weak["power"].count(1)};
+  const auto node = object.find("weak");
+  if (!node) return;
+  ObjectNode weak(*node);
+  block.weak = {weak.require("parameter").name(), weak.require("power").whole(1)};
+  weak.finish();
   if (block.ranks.front() != 1)
     weak.fail(
         "compares problems on several ranks with one on 1 rank; give \"ranks\" such as [1, 2, 4]");
 }
 
-/// Reads variants, or members of a hybrid.
-void read_variants(const JsonPlace& place, int cores, Block& block) {
-  if (place.has("device")) block.device = place["device"].text();
-  if (place.has("hybrid") && place.has("variants"))
-    place["variants"].fail(
+/// Reads the members of a hybrid.
+void read_hybrid(const Node& hybrid, ObjectNode& object, int cores, Block& block) {
+  if (const auto variants = object.find("variants"))
+    variants->fail(
         "a block has variants, or the members of a hybrid; give the other a block of its own");
-  if (!place.has("hybrid")) {
-    block.variants = place["variants"].texts();
-    for (std::string& name : block.variants)
-      if (name == "auto") name = load_variant(name).name; // records must name the variant that ran
-    for (const std::string& name : block.variants)
-      require_device_variant(name, block.device, place["variants"]);
-    return;
-  }
-  block.variants = {known_variant("hybrid", place["hybrid"]).name};
+  block.variants = {known_variant("hybrid", hybrid).name};
   block.hybrids.clear();
-  for (const JsonPlace& item : place["hybrid"].items())
-    block.hybrids.push_back(members_text(item, cores));
-  if (place.has("ranks")) place["ranks"].fail("a hybrid is one process");
-  if (place.has("threads") && block.hybrids != std::vector<std::string>{"auto"})
-    place["threads"].fail("the members of a hybrid name their threads: \"avx512:2,opencl@cpu:1\"");
+  for (const Node& item : hybrid.list()) block.hybrids.push_back(members_text(item, cores));
+  if (const auto ranks = object.find("ranks")) ranks->fail("a hybrid is one process");
+  const auto threads = object.find("threads");
+  if (threads && block.hybrids != std::vector<std::string>{"auto"})
+    threads->fail("the members of a hybrid name their threads: \"avx512:2,opencl@cpu:1\"");
 }
 
-Block read_block(const JsonPlace& place, const Sets& scale_sets, const CellRules& rules) {
-  std::vector<std::string> keys{"scene",   "set",        "variants",       "device", "hybrid",
-                                "threads", "ranks",      "decompositions", "halos",  "weak",
-                                "models",  "precisions", "integrators"};
-  keys.insert(keys.end(), rules.block_keys.begin(), rules.block_keys.end());
-  place.require_keys(keys);
+void read_variants(ObjectNode& object, int cores, Block& block) {
+  block.device = object.name_or("device", "");
+  if (const auto hybrid = object.find("hybrid")) return read_hybrid(*hybrid, object, cores, block);
+  const Node variants = object.require("variants");
+  block.variants = variants.names();
+  for (std::string& name : block.variants)
+    if (name == "auto") name = load_variant(name).name; // records must name the variant that ran
+  for (const std::string& name : block.variants)
+    require_device_variant(name, block.device, variants);
+}
+
+Block read_block(ObjectNode& object, const Sets& scale_sets, const CellRules& rules) {
   Block block;
-  for (const auto& own : combinations(place, "set"))
+  block.scene = object.require("scene").name();
+  for (const auto& own : combinations(object, "set"))
     for (const auto& of_scale : scale_sets) {
       block.sets.push_back(own);
       block.sets.back().insert(block.sets.back().end(), of_scale.begin(), of_scale.end());
     }
-  const int cores = rules.cores;
-  read_variants(place, cores, block);
-  block.threads =
-      place.has("threads") ? counts(place["threads"], cores, "threads") : std::vector<int>{1};
-  block.models = known_names(place, "models", "spatial", "model", model_names());
-  block.precisions = known_names(place, "precisions", "f64", "precision", {"f64", "f32", "f32c"});
-  block.integrators = known_names(place, "integrators", "rk4", "integrator", method_names());
-  read_ranks(place, cores, block);
+  read_variants(object, rules.cores, block);
+  block.threads = read_counts(object, "threads", rules.cores);
+  block.models = known_names(object, "models", "spatial", "model", model_names());
+  block.precisions = known_names(object, "precisions", "f64", "precision", names_of("PRECISION"));
+  block.integrators = known_names(object, "integrators", "rk4", "integrator", method_names());
+  read_ranks(object, rules.cores, block);
+  object.allow(rules.block_keys);
+  object.finish();
   return block;
 }
 
 /// Overrides of a weak scaling on this number of ranks.
+/// @param parameter  its place in the file
 std::vector<Override> grown(std::vector<Override> set, const WeakScaling& weak, int ranks,
-                            const JsonPlace& place) {
+                            const Node& parameter) {
   const auto last = std::find_if(set.rbegin(), set.rend(),
                                  [&](const Override& o) { return o.key == weak.parameter; });
   if (last == set.rend())
-    place["parameter"].fail(
+    parameter.fail(
         fmt::format("neither the block's set nor the scale's has \"{}\", from which problems grow",
                     weak.parameter));
   char* end = nullptr;
   const double value = std::strtod(last->value.c_str(), &end);
   if (*end != '\0' || !(value >= 1) || value != std::floor(value))
-    place["parameter"].fail(
+    parameter.fail(
         fmt::format("{}={} is not a whole number that can grow", last->key, last->value));
   last->value =
       fmt::format("{}", std::lround(value * std::pow(double(ranks), 1 / double(weak.power))));
@@ -183,9 +178,9 @@ void multiply(std::vector<Cell>& cells, const std::vector<Value>& values, Value 
   cells = std::move(more);
 }
 
-std::vector<Cell> combined(const std::string& scene, const Block& block) {
+std::vector<Cell> combined(const Block& block) {
   std::vector<Cell> cells(1);
-  cells[0].scene = scene;
+  cells[0].scene = block.scene;
   multiply(cells, block.sets, &Cell::set);
   multiply(cells, block.models, &Cell::model);
   multiply(cells, block.precisions, &Cell::precision);
@@ -227,10 +222,10 @@ long steps_of_variant(const Scale& scale, const Cell& cell) {
   return steps;
 }
 
-std::vector<Cell> cells_of(const JsonPlace& place, const Block& block, const Scale& scale) {
-  std::vector<Cell> cells = combined(place["scene"].text(), block);
+std::vector<Cell> cells_of(ObjectNode& object, const Block& block, const Scale& scale) {
+  std::vector<Cell> cells = combined(block);
   std::erase_if(cells, [&](const Cell& cell) {
-    return cell.threads > 1 && !is_threaded(known_variant(cell.variant, place));
+    return cell.threads > 1 && !is_threaded(known_variant(cell.variant, object.node()));
   });
   for (Cell& cell : cells) {
     cell.device = block.device;
@@ -238,11 +233,13 @@ std::vector<Cell> cells_of(const JsonPlace& place, const Block& block, const Sca
       cell.threads = threads_of_members(cell.hybrid);
     if (block.weak) {
       cell.weak_base_set = cell.set_text();
-      cell.set = grown(cell.set, *block.weak, cell.ranks, place["weak"]);
+      cell.set = grown(cell.set, *block.weak, cell.ranks,
+                       ObjectNode(object.require("weak")).require("parameter"));
     }
     cell.skipped = why_no_device(cell);
     cell.is_unavailable = !cell.skipped.empty();
-    if (!cell.is_unavailable) cell.skipped = why_skipped(cell, known_variant(cell.variant, place));
+    if (!cell.is_unavailable)
+      cell.skipped = why_skipped(cell, known_variant(cell.variant, object.node()));
     cell.full_steps = scale.full_steps > 0 ? scale.full_steps : steps_of(scale, cell);
     cell.steps = steps_of_variant(scale, cell);
   }
@@ -251,7 +248,7 @@ std::vector<Cell> cells_of(const JsonPlace& place, const Block& block, const Sca
 
 /// Rejects blocks that can never run: an unknown scene or override, or a model that lacks the
 /// scene's degrees of freedom.
-void require_loadable(const JsonPlace& place, const Block& block, const std::vector<Cell>& cells) {
+void require_loadable(const Node& place, const Block& block, const std::vector<Cell>& cells) {
   std::set<std::string> loaded;
   for (const Cell& cell : cells) {
     if (!loaded.insert(cell.set_text()).second) continue;
@@ -268,12 +265,13 @@ void require_loadable(const JsonPlace& place, const Block& block, const std::vec
 
 } // namespace
 
-void add_block(const JsonPlace& place, const Sets& scale_sets, const CellRules& rules,
+void add_block(const Node& place, const Sets& scale_sets, const CellRules& rules,
                CellStudy& study) {
-  const Block block = read_block(place, scale_sets, rules);
-  std::vector<Cell> cells = cells_of(place, block, study.scale);
+  ObjectNode object(place);
+  const Block block = read_block(object, scale_sets, rules);
+  std::vector<Cell> cells = cells_of(object, block, study.scale);
   require_loadable(place, block, cells);
-  if (rules.expand) cells = rules.expand(place, cells);
+  if (rules.expand) cells = rules.expand(object, cells);
   std::set<std::string> keys;
   for (const Cell& cell : cells) {
     if (!keys.insert(cell.key()).second)
@@ -285,8 +283,8 @@ void add_block(const JsonPlace& place, const Sets& scale_sets, const CellRules& 
     else if (same->weak_base_set.empty())
       same->weak_base_set = cell.weak_base_set;
     else if (!cell.weak_base_set.empty() && same->weak_base_set != cell.weak_base_set)
-      place["weak"].fail(fmt::format("{} belongs to the weak scaling from {} already", cell.key(),
-                                     same->weak_base_set));
+      object.require("weak").fail(fmt::format("{} belongs to the weak scaling from {} already",
+                                              cell.key(), same->weak_base_set));
   }
 }
 

@@ -17,13 +17,12 @@ struct CellRules {
   std::vector<std::string> block_keys, scale_keys;
   /// Makes more cells, with steps of their own, from those of a block. If empty, each cell has the
   /// steps of the scale.
-  std::function<std::vector<Cell>(const JsonPlace& block, const std::vector<Cell>& cells)> expand;
+  std::function<std::vector<Cell>(ObjectNode& block, const std::vector<Cell>& cells)> expand;
 };
 
 /// Adds the cells of a block to `study`. Reads `study.scale`, which must be set. A cell that an
 /// earlier block has added is not added again. Loads every scene with its overrides.
 /// @throws InputError with the place of the mistake
-void add_block(const JsonPlace& place, const Sets& scale_sets, const CellRules& rules,
-               CellStudy& study);
+void add_block(const Node& place, const Sets& scale_sets, const CellRules& rules, CellStudy& study);
 
 } // namespace dss

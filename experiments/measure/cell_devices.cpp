@@ -1,5 +1,6 @@
 #include "experiments/measure/cell_devices.hpp"
 #include "experiments/measure/study_names.hpp"
+#include "solver/error.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ std::string why_no_device(const std::string& variant, const std::string& device,
 } // namespace
 
 void require_device_variant(const std::string& variant, const std::string& device,
-                            const JsonPlace& place) {
+                            const Node& place) {
   known_variant(variant, place);
   const Plugin* plugin = plugin_of(variant);
   if (!device.empty() && plugin != nullptr && plugin->devices == nullptr)
@@ -54,9 +55,9 @@ void require_device_variant(const std::string& variant, const std::string& devic
         variant, device, device_variant));
 }
 
-std::string members_text(const JsonPlace& place, int cores) {
+std::string members_text(const Node& place, int cores) {
   const std::string text =
-      replaced(replaced(place.text(), ":cores", cores), ":rest", std::max(1, cores - 1));
+      replaced(replaced(place.name(), ":cores", cores), ":rest", std::max(1, cores - 1));
   if (text == "auto") return text;
   try {
     for (const Member& member : parse_members(text))

@@ -2,7 +2,7 @@
 /// Cells that compute on devices or as hybrids: reads them, and says if they can run on this
 /// machine.
 #include "experiments/measure/cell.hpp"
-#include "experiments/measure/json_place.hpp"
+#include "solver/json/node.hpp"
 
 #include <string>
 
@@ -12,12 +12,12 @@ namespace dss {
 /// devices.
 /// @throws InputError with the place
 void require_device_variant(const std::string& variant, const std::string& device,
-                            const JsonPlace& place);
+                            const Node& place);
 
 /// Members of a hybrid as `dssbench run --hybrid` takes them, or "auto". Replaces ":cores" by the
 /// number of cores and ":rest" by one less, but at least 1.
 /// @throws InputError with the place of the mistake
-std::string members_text(const JsonPlace& place, int cores);
+std::string members_text(const Node& place, int cores);
 
 /// Number of threads of those members that compute on this CPU; at least 1.
 int threads_of_members(const std::string& members);

@@ -7,42 +7,45 @@
 namespace dss {
 namespace {
 
-Scale read_scale(const JsonPlace& place, const std::string& name, const CellRules& rules) {
-  std::vector<std::string> keys{"set",          "steps",       "steps_by_set", "full_steps",
-                                "oracle_steps", "tail_checks", "warmup_steps", "steps_for",
-                                "repetitions",  "retries",     "half_width",   "budget_s",
-                                "time_limit_s"};
-  keys.insert(keys.end(), rules.scale_keys.begin(), rules.scale_keys.end());
-  place.require_keys(keys);
+std::map<std::string, long> read_steps(ObjectNode& scale, const char* key) {
+  std::map<std::string, long> steps;
+  if (const auto node = scale.find(key))
+    for (const auto& [cells, count] : ObjectNode(*node).members()) steps[cells] = count.whole(1);
+  return steps;
+}
+
+void read_repetitions(const Node& node, Scale& scale) {
+  const std::vector<Node> limits = node.items();
+  if (limits.size() != 2) node.fail("is not [least, most]");
+  scale.min_repetitions = limits[0].whole(1);
+  scale.max_repetitions = limits[1].whole(scale.min_repetitions);
+}
+
+Scale read_scale(const StudyFile& file, const CellRules& rules) {
+  ObjectNode object(file.scale);
+  object.allow({"set"});
+  object.allow(rules.scale_keys);
   Scale scale;
-  scale.name = name;
-  if (!rules.expand) scale.steps = place["steps"].count(1);
-  scale.oracle_steps = place.has("oracle_steps") ? place["oracle_steps"].count(1) : scale.steps;
-  if (place.has("full_steps")) scale.full_steps = place["full_steps"].count(1);
-  if (place.has("tail_checks")) scale.tail_checks = place["tail_checks"].count(1);
-  if (place.has("warmup_steps")) scale.warmup_steps = place["warmup_steps"].count(0);
-  if (place.has("retries")) scale.retries = place["retries"].count(0);
-  if (place.has("half_width")) scale.half_width = place["half_width"].positive();
-  if (place.has("budget_s")) scale.budget_s = place["budget_s"].positive();
-  if (place.has("time_limit_s")) scale.time_limit_s = place["time_limit_s"].positive();
-  if (place.has("steps_for"))
-    for (const auto& [slow, steps] : place["steps_for"].value().items()) {
-      known_variant(slow.substr(0, slow.find(' ')), place["steps_for"]);
-      scale.steps_for[slow] = place["steps_for"][slow].count(1);
-    }
-  if (place.has("steps_by_set"))
-    for (const auto& [set, steps] : place["steps_by_set"].value().items())
-      scale.steps_by_set[set] = place["steps_by_set"][set].count(1);
-  if (place.has("repetitions")) {
-    const auto limits = place["repetitions"].items();
-    if (limits.size() != 2) place["repetitions"].fail("is not [least, most]");
-    scale.min_repetitions = limits[0].count(1);
-    scale.max_repetitions = limits[1].count(scale.min_repetitions);
-  }
+  scale.name = file.scale_name;
+  if (!rules.expand) scale.steps = object.require("steps").whole(1);
+  scale.oracle_steps = object.whole_or("oracle_steps", 1, scale.steps);
+  scale.full_steps = object.whole_or("full_steps", 1, scale.full_steps);
+  scale.tail_checks = object.whole_or("tail_checks", 1, scale.tail_checks);
+  scale.warmup_steps = object.whole_or("warmup_steps", 0, scale.warmup_steps);
+  scale.retries = object.whole_or("retries", 0, scale.retries);
+  scale.half_width = object.positive_or("half_width", scale.half_width);
+  scale.budget_s = object.positive_or("budget_s", scale.budget_s);
+  scale.time_limit_s = object.positive_or("time_limit_s", scale.time_limit_s);
+  scale.steps_by_set = read_steps(object, "steps_by_set");
+  scale.steps_for = read_steps(object, "steps_for");
+  for (const auto& slow : scale.steps_for)
+    known_variant(slow.first.substr(0, slow.first.find(' ')), object.require("steps_for"));
+  if (const auto limits = object.find("repetitions")) read_repetitions(*limits, scale);
+  object.finish();
   return scale;
 }
 
-void require_cell_of(const std::string& variant, const CellStudy& study, const JsonPlace& place) {
+void require_cell_of(const std::string& variant, const CellStudy& study, const Node& place) {
   known_variant(variant, place);
   if (std::none_of(study.cells.begin(), study.cells.end(),
                    [&](const Cell& cell) { return cell.variant == variant; }))
@@ -50,7 +53,7 @@ void require_cell_of(const std::string& variant, const CellStudy& study, const J
 }
 
 /// Rejects steps for overrides that no cell has: they would have no effect.
-void require_sets(const JsonPlace& steps_by_set, const CellStudy& study) {
+void require_sets(const Node& steps_by_set, const CellStudy& study) {
   for (const auto& own : study.scale.steps_by_set)
     if (std::none_of(study.cells.begin(), study.cells.end(),
                      [&](const Cell& cell) { return cell.set_text() == own.first; }))
@@ -76,18 +79,18 @@ void add_twins(const std::string& variant, CellStudy& study) {
 } // namespace
 
 void read_cells(const StudyFile& file, const CellRules& rules, CellStudy& study) {
-  const JsonPlace& root = file.root;
+  ObjectNode root(file.root), scale(file.scale);
   study.name = file.name, study.title = file.title, study.path = file.path;
-  study.scale = read_scale(file.scale, file.scale_name, rules);
-  const Sets scale_sets = combinations(file.scale, "set");
-  for (const JsonPlace& block : root["cells"].items()) add_block(block, scale_sets, rules, study);
-  if (study.cells.empty()) root["cells"].fail("no cell; give at least one scene with a variant");
-  if (file.scale.has("steps_by_set")) require_sets(file.scale["steps_by_set"], study);
-  if (root.has("base")) study.bases = root["base"].texts();
-  for (const std::string& base : study.bases) require_cell_of(base, study, root["base"]);
-  if (!root.has("twin")) return;
-  require_cell_of(root["twin"].text(), study, root["twin"]);
-  add_twins(root["twin"].text(), study);
+  study.scale = read_scale(file, rules);
+  const Sets scale_sets = combinations(scale, "set");
+  for (const Node& block : root.require("cells").list()) add_block(block, scale_sets, rules, study);
+  if (const auto steps = scale.find("steps_by_set")) require_sets(*steps, study);
+  study.bases = root.names_or("base", {});
+  for (const std::string& base : study.bases) require_cell_of(base, study, root.require("base"));
+  const auto twin = root.find("twin");
+  if (!twin) return;
+  require_cell_of(twin->name(), study, *twin);
+  add_twins(twin->name(), study);
 }
 
 } // namespace dss

@@ -1,16 +1,19 @@
 #include "experiments/measure/formula.hpp"
+#include "solver/error.hpp"
 
 #include <fmt/format.h>
 
 namespace dss {
 
-Formula::Formula(const JsonPlace& place) {
-  const nlohmann::json& value = place.value();
-  const std::string text = value.is_string() ? value.get<std::string>() : "";
-  if (!value.is_number() && !(text.starts_with("=") && text.size() > 1))
-    place.fail(fmt::format("{} is not a number or an expression \"=...\"", value.dump()));
-  text_ = value.is_number() ? value.dump() : text.substr(1);
-  place_ = place.where();
+Formula::Formula(const Node& node) : place_(node.where()) {
+  const std::string text = node.is_string() ? node.text() : "";
+  if (!node.json().is_number() && !(text.starts_with("=") && text.size() > 1))
+    node.fail(node.shown() + " is not a number or an expression \"=...\"");
+  text_ = text.empty() ? node.json().dump() : text.substr(1);
+}
+
+Formula::Formula(ObjectNode& object, const std::string& key) {
+  if (const auto node = object.find(key)) *this = Formula(*node);
 }
 
 double Formula::operator()(const Parameters& parameters) const {
@@ -21,10 +24,9 @@ double Formula::operator()(const Parameters& parameters) const {
   }
 }
 
-std::vector<Formula> formulas(const JsonPlace& place) {
+std::vector<Formula> formulas(const Node& node) {
   std::vector<Formula> all;
-  for (const JsonPlace& item : place.items()) all.emplace_back(item);
-  if (all.empty()) place.fail("is empty; give at least one number");
+  for (const Node& item : node.list()) all.emplace_back(item);
   return all;
 }
 

@@ -2,7 +2,7 @@
 /// Numbers of a study that may be expressions over a scene's parameters, as in scenes: 0.01 or
 /// "=sqrt(k/m)".
 #include "experiments/measure/study_sets.hpp"
-#include "solver/scene/json/document.hpp"
+#include "solver/scene/scene_text.hpp"
 
 #include <string>
 #include <vector>
@@ -14,7 +14,9 @@ class Formula {
 public:
   Formula() = default;
   /// @throws InputError with the file, the JSON pointer and the mistake
-  explicit Formula(const JsonPlace& place);
+  explicit Formula(const Node& node);
+  /// Reads a key of an object; is not present if the key is missing.
+  Formula(ObjectNode& object, const std::string& key);
   bool is_present() const { return !text_.empty(); }
   /// Evaluates the expression.
   /// @throws InputError with the place if the expression is wrong or its value is not finite
@@ -25,6 +27,6 @@ private:
 };
 
 /// Reads one value or a list of values.
-std::vector<Formula> formulas(const JsonPlace& place);
+std::vector<Formula> formulas(const Node& node);
 
 } // namespace dss

@@ -1,8 +1,8 @@
 #pragma once
 /// Reads how a study computes its solution: the result that errors are measured against.
-#include "experiments/measure/json_place.hpp"
 #include "experiments/run/state/saved_times.hpp"
 #include "experiments/run/state/solution.hpp"
+#include "solver/json/object_node.hpp"
 
 #include <string>
 
@@ -10,15 +10,15 @@ namespace dss {
 
 /// Reads the name of a method.
 /// @throws InputError with the place and the nearest known name
-std::string method_name_in(const JsonPlace& place);
+std::string method_name_in(const Node& place);
 
-/// Reads {"integrator", "tolerance", "most_steps"}; each key may be absent.
+/// Reads "solution": {"integrator", "tolerance", "most_steps"}; each key may be absent.
 /// @throws InputError with the place
-SolutionRule read_solution_rule(const JsonPlace& place);
+SolutionRule read_solution_rule(ObjectNode& object);
 
 /// Reads `end_time` [s] and `saved_times`. The end time is multiplied by `shorten`, a factor of the
 /// scale.
 /// @throws InputError with the place
-SavedTimes read_saved_times(const JsonPlace& place, double shorten);
+SavedTimes read_saved_times(ObjectNode& object, double shorten);
 
 } // namespace dss

@@ -1,6 +1,7 @@
 #include "experiments/measure/study_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/program_files.hpp"
+#include "solver/json/parse.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
@@ -18,24 +19,26 @@ fs::path study_directory() {
   return program_file("experiments/studies");
 }
 
-/// Lists *.json in a folder and in its direct subfolders.
+/// Lists *.json in a folder and in its direct subfolders, without schemas.
 std::vector<fs::path> study_files(const fs::path& directory) {
   std::vector<fs::path> files;
+  const auto add = [&](const fs::path& path) {
+    if (path.extension() == ".json" && path.stem().extension() != ".schema") files.push_back(path);
+  };
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory, error)) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
+    add(entry.path());
     if (!entry.is_directory()) continue;
-    for (const auto& inner : fs::directory_iterator(entry.path(), error))
-      if (inner.path().extension() == ".json") files.push_back(inner.path());
+    for (const auto& inner : fs::directory_iterator(entry.path(), error)) add(inner.path());
   }
   return files;
 }
 
-JsonPlace scale_of(const JsonPlace& root, const std::string& name) {
-  const JsonPlace scales = root["scales"];
-  if (scales.has(name)) return scales[name];
+Node scale_of(ObjectNode& root, const std::string& name) {
+  ObjectNode scales(root.require("scales"));
+  if (const auto scale = scales.find(name)) return *scale;
   std::vector<std::string> known;
-  for (const auto& [key, value] : scales.value().items()) known.push_back(key);
+  for (const auto& scale : scales.members()) known.push_back(scale.first);
   throw InputError(fmt::format("--scale {}: unknown scale; {}", name, nearest_name(name, known)));
 }
 
@@ -44,8 +47,9 @@ JsonPlace scale_of(const JsonPlace& root, const std::string& name) {
 std::vector<StudyListing> list_studies() {
   std::vector<StudyListing> listings;
   for (const fs::path& path : study_files(study_directory())) {
-    const nlohmann::json json = parse_json_file(path.string());
-    listings.push_back({path.stem().string(), json.value("title", ""), path.string()});
+    const JsonFile file(path.string(), parse_json_file(path.string()));
+    listings.push_back(
+        {path.stem().string(), ObjectNode(Node(file)).name_or("title", ""), path.string()});
   }
   std::ranges::sort(listings, {}, &StudyListing::name);
   return listings;
@@ -78,16 +82,17 @@ std::vector<std::string> scale_names(const std::string& name_or_path) {
 StudyFile open_study(const std::string& study, const std::string& scale,
                      const FurtherKeys& further_keys) {
   const std::string path = study_path(study);
-  const auto json = std::make_shared<const nlohmann::json>(parse_json_file(path));
-  const JsonPlace root(*json, path);
+  const auto json = std::make_shared<const JsonFile>(path, parse_json_file(path));
+  ObjectNode root{Node(*json)};
   std::vector<std::string> keys{"experiment", "title"};
   if (further_keys) std::ranges::copy(further_keys(root), std::back_inserter(keys));
   keys.emplace_back("scales");
   root.must_have(keys);
-  const std::string name = root["experiment"].text();
+  const std::string name = root.require("experiment").name();
   if (name.find_first_of("/ ") != std::string::npos)
-    root["experiment"].fail("names files: no slash, no space");
-  return {json, path, name, root["title"].text(), scale, root, scale_of(root, scale)};
+    root.require("experiment").fail("names files: no slash, no space");
+  return {
+      json, path, name, root.require("title").name(), scale, root.node(), scale_of(root, scale)};
 }
 
 } // namespace dss

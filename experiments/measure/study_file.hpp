@@ -1,6 +1,7 @@
 #pragma once
 /// The file of a study: found by name, parsed once, with one of its scales.
-#include "experiments/measure/json_place.hpp"
+
+#include "solver/json/object_node.hpp"
 
 #include <functional>
 #include <memory>
@@ -26,14 +27,17 @@ std::string study_path(const std::string& name_or_path);
 std::vector<std::string> scale_names(const std::string& name_or_path);
 
 /// Keys that a file must have, from its contents.
-using FurtherKeys = std::function<std::vector<std::string>(const JsonPlace& root)>;
+using FurtherKeys = std::function<std::vector<std::string>(ObjectNode& root)>;
 
 /// The part that every kind of study has. A kind has its own keys in `root`.
 struct StudyFile {
-  std::shared_ptr<const nlohmann::json> json; ///< the parsed file; `root` and `scale` refer to it
+  std::shared_ptr<const JsonFile> json; ///< the parsed file; `root` and `scale` refer to it
   std::string path, name, title, scale_name;
-  JsonPlace root;
-  JsonPlace scale; ///< the member of "scales" that was asked for
+  Node root;
+  Node scale; ///< the member of "scales" that was asked for
+
+  /// The value of a key of `root`. @throws InputError if it is missing
+  Node part(const std::string& key) const { return ObjectNode(root).require(key); }
 };
 
 /// Opens a study, given its name or path, with one of its scales.

@@ -1,17 +1,17 @@
 #pragma once
 /// Checks names in the JSON of studies. Errors name the nearest known name.
-#include "experiments/measure/json_place.hpp"
 #include "kernels/model.hpp"
+#include "solver/json/node.hpp"
 #include "variants/loading/loader.hpp"
 
 namespace dss {
 
 /// Finds a variant by name. @throws InputError with the place and the nearest known name
-const VariantStatus& known_variant(const std::string& name, const JsonPlace& place);
+const VariantStatus& known_variant(const std::string& name, const Node& node);
 
 /// Read a model and a precision. @throws InputError with the place and the nearest known name
-Model model_in(const JsonPlace& place);
-Precision precision_in(const JsonPlace& place);
+Model model_in(const Node& node);
+Precision precision_in(const Node& node);
 
 /// Names of an element's fields, in the order of `Field`.
 const std::vector<std::string>& field_names();

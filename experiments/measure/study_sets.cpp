@@ -1,5 +1,5 @@
 #include "experiments/measure/study_sets.hpp"
-#include "solver/scene/json/document.hpp"
+#include "solver/scene/scene_text.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -7,40 +7,44 @@
 namespace dss {
 namespace {
 
-std::string override_text(const JsonPlace& place) {
-  const nlohmann::json& value = place.value();
-  if (!value.is_string() && !value.is_number() && !value.is_boolean())
-    place.fail(fmt::format("{} is not a number, a text, or true or false", value.dump()));
-  return value.is_string() ? value.get<std::string>() : value.dump();
+std::string override_text(const Node& node) {
+  if (node.json().is_null() || node.json().is_structured())
+    node.fail(node.shown() + " is not a number, a text, or true or false");
+  return node.is_string() ? node.text() : node.json().dump();
 }
 
 } // namespace
 
-Sets combinations(const JsonPlace& overrides) {
+Sets combinations(const Node& overrides) {
   Sets sets(1);
-  if (!overrides.value().is_object())
+  if (!overrides.is_object())
     overrides.fail("is not an object of overrides, such as {\"n\": [50, 100]}");
-  for (const auto& item : overrides.value().items()) {
+  for (const auto& [key, values] : ObjectNode(overrides).members()) {
     Sets longer;
     for (const std::vector<Override>& set : sets)
-      for (const JsonPlace& value : overrides[item.key()].items()) {
+      for (const Node& value : values.list()) {
         longer.push_back(set);
-        longer.back().push_back({item.key(), override_text(value)});
+        longer.back().push_back({key, override_text(value)});
       }
-    if (longer.empty()) overrides[item.key()].fail("is empty; give at least one value");
     sets = std::move(longer);
   }
   return sets;
 }
 
-Sets combinations(const JsonPlace& object, const std::string& key) {
-  return object.has(key) ? combinations(object[key]) : Sets(1);
+Sets combinations(ObjectNode& object, const std::string& key) {
+  const auto overrides = object.find(key);
+  return overrides ? combinations(*overrides) : Sets(1);
 }
 
-std::vector<Override> one_set(const JsonPlace& overrides) {
+std::vector<Override> one_set(const Node& overrides) {
   const Sets sets = combinations(overrides);
   if (sets.size() != 1) overrides.fail("has several values for a key; give one each");
   return sets.front();
+}
+
+std::vector<Override> one_set(ObjectNode& object, const std::string& key) {
+  const auto overrides = object.find(key);
+  return overrides ? one_set(*overrides) : std::vector<Override>{};
 }
 
 std::string scene_beside(const std::string& study_path, const std::string& scene) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <set>
 
 namespace dss {
@@ -20,7 +19,7 @@ std::vector<std::string> keys_of(const StudyKind& kind) {
 }
 
 /// The kinds of study that a file contains. A key belongs to the first kind that claims it.
-std::vector<const StudyKind*> kinds_of(const JsonPlace& root) {
+std::vector<const StudyKind*> kinds_of(ObjectNode& root) {
   std::set<std::string> claimed;
   std::vector<const StudyKind*> kinds;
   for (const StudyKind* kind : study_kinds()) {
@@ -31,7 +30,7 @@ std::vector<const StudyKind*> kinds_of(const JsonPlace& root) {
   return kinds;
 }
 
-std::vector<std::string> required_keys(const JsonPlace& root) {
+std::vector<std::string> required_keys(ObjectNode& root) {
   std::vector<std::string> keys;
   for (const StudyKind* kind : kinds_of(root))
     keys.insert(keys.end(), kind->required_keys.begin(), kind->required_keys.end());
@@ -40,16 +39,16 @@ std::vector<std::string> required_keys(const JsonPlace& root) {
 
 /// The studies of a file, in the order in which they run.
 std::vector<std::unique_ptr<Study>> read_studies(const StudyFile& file) {
-  const std::vector<const StudyKind*> kinds = kinds_of(file.root);
+  ObjectNode root(file.root);
+  const std::vector<const StudyKind*> kinds = kinds_of(root);
   if (kinds.empty()) {
     std::vector<std::string> known;
     for (const StudyKind* kind : study_kinds()) known.emplace_back(kind->key);
-    file.root.fail(fmt::format("asks for nothing; give one of {}", fmt::join(known, ", ")));
+    root.fail(fmt::format("asks for nothing; give one of {}", listed(known)));
   }
-  std::vector<std::string> allowed{"$schema", "experiment", "title", "scales"};
-  for (const StudyKind* kind : kinds)
-    for (const std::string& key : keys_of(*kind)) allowed.push_back(key);
-  file.root.require_keys(allowed);
+  root.allow({"$schema", "experiment", "title", "scales"});
+  for (const StudyKind* kind : kinds) root.allow(keys_of(*kind));
+  root.finish();
   std::vector<std::unique_ptr<Study>> studies;
   for (const StudyKind* kind : kinds) studies.push_back(kind->read(file));
   return studies;

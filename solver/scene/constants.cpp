@@ -61,8 +61,8 @@ Material read_material(ObjectNode& constants) {
 
 void read_paper_body(ObjectNode& constants, Body& body) {
   body.axis.fill(read_paper_link(constants));
-  const auto mass = constants.find("mass"), inertia = constants.find("inertia");
-  body.mass = mass ? mass->positive() : 1;
+  const auto inertia = constants.find("inertia");
+  body.mass = constants.positive_or("mass", 1);
   body.inertia = inertia ? read_per_axis(*inertia) : Vec3{1, 1, 1};
 }
 

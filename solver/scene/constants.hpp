@@ -1,8 +1,8 @@
 #pragma once
 /// Constants of elements and links, as published (`paper`) or from a material (DESIGN.md section
 /// 2).
+#include "solver/json/object_node.hpp"
 #include "solver/model/problem.hpp"
-#include "solver/scene/json/node.hpp"
 
 namespace dss {
 

@@ -61,7 +61,7 @@ Layers read_layers(const Node& node) {
   Layers layers;
   for (const Node& layer : node.items()) {
     layers.emplace_back();
-    for (const Node& line : layer.items()) layers.back().push_back(line.string());
+    for (const Node& line : layer.items()) layers.back().push_back(line.text());
   }
   return layers;
 }
@@ -69,7 +69,7 @@ Layers read_layers(const Node& node) {
 /// Layers of a text file. A blank line or the end of the file ends a layer. The path is relative to
 /// the scene's file unless it is absolute.
 Layers read_layer_file(const Node& node) {
-  const auto path = std::filesystem::path(node.file()).parent_path() / node.string();
+  const auto path = std::filesystem::path(node.file()).parent_path() / node.text();
   std::error_code error;
   std::ifstream file(path);
   if (!file || std::filesystem::is_directory(path, error))

@@ -1,7 +1,7 @@
 #pragma once
 /// The shapes of the bodies of a scene.
+#include "solver/json/object_node.hpp"
 #include "solver/lattice/lattice.hpp"
-#include "solver/scene/json/node.hpp"
 
 namespace dss {
 

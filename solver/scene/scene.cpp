@@ -18,14 +18,12 @@
 namespace dss {
 namespace {
 
-constexpr long max_steps = 1L << 53; // doubles hold all integers up to this one exactly
 const std::vector<std::string> analyses = {"dynamic", "static", "modal"};
 
 Body read_body_properties(ObjectNode& object) {
   Body body;
-  const Node name = object.require("name"), element = object.require("element");
-  body.name = name.string();
-  if (body.name.empty()) name.fail("a body's name is not empty");
+  const Node element = object.require("element");
+  body.name = object.require("name").name();
   body.edge = element.is_array() ? element.positive_vector() : Vec3{};
   if (!element.is_array()) body.edge.fill(element.positive());
   body.origin = object.vector_or("origin", {});
@@ -66,34 +64,29 @@ void read_terms(ObjectNode& root, Problem& problem) {
 void read_run(const Node& node, Scene& scene) {
   ObjectNode run(node);
   scene.problem.dt = run.require("dt").positive();
-  scene.problem.steps = run.require("steps").whole(1, max_steps);
-  const std::vector<std::string> known_methods = method_names();
+  scene.problem.steps = run.require("steps").whole(1);
   const auto integrator = run.find("integrator"), model = run.find("model");
-  scene.integrator =
-      integrator ? known_methods[integrator->choice("integrator", known_methods)] : "rk4";
+  scene.integrator = integrator ? integrator->known_name("integrator", method_names()) : "rk4";
   scene.problem.integrator = scene.integrator;
-  const std::vector<std::string> model_names = model_names_and_auto();
-  scene.asked_model = model ? model_names[model->choice("model", model_names)] : "auto";
+  scene.asked_model = model ? model->known_name("model", model_names_and_auto()) : "auto";
   scene.model = scene.asked_model == "auto" ? name(Model::spatial) : scene.asked_model;
   if (const std::string reason = why_not(*find_model(scene.model), scene.problem); !reason.empty())
     model->fail(
         fmt::format("\"{}\" does not hold: {}; use \"spatial\", or \"auto\"", scene.model, reason));
   const auto analysis = run.find("analysis");
-  scene.analysis = analysis ? analyses[analysis->choice("analysis", analyses)] : analyses[0];
+  scene.analysis = analysis ? analysis->known_name("analysis", analyses) : analyses[0];
   run.finish();
 }
 
 VerifyCase read_verify_case(const Node& node) {
   ObjectNode object(node);
   VerifyCase verify;
-  verify.steps = object.require("steps").whole(1, max_steps);
+  verify.steps = object.require("steps").whole(1);
   verify.set = nlohmann::json::object();
   if (const auto set = object.find("set")) {
-    ObjectNode changes(*set);
-    for (const auto& item : set->json().items())
-      if (!item.value().is_number() && !item.value().is_string() && !item.value().is_boolean())
-        changes.require(item.key())
-            .fail("not a scalar; an override is a number, a text or true or false");
+    for (const auto& [key, change] : ObjectNode(*set).members())
+      if (!change.json().is_number() && !change.is_string() && !change.json().is_boolean())
+        change.fail("not a scalar; an override is a number, a text or true or false");
     verify.set = set->json();
   }
   object.finish();
@@ -112,9 +105,8 @@ std::vector<VerifyCase> read_verify(const std::optional<Node>& node, const Probl
 void read_tolerance(const std::optional<Node>& node, Tolerance& tolerance) {
   if (!node) return;
   ObjectNode object(*node);
-  if (const auto evaluation = object.find("evaluation"))
-    tolerance.evaluation = evaluation->positive();
-  if (const auto run = object.find("run")) tolerance.run = run->positive();
+  tolerance.evaluation = object.positive_or("evaluation", tolerance.evaluation);
+  tolerance.run = object.positive_or("run", tolerance.run);
   object.finish();
 }
 
@@ -133,14 +125,12 @@ void read_tolerances(ObjectNode& root, Problem& problem) {
 SceneListing read_head(ObjectNode& root, const SceneText& text) {
   root.find("$schema");
   root.find("parameters"); // already resolved
-  if (const auto description = root.find("description")) description->string();
-  const Node name = root.require("scene");
-  if (name.string().empty()) name.fail("a scene's name is not empty");
-  return {name.string(), root.require("title").string(), text.path, text.parameters};
+  if (const auto description = root.find("description")) description->text();
+  return {root.require("scene").name(), root.require("title").text(), text.path, text.parameters};
 }
 
 Scene read_scene(const SceneText& text) {
-  const Node whole(text, text.root, "");
+  const Node whole(text);
   ObjectNode root(whole);
   Scene scene;
   const SceneListing head = read_head(root, text);
@@ -196,7 +186,7 @@ std::vector<SceneListing> list_scenes() {
   std::vector<SceneListing> scenes;
   for (const std::string& path : paths) {
     const SceneText text = read_scene_text(path, {});
-    ObjectNode root(Node(text, text.root, ""));
+    ObjectNode root{Node(text)};
     scenes.push_back(read_head(root, text));
   }
   return scenes;

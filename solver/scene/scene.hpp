@@ -2,7 +2,7 @@
 /// Scenes: JSON files that say what to compute. README.md and scene.schema.json beside this file
 /// describe the format.
 #include "solver/model/problem.hpp"
-#include "solver/scene/json/document.hpp"
+#include "solver/scene/scene_text.hpp"
 
 #include <nlohmann/json.hpp>
 

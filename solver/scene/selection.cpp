@@ -50,7 +50,7 @@ std::vector<std::size_t> elements_in(const Lattice& lattice, int body, const Ran
 }
 
 Range read_face(const Node& node, const std::string& body, Range range) {
-  const std::string name = node.string();
+  const std::string name = node.text();
   const auto face = std::find(face_names.begin(), face_names.end(), name);
   if (face == face_names.end())
     node.fail(fmt::format("\"{}\" is not a face of body \"{}\"; faces are {}", name, body,
@@ -137,7 +137,7 @@ std::vector<std::size_t> read_selection(ObjectNode& select, const Problem& probl
     Range range = extent_of(problem.lattice, body);
     if (key == "face") range = read_face(what, name, range);
     if (key == "box") range = read_box(what, name, range);
-    if (key == "all" && !what.boolean()) what.fail("only true has a meaning here");
+    if (key == "all" && !what.flag()) what.fail("only true has a meaning here");
     elements = elements_in(problem.lattice, body, range);
   }
   if (elements.empty())

@@ -1,7 +1,7 @@
 #pragma once
 /// Selection of elements of a body by face, box of indices or list.
+#include "solver/json/object_node.hpp"
 #include "solver/model/problem.hpp"
-#include "solver/scene/json/node.hpp"
 
 #include <string>
 #include <vector>

@@ -78,7 +78,8 @@ int joint_axis(ObjectNode& joint, const JointSide& from, const JointSide& to) {
 std::uint8_t read_dofs(const Node& node) {
   static const std::vector<std::string> names = {"ux", "uy", "uz", "rx", "ry", "rz"};
   if (node.is_string()) {
-    node.choice("value for \"dofs\" (other than a list of ux, uy, uz, rx, ry, rz)", {"all"});
+    if (node.text() != "all")
+      node.fail(fmt::format("{} is neither \"all\" nor a list of {}", node.shown(), listed(names)));
     return dof_all;
   }
   unsigned dofs = 0;
@@ -91,12 +92,11 @@ Load read_load(const Node& node, const Problem& problem) {
   ObjectNode object(node);
   Load load;
   load.elements = read_selected(object, problem, false);
-  const auto force = object.find("force"), torque = object.find("torque"),
-             signal = object.find("signal");
-  if (!force && !torque) object.fail("a load needs \"force\" or \"torque\"");
-  if (force) load.force = force->vector();
-  if (torque) load.torque = torque->vector();
-  if (signal) load.signal = read_signal(*signal);
+  if (!object.has("force") && !object.has("torque"))
+    object.fail("a load needs \"force\" or \"torque\"");
+  load.force = object.vector_or("force", {});
+  load.torque = object.vector_or("torque", {});
+  if (const auto signal = object.find("signal")) load.signal = read_signal(*signal);
   const auto share = object.find("share");
   if (share && share->choice("share", {"each", "total"}) == 1)
     for (std::size_t a = 0; a < 3; ++a) {
@@ -125,8 +125,8 @@ InitialMotion read_initial_motion(const Node& node, const Problem& problem) {
   motion.rotation = object.vector_or("rotation", {});
   motion.velocity = object.vector_or("velocity", {});
   motion.angular_velocity = object.vector_or("angular_velocity", {});
-  const auto rigid = object.find("rigid"), centre = object.find("centre");
-  motion.is_rigid = rigid && rigid->boolean();
+  const auto centre = object.find("centre");
+  motion.is_rigid = object.flag_or("rigid", false);
   if (centre && !motion.is_rigid)
     centre->fail("only a rigid motion has a centre; add \"rigid\": true");
   if (motion.is_rigid)

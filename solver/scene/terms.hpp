@@ -1,8 +1,8 @@
 #pragma once
 /// Terms that act on the bodies of a scene. Each function reads one key of the scene into the
 /// problem.
+#include "solver/json/object_node.hpp"
 #include "solver/model/problem.hpp"
-#include "solver/scene/json/node.hpp"
 
 namespace dss {
 

@@ -18,7 +18,9 @@ std::vector<std::string> texts(const Sets& sets) {
 
 std::string refusal(const json& overrides) {
   try {
-    one_set(JsonPlace(overrides, "study.json", "/set"));
+    const JsonFile study("study.json", {{"set", overrides}});
+    ObjectNode object{Node(study)};
+    one_set(object, "set");
   } catch (const InputError& error) {
     return error.what();
   }
@@ -26,10 +28,12 @@ std::string refusal(const json& overrides) {
 }
 
 TEST(Combinations, AreAllOfThemInTheOrderOfKeys) {
-  const json study = {
-      {"set",
-       {{"E", 1e7}, {"n", {4, 8}}, {"run.integrator", {"rk4", "midpoint"}}, {"is_held", true}}}};
-  EXPECT_EQ(texts(combinations(JsonPlace(study, "study.json"), "set")),
+  const JsonFile study(
+      "study.json",
+      {{"set",
+        {{"E", 1e7}, {"n", {4, 8}}, {"run.integrator", {"rk4", "midpoint"}}, {"is_held", true}}}});
+  ObjectNode object{Node(study)};
+  EXPECT_EQ(texts(combinations(object, "set")),
             (std::vector<std::string>{"E=10000000.0;is_held=true;n=4;run.integrator=rk4;",
                                       "E=10000000.0;is_held=true;n=4;run.integrator=midpoint;",
                                       "E=10000000.0;is_held=true;n=8;run.integrator=rk4;",
@@ -37,9 +41,10 @@ TEST(Combinations, AreAllOfThemInTheOrderOfKeys) {
 }
 
 TEST(Combinations, WithoutTheKeyAreOneSetOfNothing) {
-  const json study = json::object();
-  EXPECT_EQ(texts(combinations(JsonPlace(study, "study.json"), "set")),
-            std::vector<std::string>{""});
+  const JsonFile study("study.json", json::object());
+  ObjectNode object{Node(study)};
+  EXPECT_EQ(texts(combinations(object, "set")), std::vector<std::string>{""});
+  EXPECT_TRUE(one_set(object, "set").empty());
 }
 
 TEST(OneSet, RefusesWhatIsNoneWithItsPlace) {
@@ -47,7 +52,7 @@ TEST(OneSet, RefusesWhatIsNoneWithItsPlace) {
   for (const auto& [overrides, part] : std::vector<std::pair<json, std::string>>{
            {{{"n", {4, 8}}}, "study.json: /set: has several values"},
            {{{"n", json::array()}}, "study.json: /set/n: is empty"},
-           {{{"n", {{"m", 1}}}}, "study.json: /set/n: {\"m\":1} is not a number"},
+           {{{"n", {{"m", 1}}}}, "study.json: /set/n: an object of 1 is not a number"},
            {json(3), "study.json: /set: is not an object of overrides"}})
     EXPECT_TRUE(refusal(overrides).starts_with(part)) << refusal(overrides);
 }

@@ -71,7 +71,10 @@ TEST_F(scene_file, that_is_broken_json_is_refused_with_line_and_column) {
 
 TEST_F(scene_file, that_says_a_key_twice_is_refused) {
   expect_part(refusal(written("twice.json", R"({"scene": "a", "run": {"dt": 1, "dt": 2}})")),
-              "\"dt\" stands twice");
+              ": /run/dt: key \"dt\" stands twice");
+  expect_part(refusal(written("deep.json",
+                              R"({"bodies": [{"name": "a"}, {"b": [1, {"x/y": 1, "x/y": 2}]}]})")),
+              ": /bodies/1/b/1/x~1y: key \"x/y\" stands twice");
 }
 
 TEST_F(scene_file, may_name_a_voxel_file_beside_it) {
@@ -168,7 +171,7 @@ TEST(scene_overrides, with_bad_values_are_refused_and_named) {
   expect_part(refusal("plate_paper", {{"n", "many"}}), "(from --set n=many)");
   expect_part(refusal("plate_paper", {{"run.dt", "0"}}), "0 is not positive");
   expect_part(refusal("plate_paper", {{"run.integrator", "rk5"}}),
-              "not a known integrator; known are rk4, velocity_verlet");
+              "unknown integrator \"rk5\"; did you mean \"rk4\"? known: rk4, velocity_verlet");
   expect_part(refusal("plate_paper", {{"n", "=1/0"}}), "not a finite number");
   expect_part(refusal("plate_paper", {{"n", "=2*m"}}), "\"m\"");
 }

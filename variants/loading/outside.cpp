@@ -1,7 +1,8 @@
 #include "variants/loading/outside.hpp"
 
 #include "solver/error.hpp"
-#include "solver/nearest_name.hpp"
+#include "solver/json/object_node.hpp"
+#include "solver/json/parse.hpp"
 #include "variants/loading/cpu_features.hpp"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace dss {
@@ -51,27 +50,6 @@ std::string given_directory(const std::string& directory) {
   return absolute;
 }
 
-[[noreturn]] void refuse_description(const fs::path& path, const std::string& why) {
-  throw InputError(fmt::format(
-      R"({}: {}; right is {{"variant": "NAME", "isa": "x86-64-v3", "needs": ["avx2"]}}, as )"
-      "dssbench_add_variant writes it",
-      path.string(), why));
-}
-
-std::string joined_needs(const nlohmann::json& needs, const fs::path& path) {
-  std::vector<std::string> names;
-  const std::vector<std::string> known = cpu_features();
-  for (const nlohmann::json& need : needs) {
-    if (!need.is_string()) refuse_description(path, "\"needs\" is no list of CPU features");
-    names.push_back(need.get<std::string>());
-    if (std::find(known.begin(), known.end(), names.back()) == known.end())
-      throw InputError(
-          fmt::format("{}: needs \"{}\", which is no CPU feature that can be checked; {}",
-                      path.string(), names.back(), nearest_name(names.back(), known)));
-  }
-  return fmt::format("{}", fmt::join(names, ","));
-}
-
 /// Names of variants stand in lists, in keys of cells and before a colon, so few characters are
 /// allowed.
 bool is_name(const std::string& name) {
@@ -80,26 +58,23 @@ bool is_name(const std::string& name) {
   return !name.empty() && is_sound && name != "auto";
 }
 
-void read_description(OutsideVariant& variant) {
-  const fs::path path = fs::path(variant.path).replace_extension(".json");
-  std::ifstream file(path);
-  if (!file) refuse_description(path, "cannot be read, so nobody knows what CPU its module needs");
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  const auto has_text = [&](const char* key) {
-    return json.contains(key) && json[key].is_string();
-  };
-  if (!json.is_object() || !has_text("variant") || !has_text("isa"))
-    refuse_description(path, "lacks \"variant\" or \"isa\", or is no JSON");
-  const std::string name = json["variant"];
-  if (!is_name(name))
-    throw InputError(
-        fmt::format("{}: \"{}\" is no name for a variant; take lower-case letters, digits, - and _",
-                    path.string(), name));
-  variant.name = name;
-  variant.isa = json["isa"];
-  if (!json.contains("needs") || !json["needs"].is_array())
-    refuse_description(path, "\"needs\" is no list of CPU features");
-  variant.needs = joined_needs(json["needs"], path);
+void read_description(const fs::path& path, OutsideVariant& variant) {
+  if (!fs::exists(path))
+    throw InputError(fmt::format("{}: cannot be read, so nobody knows what CPU its module needs",
+                                 path.string()));
+  const JsonFile file(path.string(), parse_json_file(path.string()));
+  ObjectNode object{Node(file)};
+  object.must_have({"variant", "isa", "needs"});
+  const Node name = object.require("variant");
+  if (!is_name(name.text()))
+    name.fail(fmt::format(
+        "\"{}\" is no name for a variant; take lower-case letters, digits, - and _", name.text()));
+  variant.name = name.text();
+  variant.isa = object.require("isa").text();
+  std::vector<std::string> needs;
+  for (const Node& need : object.require("needs").items())
+    needs.push_back(need.known_name("CPU feature", cpu_features()));
+  variant.needs = fmt::format("{}", fmt::join(needs, ","));
 }
 
 /// Turns a faulty description into an unusable variant: the fault must not stop runs of others.
@@ -107,9 +82,12 @@ OutsideVariant described(const fs::path& module) {
   const std::string stem = module.stem().string();
   OutsideVariant variant{is_name(stem) ? stem : module.string(), "", "", module.string(), ""};
   try {
-    read_description(variant);
+    read_description(fs::path(module).replace_extension(".json"), variant);
   } catch (const InputError& error) {
-    variant.unusable = error.what();
+    variant.unusable = fmt::format(
+        R"({}; right is {{"variant": "NAME", "isa": "x86-64-v3", "needs": ["avx2"]}}, as )"
+        "dssbench_add_variant writes it",
+        error.what());
   }
   return variant;
 }

@@ -37,22 +37,22 @@ Record modelled_row(const BalanceStudy& study, double ratio, int rows, const Mod
 } // namespace
 
 BalanceStudy read_balance(const StudyFile& file) {
-  file.scale.require_keys({});
-  const JsonPlace& place = file.root["balance"];
-  place.require_keys({"slow_element_steps_per_s", "speed_ratios", "n", "links"});
+  ObjectNode(file.scale).finish();
+  ObjectNode object(file.part("balance"));
   BalanceStudy balance;
   balance.name = file.name;
   balance.title = file.title;
-  balance.slow_speed = place["slow_element_steps_per_s"].positive();
-  for (const JsonPlace& ratio : place["speed_ratios"].items())
-    balance.ratios.push_back(ratio.positive());
-  for (const JsonPlace& rows : place["n"].items()) balance.rows.push_back(int(rows.count(2)));
-  for (const JsonPlace& link : place["links"].items()) {
-    link.require_keys({"label", "latency_us", "gb_per_s"});
-    balance.links.push_back(
-        {link["label"].text(),
-         {1e-6 * link["latency_us"].positive(), 1e-9 / link["gb_per_s"].positive(), 0, 0}});
+  balance.slow_speed = object.require("slow_element_steps_per_s").positive();
+  balance.ratios = object.require("speed_ratios").positives();
+  balance.rows = object.require("n").counts(2);
+  for (const Node& item : object.require("links").list()) {
+    ObjectNode link(item);
+    balance.links.push_back({link.require("label").name(),
+                             {1e-6 * link.require("latency_us").positive(),
+                              1e-9 / link.require("gb_per_s").positive(), 0, 0}});
+    link.finish();
   }
+  object.finish();
   return balance;
 }
 

@@ -2,7 +2,6 @@
 /// The modelled balance of two executors with different speeds (variants/cost/balance_model.hpp),
 /// as a table. Rates are input data; nothing is measured. experiments/README.md describes the JSON.
 #include "experiments/base/records.hpp"
-#include "experiments/measure/json_place.hpp"
 #include "experiments/measure/study_file.hpp"
 #include "variants/api/distribution.hpp"
 

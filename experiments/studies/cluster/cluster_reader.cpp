@@ -2,7 +2,7 @@
 #include "experiments/measure/study_sets.hpp"
 #include "experiments/run/cluster/simulation.hpp"
 #include "experiments/studies/cluster/cluster_study.hpp"
-#include "solver/nearest_name.hpp"
+#include "solver/error.hpp"
 #include "variants/api/distribution.hpp"
 
 #include <algorithm>
@@ -13,107 +13,115 @@ namespace {
 
 constexpr int most_ranks = 1024; // limit of the platform files
 
-int rank_count(const std::string& text, const JsonPlace& place) {
+int rank_count(const std::string& text, const Node& node) {
   const int ranks = std::atoi(text.c_str());
   if (ranks < 1 || ranks > most_ranks || std::to_string(ranks) != text)
-    place.fail(fmt::format("\"{}\" is not a number of ranks from 1 to {}", text, most_ranks));
+    node.fail(fmt::format("\"{}\" is not a number of ranks from 1 to {}", text, most_ranks));
   return ranks;
 }
 
-void read_problems(const JsonPlace& place, SimulationBlock& block) {
-  if (place.has("weak")) {
-    for (const auto& [ranks, set] : place["weak"].value().items()) {
-      const int count = rank_count(ranks, place["weak"]);
-      block.set_of_ranks[count] = one_set(place["weak"][ranks]);
+void read_problems(ObjectNode& object, SimulationBlock& block) {
+  if (const auto weak = object.find("weak")) {
+    for (const auto& [ranks, set] : ObjectNode(*weak).members()) {
+      const int count = rank_count(ranks, *weak);
+      block.set_of_ranks[count] = one_set(set);
       block.ranks.push_back(count);
     }
     std::ranges::sort(block.ranks);
-    if (block.ranks.empty())
-      place["weak"].fail("is empty; give overrides for each number of ranks");
+    if (block.ranks.empty()) weak->fail("is empty; give overrides for each number of ranks");
+    if (object.has("set") || object.has("ranks"))
+      weak->fail("stands in place of \"set\" and \"ranks\"; leave them out");
     return;
   }
-  block.sets = combinations(place, "set");
-  for (const JsonPlace& item : place["ranks"].items())
-    block.ranks.push_back(rank_count(fmt::format("{}", item.count(1)), item));
+  block.sets = combinations(object, "set");
+  for (const Node& item : object.require("ranks").list())
+    block.ranks.push_back(int(item.whole(1, most_ranks)));
 }
 
-void read_choices(const JsonPlace& place, SimulationBlock& block) {
-  block.platforms = place["platforms"].texts();
-  block.halos = place.has("halos") ? place["halos"].texts() : std::vector<std::string>{"auto"};
-  block.decompositions = place.has("decompositions") ? place["decompositions"].texts()
-                                                     : std::vector<std::string>{"strips"};
+void read_choices(ObjectNode& object, SimulationBlock& block) {
+  const Node platforms = object.require("platforms");
+  block.platforms = platforms.names();
   for (const std::string& name : block.platforms) try {
       Platform::require_known(name);
     } catch (const InputError& error) {
-      place["platforms"].fail(error.what());
+      platforms.fail(error.what());
     }
   std::vector<std::string> known{"auto"};
   for (const HaloStrategy& strategy : halo_strategies())
     if (strategy.transport != HaloStrategy::Transport::shared) known.emplace_back(strategy.name);
-  for (const std::string& name : block.halos)
-    if (std::ranges::find(known, name) == known.end())
-      place["halos"].fail(
-          fmt::format("\"{}\" cannot be simulated; {}", name, nearest_name(name, known)));
+  block.halos = {"auto"};
+  if (const auto halos = object.find("halos")) {
+    block.halos.clear();
+    for (const Node& item : halos->list())
+      block.halos.push_back(item.known_name("halo strategy of a simulation", known));
+  }
+  block.decompositions = object.names_or("decompositions", {"strips"});
   for (const std::string& name : block.decompositions)
     if (const std::string why = why_no_decomposition(name); !why.empty())
-      place["decompositions"].fail(fmt::format("\"{}\": {}", name, why));
+      object.require("decompositions").fail(fmt::format("\"{}\": {}", name, why));
 }
 
-SimulationBlock read_block(const JsonPlace& place) {
-  place.require_keys({"label", "scene", "set", "weak", "ranks", "platforms", "halos",
-                      "decompositions", "steps", "paper_node", "paper_wall_s"});
+void read_published(ObjectNode& object, SimulationBlock& block) {
+  if (const auto published = object.find("paper_node")) {
+    ObjectNode node(*published);
+    block.published =
+        PublishedNode{node.require("wall_s").positive(), node.require("elements").positive(),
+                      node.require("steps").positive()};
+    node.finish();
+  }
+  const auto times = object.find("paper_wall_s");
+  if (!times) return;
+  for (const auto& [ranks, wall_s] : ObjectNode(*times).members())
+    block.paper_wall_s[rank_count(ranks, *times)] = wall_s.positive();
+  if (!block.paper_wall_s.contains(1))
+    times->fail("lacks the time on 1 rank, which efficiencies refer to");
+}
+
+SimulationBlock read_block(const Node& node) {
+  ObjectNode object(node);
   SimulationBlock block;
-  block.label = place["label"].text();
-  block.scene = place["scene"].text();
-  block.steps = place["steps"].count(1);
-  read_problems(place, block);
-  read_choices(place, block);
-  if (place.has("paper_node")) {
-    const JsonPlace node = place["paper_node"];
-    node.require_keys({"wall_s", "elements", "steps"});
-    block.published = PublishedNode{node["wall_s"].positive(), node["elements"].positive(),
-                                    node["steps"].positive()};
-  }
-  if (place.has("paper_wall_s")) {
-    for (const auto& [ranks, wall_s] : place["paper_wall_s"].value().items())
-      block.paper_wall_s[rank_count(ranks, place["paper_wall_s"])] =
-          place["paper_wall_s"][ranks].positive();
-    if (!block.paper_wall_s.contains(1))
-      place["paper_wall_s"].fail("lacks the time on 1 rank, which efficiencies refer to");
-  }
+  block.label = object.require("label").name();
+  block.scene = object.require("scene").name();
+  block.steps = object.require("steps").whole(1);
+  read_problems(object, block);
+  read_choices(object, block);
+  read_published(object, block);
+  object.finish();
   for (const auto& set : block.sets) try {
       load_scene(block.scene, set);
     } catch (const InputError& error) {
-      place.fail(error.what());
+      node.fail(error.what());
     }
   return block;
 }
 
 /// Removes the blocks that a scale leaves out before they are read, because loading a large scene
 /// takes seconds.
-std::vector<JsonPlace> kept_blocks(const JsonPlace& simulation, const JsonPlace& scale) {
-  std::vector<JsonPlace> kept = simulation.items();
-  if (!scale.has("leave_out")) return kept;
-  for (const JsonPlace& label : scale["leave_out"].items()) {
-    std::vector<JsonPlace> rest;
-    for (const JsonPlace& block : kept)
-      if (block["label"].text() != label.text()) rest.push_back(block);
-    if (rest.size() == kept.size())
-      label.fail(fmt::format("no block of \"simulation\" has the label \"{}\"", label.text()));
-    kept = std::move(rest);
+std::vector<Node> kept_blocks(const Node& simulation, ObjectNode& scale) {
+  std::vector<Node> kept = simulation.list();
+  const auto left_out = scale.find("leave_out");
+  if (!left_out) return kept;
+  for (const Node& label : left_out->list()) {
+    const auto is_left_out = [&](const Node& block) {
+      return ObjectNode(block).require("label").name() == label.name();
+    };
+    if (std::erase_if(kept, is_left_out) == 0)
+      label.fail(fmt::format("no block of \"simulation\" has the label \"{}\"", label.name()));
   }
   return kept;
 }
 
 /// Removes problems that are too large for the scale.
-void limit(const JsonPlace& scale, std::vector<SimulationBlock>& blocks) {
-  const long most_ranks_here = scale.has("most_ranks") ? scale["most_ranks"].count(1) : most_ranks;
+void limit(ObjectNode& scale, std::vector<SimulationBlock>& blocks) {
+  const long most_ranks_here = scale.whole_or("most_ranks", 1, most_ranks);
+  const long most_elements = scale.whole_or("most_elements", 1, Node::most_whole);
+  const bool is_limited = scale.has("most_elements");
   for (SimulationBlock& block : blocks) {
     std::erase_if(block.ranks, [&](int ranks) { return ranks > most_ranks_here; });
-    if (!scale.has("most_elements")) continue;
-    const auto most = std::size_t(scale["most_elements"].count(1));
+    if (!is_limited) continue;
     const auto is_large = [&](const std::vector<Override>& set) {
-      return load_scene(block.scene, set).problem.lattice.element_count > most;
+      return load_scene(block.scene, set).problem.lattice.element_count >
+             std::size_t(most_elements);
     };
     std::erase_if(block.sets, is_large);
     std::erase_if(block.ranks, [&](int ranks) {
@@ -128,13 +136,15 @@ void limit(const JsonPlace& scale, std::vector<SimulationBlock>& blocks) {
 } // namespace
 
 std::vector<SimulationBlock> read_simulation(const StudyFile& file) {
-  const bool is_alone = !file.root.has("cells");
+  const bool is_alone = !ObjectNode(file.root).has("cells");
+  ObjectNode scale(file.scale);
   std::vector<SimulationBlock> blocks;
-  for (const JsonPlace& block : kept_blocks(file.root["simulation"], file.scale))
+  for (const Node& block : kept_blocks(file.part("simulation"), scale))
     blocks.push_back(read_block(block));
-  if (is_alone) file.scale.require_keys({"most_ranks", "most_elements", "leave_out"});
-  limit(file.scale, blocks);
-  if (blocks.empty() && is_alone) file.scale.fail("leaves nothing to simulate");
+  limit(scale, blocks);
+  if (!is_alone) return blocks;
+  scale.finish();
+  if (blocks.empty()) scale.fail("leaves nothing to simulate");
   return blocks;
 }
 

@@ -1,19 +1,18 @@
 #include "experiments/measure/study_file.hpp"
 #include "experiments/measure/study_names.hpp"
 #include "experiments/studies/continuum/continuum_study.hpp"
-#include "solver/nearest_name.hpp"
-
-#include <algorithm>
 
 namespace dss {
 namespace {
 
-void read_refinement(const JsonPlace& place, double most, ContinuumCheck& check) {
-  place.require_keys({"parameter", "values", "spacing"});
-  check.refined = place["parameter"].text();
-  check.spacing = Formula(place["spacing"]);
+void read_refinement(const Node& node, double most, ContinuumCheck& check) {
+  ObjectNode object(node);
+  check.refined = object.require("parameter").name();
+  check.spacing = Formula(object.require("spacing"));
+  const Node values = object.require("values");
+  object.finish();
   double before = 0;
-  for (const JsonPlace& item : place["values"].items()) {
+  for (const Node& item : values.list()) {
     const double value = item.positive();
     if (value <= before)
       item.fail(fmt::format("{:g} does not refine {:g}; values ascend", value, before));
@@ -21,82 +20,73 @@ void read_refinement(const JsonPlace& place, double most, ContinuumCheck& check)
     if (value <= most) check.values.push_back(value);
   }
   if (check.values.empty())
-    place["values"].fail(fmt::format("has none up to {:g}, the most of this scale", most));
+    values.fail(fmt::format("has none up to {:g}, the most of this scale", most));
 }
 
-void read_quantity(const JsonPlace& place, ContinuumCheck& check) {
-  const std::vector<std::string> known = {"deflection", "frequencies", "critical_load"};
-  if (!place.value().is_object() || place.value().size() != 1)
-    place.fail("is not an object of one key");
-  check.quantity = place.value().begin().key();
-  if (std::ranges::find(known, check.quantity) == known.end())
-    place.fail(fmt::format("unknown quantity \"{}\"; {}", check.quantity,
-                           nearest_name(check.quantity, known)));
-  const JsonPlace what = place[check.quantity];
+void read_quantity(const Node& node, ContinuumCheck& check) {
+  ObjectNode object(node);
+  check.quantity = object.require_one({"deflection", "frequencies", "critical_load"});
+  ObjectNode what(object.require(check.quantity));
+  object.finish();
   if (check.quantity == "deflection") {
-    what.require_keys({"field", "element"});
-    check.field = what["field"].text();
-    if (std::ranges::find(field_names(), check.field) == field_names().end())
-      what["field"].fail(
-          fmt::format("unknown field; {}", nearest_name(check.field, field_names())));
-    check.element = Formula(what["element"]);
+    check.field = what.require("field").known_name("field", field_names());
+    check.element = Formula(what.require("element"));
   } else if (check.quantity == "frequencies") {
-    what.require_keys({"count"});
-    check.count = int(what["count"].count(1));
+    check.count = what.require("count").count(1);
   } else {
-    what.require_keys({"parameter"});
-    check.load_parameter = what["parameter"].text();
+    check.load_parameter = what.require("parameter").name();
   }
+  what.finish();
 }
 
-void read_theory(const JsonPlace& place, ContinuumCheck& check) {
-  if (place.value().is_object()) {
-    place.require_keys({"timoshenko_cantilever"});
-    const JsonPlace beam = place["timoshenko_cantilever"];
-    beam.require_keys({"bending", "shear", "mass", "rotary", "length"});
-    check.bending = Formula(beam["bending"]);
-    check.shear = Formula(beam["shear"]);
-    check.mass = Formula(beam["mass"]);
-    check.rotary = Formula(beam["rotary"]);
-    check.length = Formula(beam["length"]);
-    return;
+void read_theory(const Node& node, ContinuumCheck& check) {
+  if (node.is_object()) {
+    ObjectNode object(node);
+    ObjectNode beam(object.require("timoshenko_cantilever"));
+    object.finish();
+    check.bending = Formula(beam.require("bending"));
+    check.shear = Formula(beam.require("shear"));
+    check.mass = Formula(beam.require("mass"));
+    check.rotary = Formula(beam.require("rotary"));
+    check.length = Formula(beam.require("length"));
+    return beam.finish();
   }
-  check.theory = formulas(place);
+  check.theory = formulas(node);
   if (int(check.theory.size()) != check.count)
-    place.fail(
-        fmt::format("has {} figures; the quantity has {}", check.theory.size(), check.count));
+    node.fail(fmt::format("has {} figures; the quantity has {}", check.theory.size(), check.count));
 }
 
-ContinuumCheck read_check(const JsonPlace& place, const std::string& path, double most) {
-  place.require_keys({"check", "scene", "set", "refine", "quantity", "scale", "theory", "source",
-                      "bar", "bar_at", "order"});
+ContinuumCheck read_check(const Node& node, const std::string& path, double most) {
+  ObjectNode object(node);
   ContinuumCheck check;
-  check.name = place["check"].text();
-  check.scene = scene_beside(path, place["scene"].text());
-  check.source = place["source"].text();
-  if (place.has("set")) check.set = one_set(place["set"]);
-  read_refinement(place["refine"], most, check);
-  read_quantity(place["quantity"], check);
-  if (place.has("scale")) check.scale = Formula(place["scale"]);
-  read_theory(place["theory"], check);
-  check.bar = place["bar"].positive();
-  check.bar_at = place["bar_at"].positive();
-  if (place.has("order")) {
-    const JsonPlace order = place["order"];
-    order.require_keys({"declared", "within"});
-    check.order = order["declared"].positive();
-    check.order_within = order["within"].positive();
+  check.name = object.require("check").name();
+  check.scene = scene_beside(path, object.require("scene").name());
+  check.source = object.require("source").name();
+  check.set = one_set(object, "set");
+  read_refinement(object.require("refine"), most, check);
+  read_quantity(object.require("quantity"), check);
+  check.scale = Formula(object, "scale");
+  read_theory(object.require("theory"), check);
+  check.bar = object.require("bar").positive();
+  check.bar_at = object.require("bar_at").positive();
+  if (const auto expected = object.find("order")) {
+    ObjectNode order(*expected);
+    check.order = order.require("declared").positive();
+    check.order_within = order.require("within").positive();
+    order.finish();
   }
+  object.finish();
   return check;
 }
 
 } // namespace
 
 ContinuumStudy read_continuum(const StudyFile& file) {
-  file.scale.require_keys({"up_to"});
-  const double most = file.scale.has("up_to") ? file.scale["up_to"].positive() : 1e9;
+  ObjectNode scale(file.scale);
+  const double most = scale.positive_or("up_to", 1e9);
+  scale.finish();
   ContinuumStudy continuum{file.name, file.title, file.path, {}};
-  for (const JsonPlace& item : file.root["continuum"].items())
+  for (const Node& item : file.part("continuum").list())
     continuum.checks.push_back(read_check(item, file.path, most));
   return continuum;
 }

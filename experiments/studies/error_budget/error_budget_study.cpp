@@ -3,29 +3,28 @@
 #include "experiments/measure/study_file.hpp"
 #include "experiments/measure/study_sets.hpp"
 #include "experiments/run/plan/run_plan.hpp"
+#include "solver/error.hpp"
 
 #include <algorithm>
 
 namespace dss {
 namespace {
 
-std::vector<std::string> texts_if(const JsonPlace& place, const char* key) {
-  return place.has(key) ? place[key].texts() : std::vector<std::string>{};
-}
-
-void read_refinement(const JsonPlace& place, BudgetScene& budget) {
-  place.require_keys({"grids", "ratio", "keeps", "one_body"});
-  budget.refined = place["keeps"].text();
-  if (place.has("one_body")) budget.is_one_body = place["one_body"].flag();
-  if (place.has("ratio")) budget.ratio = place["ratio"].positive();
+void read_refinement(const Node& node, BudgetScene& budget) {
+  ObjectNode object(node);
+  budget.refined = object.require("keeps").name();
+  budget.is_one_body = object.flag_or("one_body", budget.is_one_body);
+  budget.ratio = object.positive_or("ratio", budget.ratio);
   if (!(budget.ratio > 1))
-    place["ratio"].fail("is not above 1: each grid is finer than the one before");
-  for (const JsonPlace& grid : place["grids"].items()) budget.refinement.push_back(one_set(grid));
-  if (budget.refinement.size() != 3) place["grids"].fail("an observed order needs three grids");
+    object.require("ratio").fail("is not above 1: each grid is finer than the one before");
+  const Node grids = object.require("grids");
+  object.finish();
+  for (const Node& grid : grids.items()) budget.refinement.push_back(one_set(grid));
+  if (budget.refinement.size() != 3) grids.fail("an observed order needs three grids");
 }
 
 /// Rejects impossible scenes before any run starts.
-void require_loadable(const JsonPlace& place, BudgetScene& budget) {
+void require_loadable(const Node& node, BudgetScene& budget) {
   try {
     const Scene scene = load_scene(budget.scene, budget.set);
     budget.integrator = std::string(
@@ -41,46 +40,47 @@ void require_loadable(const JsonPlace& place, BudgetScene& budget) {
       load_scene(budget.scene, set);
     }
   } catch (const InputError& error) {
-    place.fail(error.what());
+    node.fail(error.what());
   }
 }
 
-BudgetScene read_scene(const JsonPlace& place, double shorten) {
-  place.require_keys({"label", "scene", "set", "variant", "integrator", "dt", "end_time",
-                      "saved_times", "refinement", "precisions", "models", "rotations"});
+BudgetScene read_scene(const Node& node, double shorten) {
+  ObjectNode object(node);
   BudgetScene budget;
-  budget.scene = place["scene"].text();
-  budget.label = place.has("label") ? place["label"].text() : budget.scene;
-  budget.variant = place.has("variant") ? place["variant"].text() : "auto";
-  if (place.has("set")) budget.set = one_set(place["set"]);
-  if (place.has("integrator")) budget.integrator = place["integrator"].text();
-  if (place.has("dt")) budget.dt = place["dt"].positive();
-  budget.times = read_saved_times(place, shorten);
-  budget.precisions = texts_if(place, "precisions");
-  budget.models = texts_if(place, "models");
-  budget.rotations = texts_if(place, "rotations");
-  if (place.has("refinement")) read_refinement(place["refinement"], budget);
-  require_loadable(place, budget);
+  budget.scene = object.require("scene").name();
+  budget.label = object.name_or("label", budget.scene);
+  budget.variant = object.name_or("variant", "auto");
+  budget.set = one_set(object, "set");
+  budget.integrator = object.name_or("integrator", "");
+  budget.dt = object.positive_or("dt", 0);
+  budget.times = read_saved_times(object, shorten);
+  budget.precisions = object.names_or("precisions", {});
+  budget.models = object.names_or("models", {});
+  budget.rotations = object.names_or("rotations", {});
+  if (const auto refinement = object.find("refinement")) read_refinement(*refinement, budget);
+  object.finish();
+  require_loadable(node, budget);
   return budget;
 }
 
 } // namespace
 
 ErrorBudgetStudy read_error_budget(const StudyFile& file) {
-  const JsonPlace &scale_place = file.scale, &place = file.root["error_budget"];
-  scale_place.require_keys({"shorten", "scenes"});
-  const double shorten = scale_place.has("shorten") ? scale_place["shorten"].positive() : 1;
-  const std::vector<std::string> chosen = texts_if(scale_place, "scenes");
-  place.require_keys({"solution", "scenes"});
+  ObjectNode scale(file.scale), object(file.part("error_budget"));
+  const double shorten = scale.positive_or("shorten", 1);
+  const std::vector<std::string> chosen = scale.names_or("scenes", {});
+  scale.finish();
   ErrorBudgetStudy budget{file.name, file.title, file.scale_name, {}, {}};
-  if (place.has("solution")) budget.solution = read_solution_rule(place["solution"]);
-  for (const JsonPlace& item : place["scenes"].items()) {
+  budget.solution = read_solution_rule(object);
+  const Node scenes = object.require("scenes");
+  object.finish();
+  for (const Node& item : scenes.list()) {
     const BudgetScene scene = read_scene(item, shorten);
     if (chosen.empty() || std::ranges::find(chosen, scene.label) != chosen.end())
       budget.scenes.push_back(scene);
   }
   if (budget.scenes.empty())
-    scale_place["scenes"].fail("no scene of the study has one of these labels");
+    scale.require("scenes").fail("no scene of the study has one of these labels");
   return budget;
 }
 

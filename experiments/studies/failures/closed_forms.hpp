@@ -2,7 +2,7 @@
 /// Exact states of scenes whose motion has a closed form. A study names the form and gives its
 /// arguments as expressions over the scene's parameters.
 #include "solver/model/problem.hpp"
-#include "solver/scene/json/expression.hpp"
+#include "solver/scene/expression.hpp"
 
 #include <string>
 #include <vector>

@@ -10,60 +10,58 @@ namespace dss {
 namespace {
 
 /// Whole numbers, with "cores" for as many threads as there are.
-std::vector<int> thread_counts(const JsonPlace& place) {
+std::vector<int> thread_counts(const Node& node) {
   std::vector<int> counts;
-  for (const JsonPlace& item : place.items()) {
-    const int count = item.value() == "cores" ? usable_cores() : int(item.count(1));
+  for (const Node& item : node.list()) {
+    const int count = item.json() == "cores" ? usable_cores() : item.count(1);
     if (std::ranges::find(counts, count) == counts.end() && count <= usable_cores())
       counts.push_back(count);
   }
   return counts;
 }
 
-MicroSet read_micro_set(const JsonPlace& place) {
-  place.require_keys({"kernels", "models", "precisions", "variants", "levels", "threads", "n"});
-  const auto texts = [&](const char* key) {
-    return place.has(key) ? place[key].texts() : std::vector<std::string>{"*"};
-  };
-  MicroSet set{texts("kernels"),
-               texts("models"),
-               texts("precisions"),
-               texts("variants"),
-               texts("levels"),
+MicroSet read_micro_set(const Node& node) {
+  ObjectNode object(node);
+  const std::vector<std::string> all{"*"};
+  MicroSet set{object.names_or("kernels", all),
+               object.names_or("models", all),
+               object.names_or("precisions", all),
+               object.names_or("variants", all),
+               object.names_or("levels", all),
                {1},
                {}};
-  if (place.has("threads")) set.threads = thread_counts(place["threads"]);
-  if (place.has("n"))
-    for (const JsonPlace& n : place["n"].items()) set.sizes.push_back(int(n.count(2)));
+  if (const auto threads = object.find("threads")) set.threads = thread_counts(*threads);
+  if (const auto sizes = object.find("n")) set.sizes = sizes->counts(2);
+  object.finish();
   return set;
 }
 
-void read_attribution(const JsonPlace& place, std::vector<AttributionCase>& cases) {
-  place.require_keys({"variants", "models", "precisions", "n"});
-  for (const std::string& variant : place["variants"].texts())
-    for (const JsonPlace& model : place["models"].items())
-      for (const JsonPlace& precision : place["precisions"].items())
-        for (const JsonPlace& n : place["n"].items())
-          cases.push_back({variant, model_in(model), precision_in(precision), int(n.count(2))});
+void read_attribution(const Node& node, std::vector<AttributionCase>& cases) {
+  ObjectNode object(node);
+  object.must_have({"variants", "models", "precisions", "n"});
+  for (const std::string& variant : object.require("variants").names())
+    for (const Node& model : object.require("models").list())
+      for (const Node& precision : object.require("precisions").list())
+        for (const int n : object.require("n").counts(2))
+          cases.push_back({variant, model_in(model), precision_in(precision), n});
+  object.finish();
 }
 
 } // namespace
 
 MicroStudy read_micro_study(const StudyFile& file) {
-  file.scale.require_keys(
-      {"repetitions", "sample_s", "attribution_rounds", "attribution_sample_s", "ceilings"});
-  file.root["microbenchmarks"].require_keys({"sets", "attribution"});
+  ObjectNode scale(file.scale), object(file.part("microbenchmarks"));
   MicroStudy micro;
   micro.name = file.name, micro.title = file.title, micro.scale = file.scale_name;
-  micro.rules = {int(file.scale["repetitions"].count(1)), file.scale["sample_s"].positive()};
-  micro.attribution_rounds = int(file.scale["attribution_rounds"].count(1));
-  micro.attribution_sample_s = file.scale["attribution_sample_s"].positive();
-  if (file.scale.has("ceilings")) micro.has_ceilings = file.scale["ceilings"].flag();
-  for (const JsonPlace& set : file.root["microbenchmarks"]["sets"].items())
-    micro.sets.push_back(read_micro_set(set));
-  if (file.root["microbenchmarks"].has("attribution"))
-    for (const JsonPlace& place : file.root["microbenchmarks"]["attribution"].items())
-      read_attribution(place, micro.attribution);
+  micro.rules = {scale.require("repetitions").count(1), scale.require("sample_s").positive()};
+  micro.attribution_rounds = scale.require("attribution_rounds").count(1);
+  micro.attribution_sample_s = scale.require("attribution_sample_s").positive();
+  micro.has_ceilings = scale.flag_or("ceilings", micro.has_ceilings);
+  scale.finish();
+  for (const Node& set : object.require("sets").list()) micro.sets.push_back(read_micro_set(set));
+  if (const auto attribution = object.find("attribution"))
+    for (const Node& item : attribution->list()) read_attribution(item, micro.attribution);
+  object.finish();
   return micro;
 }
 

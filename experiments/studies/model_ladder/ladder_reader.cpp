@@ -1,30 +1,37 @@
 #include "experiments/measure/study_file.hpp"
+#include "experiments/measure/study_names.hpp"
 #include "experiments/measure/study_sets.hpp"
 #include "experiments/studies/model_ladder/ladder_study.hpp"
+#include "solver/error.hpp"
 
 #include <algorithm>
 
 namespace dss {
 namespace {
 
-LadderScene read_ladder_scene(const JsonPlace& place, const std::string& path) {
-  place.require_keys({"scene", "set", "steps", "precision", "auto", "fails", "suffices"});
+std::vector<Model> read_models(ObjectNode& object, const std::string& key) {
+  std::vector<Model> models;
+  if (const auto node = object.find(key))
+    for (const Node& item : node->items()) models.push_back(model_in(item));
+  return models;
+}
+
+LadderScene read_ladder_scene(const Node& node, const std::string& path) {
+  ObjectNode object(node);
   LadderScene scene;
-  scene.scene = scene_beside(path, place["scene"].text());
-  if (place.has("set")) scene.set = one_set(place["set"]);
-  if (place.has("steps")) scene.steps = place["steps"].count(1);
-  if (place.has("precision")) scene.precision = name(precision_in(place["precision"]));
-  scene.ends_with = model_in(place["auto"]);
-  const auto read_models = [&](const char* key, std::vector<Model>& list) {
-    if (place.has(key))
-      for (const JsonPlace& item : place[key].items()) list.push_back(model_in(item));
-  };
-  read_models("fails", scene.fails);
-  read_models("suffices", scene.suffices);
+  scene.scene = scene_beside(path, object.require("scene").name());
+  scene.set = one_set(object, "set");
+  if (const auto steps = object.find("steps")) scene.steps = steps->whole(1);
+  if (const auto precision = object.find("precision"))
+    scene.precision = name(precision_in(*precision));
+  scene.ends_with = model_in(object.require("auto"));
+  scene.fails = read_models(object, "fails");
+  scene.suffices = read_models(object, "suffices");
+  object.finish();
   try {
     load_scene(scene.scene, scene.set);
   } catch (const InputError& error) {
-    place.fail(error.what());
+    node.fail(error.what());
   }
   return scene;
 }
@@ -32,16 +39,19 @@ LadderScene read_ladder_scene(const JsonPlace& place, const std::string& path) {
 } // namespace
 
 LadderStudy read_ladder(const StudyFile& file) {
-  file.root["model_ladder"].require_keys({"variant", "scenes"});
-  file.scale.require_keys({"repeat_for", "leave_out"});
-  LadderStudy ladder{file.name, file.title, file.scale_name, "auto", 0, {}};
-  if (file.root["model_ladder"].has("variant"))
-    ladder.variant = file.root["model_ladder"]["variant"].text();
-  if (file.scale.has("repeat_for")) ladder.repeat_for = file.scale["repeat_for"].positive();
-  std::vector<std::string> left_out;
-  if (file.scale.has("leave_out")) left_out = file.scale["leave_out"].texts();
-  for (const JsonPlace& item : file.root["model_ladder"]["scenes"].items())
-    if (std::ranges::find(left_out, item["scene"].text()) == left_out.end())
+  ObjectNode scale(file.scale), object(file.part("model_ladder"));
+  LadderStudy ladder{file.name,
+                     file.title,
+                     file.scale_name,
+                     object.name_or("variant", "auto"),
+                     scale.positive_or("repeat_for", 0),
+                     {}};
+  const std::vector<std::string> left_out = scale.names_or("leave_out", {});
+  const Node scenes = object.require("scenes");
+  scale.finish();
+  object.finish();
+  for (const Node& item : scenes.list())
+    if (std::ranges::find(left_out, ObjectNode(item).require("scene").name()) == left_out.end())
       ladder.scenes.push_back(read_ladder_scene(item, file.path));
   return ladder;
 }

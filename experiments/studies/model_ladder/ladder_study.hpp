@@ -5,7 +5,7 @@
 #include "experiments/base/records.hpp"
 #include "experiments/measure/study_file.hpp"
 #include "kernels/model.hpp"
-#include "solver/scene/json/document.hpp"
+#include "solver/scene/scene_text.hpp"
 
 #include <functional>
 #include <optional>

@@ -4,15 +4,16 @@
 namespace dss {
 namespace {
 
-void read_paper(const JsonPlace& place, SpeedupStudy& study) {
-  place.require_keys({"source", "rows"});
-  study.paper_source = place["source"].text();
-  for (const JsonPlace& row : place["rows"].items()) {
-    row.require_keys({"label", "set", "wall_s", "speedup"});
-    study.paper.push_back({row["label"].text(), row["wall_s"].positive(),
-                           row.has("speedup") ? row["speedup"].positive() : 0,
-                           row.has("set") ? row["set"].text() : ""});
+void read_paper(const Node& node, SpeedupStudy& study) {
+  ObjectNode paper(node);
+  study.paper_source = paper.require("source").name();
+  for (const Node& item : paper.require("rows").list()) {
+    ObjectNode row(item);
+    study.paper.push_back({row.require("label").name(), row.require("wall_s").positive(),
+                           row.positive_or("speedup", 0), row.name_or("set", "")});
+    row.finish();
   }
+  paper.finish();
 }
 
 } // namespace
@@ -20,7 +21,7 @@ void read_paper(const JsonPlace& place, SpeedupStudy& study) {
 SpeedupStudy read_speedup(const StudyFile& file, int cores) {
   SpeedupStudy study;
   read_cells(file, {cores, {}, {}, {}}, study);
-  if (file.root.has("paper")) read_paper(file.root["paper"], study);
+  if (const auto paper = ObjectNode(file.root).find("paper")) read_paper(*paper, study);
   return study;
 }
 

@@ -11,16 +11,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <limits>
 
 namespace dss {
 namespace {
-
-double not_negative(const JsonPlace& place) {
-  if (!place.value().is_number() || !(place.value().get<double>() >= 0))
-    place.fail(fmt::format("{} is not a number of at least 0", place.value().dump()));
-  return place.value().get<double>();
-}
 
 StabilityStudy::Case mode_case(const std::string& scene, double zeta) {
   const std::string text = fmt::format("{:g}", zeta);
@@ -28,27 +21,29 @@ StabilityStudy::Case mode_case(const std::string& scene, double zeta) {
           load_scene(scene, {{"zeta", text}}), zeta};
 }
 
-void read_mode(const JsonPlace& place, const JsonPlace& scale, const std::string& file,
+void read_mode(const Node& node, ObjectNode& scale, const std::string& file,
                StabilityStudy& study) {
-  place.require_keys({"scene", "zeta"});
-  const std::string scene = scene_beside(file, place["scene"].text());
+  ObjectNode object(node);
+  const Node name = object.require("scene"), own = object.require("zeta");
+  object.finish();
+  const std::string scene = scene_beside(file, name.name());
   const Scene as_it_is = load_scene(scene, {});
   for (const char* parameter : {"omega", "zeta"})
     if (!as_it_is.parameters.contains(parameter))
-      place["scene"].fail(
-          fmt::format("has no parameter \"{}\"; give a scene of one mode", parameter));
+      name.fail(fmt::format("has no parameter \"{}\"; give a scene of one mode", parameter));
   study.undamped = mode_case(scene, 0);
-  const JsonPlace zetas = scale.has("zeta") ? scale["zeta"] : place["zeta"];
-  for (const JsonPlace& zeta : zetas.items())
-    study.cases.push_back(mode_case(scene, not_negative(zeta)));
+  for (const Node& zeta : scale.find("zeta").value_or(own).list())
+    study.cases.push_back(mode_case(scene, zeta.non_negative()));
 }
 
-void read_scene_cases(const JsonPlace& place, std::size_t most_elements, const std::string& file,
+void read_scene_cases(const Node& node, std::size_t most_elements, const std::string& file,
                       StabilityStudy& study) {
-  place.require_keys({"scene", "set"});
-  const std::string scene = scene_beside(file, place["scene"].text());
-  for (const std::vector<Override>& set : combinations(place, "set")) {
-    StabilityStudy::Case own{place["scene"].text(), set_text(set), load_scene(scene, set), {}};
+  ObjectNode object(node);
+  const std::string name = object.require("scene").name(), scene = scene_beside(file, name);
+  const Sets sets = combinations(object, "set");
+  object.finish();
+  for (const std::vector<Override>& set : sets) {
+    StabilityStudy::Case own{name, set_text(set), load_scene(scene, set), {}};
     if (own.scene.problem.lattice.element_count <= most_elements)
       study.cases.push_back(std::move(own));
   }
@@ -98,24 +93,22 @@ double between(double first, double last, int n, int points) {
 } // namespace
 
 StabilityStudy read_stability(const StudyFile& file) {
-  const JsonPlace &scale = file.scale, place = file.root["stability"];
-  scale.require_keys({"zeta", "most_elements", "element_steps", "energy_points", "map_points"});
-  place.require_keys({"variant", "mode", "scenes"});
+  ObjectNode scale(file.scale), object(file.part("stability"));
   StabilityStudy study;
   study.name = file.name;
   study.title = file.title;
-  const std::string variant = place.has("variant") ? place["variant"].text() : "auto";
-  if (variant != "auto") known_variant(variant, place["variant"]);
+  const std::string variant = object.name_or("variant", "auto");
+  if (variant != "auto") known_variant(variant, object.require("variant"));
   study.plugin = &load_variant(variant);
-  study.element_steps =
-      scale.has("element_steps") ? scale["element_steps"].positive() : usual_element_steps;
-  study.energy_points = int(scale["energy_points"].count(2));
-  study.map_points = int(scale["map_points"].count(2));
-  read_mode(place["mode"], scale, file.path, study);
-  const auto most = scale.has("most_elements") ? std::size_t(scale["most_elements"].count(1))
-                                               : std::numeric_limits<std::size_t>::max();
-  for (const JsonPlace& scene : place["scenes"].items())
-    read_scene_cases(scene, most, file.path, study);
+  study.element_steps = scale.positive_or("element_steps", usual_element_steps);
+  study.energy_points = scale.require("energy_points").count(2);
+  study.map_points = scale.require("map_points").count(2);
+  const auto most = std::size_t(scale.whole_or("most_elements", 1, Node::most_whole));
+  const Node mode = object.require("mode"), scenes = object.require("scenes");
+  object.finish();
+  read_mode(mode, scale, file.path, study);
+  scale.finish();
+  for (const Node& scene : scenes.items()) read_scene_cases(scene, most, file.path, study);
   return study;
 }
 

@@ -22,16 +22,6 @@ const std::vector<std::string> statics_columns = {
 constexpr double long_enough_s = 0.2;
 constexpr int short_runs = 3;
 
-StaticsCase read_case(const JsonPlace& place, const std::string& path,
-                      const std::vector<Override>& set) {
-  StaticsCase one;
-  one.scene = scene_beside(path, place["scene"].text());
-  one.set = set;
-  if (place.has("small_loads")) one.small_loads = place["small_loads"].positive();
-  if (place.has("settles")) one.settles = place["settles"].flag();
-  return one;
-}
-
 /// A way to find a static equilibrium.
 struct Way {
   std::string label;
@@ -142,23 +132,29 @@ void add_rows(const StaticsStudy& study, const StaticsCase& one, double loads, T
 } // namespace
 
 StaticsStudy read_statics(const StudyFile& file) {
-  file.scale.require_keys({"most_elements"});
-  const double most =
-      file.scale.has("most_elements") ? file.scale["most_elements"].positive() : 1e12;
-  file.root["statics"].require_keys({"variant", "bar", "cases"});
+  ObjectNode scale(file.scale), object(file.part("statics"));
+  const long most = scale.whole_or("most_elements", 1, Node::most_whole);
+  scale.finish();
   StaticsStudy statics;
   statics.name = file.name;
   statics.title = file.title;
-  if (file.root["statics"].has("variant")) statics.variant = file.root["statics"]["variant"].text();
-  if (file.root["statics"].has("bar")) statics.bar = file.root["statics"]["bar"].positive();
-  for (const JsonPlace& place : file.root["statics"]["cases"].items()) {
-    place.require_keys({"scene", "set", "small_loads", "settles"});
-    for (const std::vector<Override>& set : combinations(place, "set")) {
-      const StaticsCase one = read_case(place, file.path, set);
-      if (double(load_scene(one.scene, one.set).problem.lattice.element_count) <= most)
+  statics.variant = object.name_or("variant", statics.variant);
+  statics.bar = object.positive_or("bar", statics.bar);
+  for (const Node& item : object.require("cases").list()) {
+    ObjectNode place(item);
+    StaticsCase one;
+    one.scene = scene_beside(file.path, place.require("scene").name());
+    one.small_loads = place.positive_or("small_loads", one.small_loads);
+    one.settles = place.flag_or("settles", one.settles);
+    const Sets sets = combinations(place, "set");
+    place.finish();
+    for (const std::vector<Override>& set : sets) {
+      one.set = set;
+      if (load_scene(one.scene, set).problem.lattice.element_count <= std::size_t(most))
         statics.cases.push_back(one);
     }
   }
+  object.finish();
   return statics;
 }
 

@@ -1,5 +1,6 @@
 #include "experiments/studies/work_precision/precision_cells.hpp"
 #include "experiments/run/plan/run_plan.hpp"
+#include "solver/error.hpp"
 #include "solver/numerics/stability.hpp"
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 
 namespace dss {
 namespace {
+
+constexpr long most_halvings = 1000; // 2^1000 is a double
 
 /// Step limits of all methods on a cell's problem [s], by name; found once in this process.
 const std::map<std::string_view, double>& step_limits(const Cell& cell) {
@@ -23,17 +26,17 @@ const std::map<std::string_view, double>& step_limits(const Cell& cell) {
 }
 
 /// Steps from one saved time to the next.
-std::set<long> step_counts(const JsonPlace& accuracy, const CellAccuracy& of,
+std::set<long> step_counts(ObjectNode& accuracy, const CellAccuracy& of,
                            const std::vector<int>& halvings) {
   std::set<long> counts;
   const double interval = of.times.interval();
   // Of methods that bear any step the interval, and of those that bear none.
   const double largest = of.step_limit > 0 ? std::min(of.step_limit, interval) : interval;
-  if (accuracy.has("halvings"))
-    for (const int times : halvings.empty() ? accuracy["halvings"].whole_numbers() : halvings)
+  if (const auto own = accuracy.find("halvings"))
+    for (const int times : halvings.empty() ? read_halvings(*own) : halvings)
       counts.insert(of.times.steps_between(largest / std::exp2(times)));
-  if (accuracy.has("dt"))
-    for (const JsonPlace& item : accuracy["dt"].items()) {
+  if (const auto dt = accuracy.find("dt"))
+    for (const Node& item : dt->list()) {
       try {
         counts.insert(of.times.whole_steps_between(item.positive()));
       } catch (const InputError& error) {
@@ -45,7 +48,7 @@ std::set<long> step_counts(const JsonPlace& accuracy, const CellAccuracy& of,
 
 /// One for each tolerance of adaptive steps. The first step that is tried is the largest stable
 /// one.
-std::vector<Cell> adaptive_cells(const JsonPlace& rtol, Cell cell, const CellAccuracy& of) {
+std::vector<Cell> adaptive_cells(const Node& rtol, Cell cell, const CellAccuracy& of) {
   if (cell.integrator != dopri5_adaptive().name)
     rtol.fail(
         fmt::format("{} has no adaptive steps; {} has", cell.integrator, dopri5_adaptive().name));
@@ -53,8 +56,8 @@ std::vector<Cell> adaptive_cells(const JsonPlace& rtol, Cell cell, const CellAcc
   cell.dt = of.times.interval() / double(count);
   cell.steps = cell.full_steps = count * of.times.count;
   std::vector<Cell> cells;
-  for (const JsonPlace& item : rtol.items()) {
-    cell.rtol = item.positive();
+  for (const double tolerance : rtol.positives()) {
+    cell.rtol = tolerance;
     cells.push_back(cell);
   }
   return cells;
@@ -62,10 +65,19 @@ std::vector<Cell> adaptive_cells(const JsonPlace& rtol, Cell cell, const CellAcc
 
 } // namespace
 
-std::vector<Cell> with_steps(const JsonPlace& accuracy, const std::vector<Cell>& cells,
+std::vector<int> read_halvings(const Node& node) {
+  std::vector<int> halvings;
+  for (const Node& item : node.list())
+    halvings.push_back(int(item.whole(-most_halvings, most_halvings)));
+  return halvings;
+}
+
+std::vector<Cell> with_steps(const Node& node, const std::vector<Cell>& cells,
                              PrecisionStudy& study) {
-  accuracy.require_keys({"end_time", "saved_times", "halvings", "dt", "rtol"});
+  ObjectNode accuracy(node);
+  accuracy.allow({"halvings", "dt", "rtol"});
   const SavedTimes times = read_saved_times(accuracy, study.precision_scale.shorten);
+  accuracy.finish();
   std::vector<Cell> more;
   const auto add = [&](const Cell& cell, const CellAccuracy& of) {
     more.push_back(cell);
@@ -80,8 +92,9 @@ std::vector<Cell> with_steps(const JsonPlace& accuracy, const std::vector<Cell>&
       cell.steps = cell.full_steps = count * times.count;
       add(cell, of_step);
     }
-    if (!accuracy.has("rtol")) continue;
-    for (const Cell& adaptive : adaptive_cells(accuracy["rtol"], cell, of)) add(adaptive, of);
+    const auto rtol = accuracy.find("rtol");
+    if (!rtol) continue;
+    for (const Cell& adaptive : adaptive_cells(*rtol, cell, of)) add(adaptive, of);
   }
   if (more.empty())
     accuracy.fail("gives no step; give \"halvings\" such as [0, 1, 2], \"dt\" such as [1e-6], or "

@@ -6,27 +6,34 @@
 namespace dss {
 namespace {
 
-Contender read_contender(const JsonPlace& place) {
-  place.require_keys({"integrator", "precision", "dt"});
-  return {method_name_in(place["integrator"]), place["precision"].text(),
-          place.has("dt") ? place["dt"].positive() : 0};
+Contender read_contender(const Node& node) {
+  ObjectNode object(node);
+  const Contender contender{method_name_in(object.require("integrator")),
+                            object.require("precision").name(), object.positive_or("dt", 0)};
+  object.finish();
+  return contender;
+}
+
+CostComparison read_comparison(const Node& node) {
+  ObjectNode object(node);
+  const CostComparison comparison{object.require("scene").name(), object.require("space").name(),
+                                  read_contender(object.require("contender")),
+                                  read_contender(object.require("base"))};
+  object.finish();
+  return comparison;
 }
 
 } // namespace
 
-PrecisionRules read_precision_rules(const JsonPlace& place) {
-  place.require_keys({"solution", "tolerances", "comparisons"});
+PrecisionRules read_precision_rules(const Node& node) {
+  ObjectNode object(node);
   PrecisionRules rules;
-  if (place.has("solution")) rules.solution = read_solution_rule(place["solution"]);
-  for (const JsonPlace& item : place["tolerances"].items())
-    rules.tolerances.push_back(item.positive());
+  rules.solution = read_solution_rule(object);
+  rules.tolerances = object.require("tolerances").positives();
   std::ranges::sort(rules.tolerances, std::greater<>());
-  if (!place.has("comparisons")) return rules;
-  for (const JsonPlace& item : place["comparisons"].items()) {
-    item.require_keys({"scene", "space", "contender", "base"});
-    rules.comparisons.push_back({item["scene"].text(), item["space"].text(),
-                                 read_contender(item["contender"]), read_contender(item["base"])});
-  }
+  if (const auto comparisons = object.find("comparisons"))
+    for (const Node& item : comparisons->list()) rules.comparisons.push_back(read_comparison(item));
+  object.finish();
   return rules;
 }
 

@@ -30,6 +30,6 @@ struct PrecisionRules {
 };
 
 /// Reads a study's key "work_precision". @throws InputError with the place of what is wrong
-PrecisionRules read_precision_rules(const JsonPlace& place);
+PrecisionRules read_precision_rules(const Node& node);
 
 } // namespace dss

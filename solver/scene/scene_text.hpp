@@ -1,8 +1,10 @@
 #pragma once
 /// From the name of a scene to its parsed text: finds the file, parses it, applies --set, resolves
 /// the parameters.
-#include "solver/scene/json/node.hpp"
+#include "solver/json/node.hpp"
+#include "solver/scene/expression.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,19 @@ namespace dss {
 /// "bodies/0/constants/E".
 struct Override {
   std::string key, value;
+};
+
+/// Text of a scene: parsed, with overrides applied, and the parameters that its numbers use. A text
+/// "=expression" stands for a number; a text from --set needs no "=".
+struct SceneText : JsonFile {
+  Parameters parameters; ///< resolved
+  /// JSON pointer -> the --set that changed this value.
+  std::map<std::string, std::string> overrides;
+
+  bool is_expression(const std::string& text, const std::string& pointer) const override;
+  double evaluate(const std::string& text) const override;
+  const char* number_forms() const override { return "a number or \"=expression\""; }
+  std::string changed_by(const std::string& pointer) const override;
 };
 
 /// Folder of the shipped scenes: $DSSBENCH_SCENES, else the source tree, else share/dssbench/scenes

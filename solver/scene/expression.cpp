@@ -1,4 +1,4 @@
-#include "solver/scene/json/expression.hpp"
+#include "solver/scene/expression.hpp"
 
 #include "solver/error.hpp"
 

@@ -1,7 +1,9 @@
-#include "solver/scene/json/document.hpp"
+#include "solver/scene/scene_text.hpp"
 
 #include "solver/error.hpp"
 #include "solver/io/program_files.hpp"
+#include "solver/json/object_node.hpp"
+#include "solver/json/parse.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +12,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace dss {
@@ -18,57 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-std::string file_content(const std::string& path) {
-  if (fs::is_directory(path))
-    throw InputError(fmt::format("{}: is a directory, not a scene file", path));
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (!file || !(content << file.rdbuf()))
-    throw InputError(
-        fmt::format("{}: cannot be read, or is empty; a scene is a readable JSON file", path));
-  return content.str();
-}
-
-/// Line and column, both from 1, of a byte in the text.
-std::pair<std::size_t, std::size_t> line_and_column(const std::string& text, std::size_t byte) {
-  const auto end = text.begin() + std::ptrdiff_t(std::min(byte, text.size()));
-  const auto line = std::size_t(std::count(text.begin(), end, '\n'));
-  const std::size_t line_start =
-      line == 0 ? 0 : text.rfind('\n', std::size_t(end - text.begin()) - 1) + 1;
-  return {line + 1, std::size_t(end - text.begin()) - line_start + 1};
-}
-
-/// Parses JSON and refuses a key that stands twice in an object. The library would silently keep
-/// the last one.
-json parse(const std::string& path, const std::string& text) {
-  std::vector<std::set<std::string>> keys;
-  std::string repeated;
-  const auto watch_keys = [&](int, json::parse_event_t event, json& value) {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second &&
-        repeated.empty())
-      repeated = value.get<std::string>();
-    return true;
-  };
-  json root;
-  try {
-    root = json::parse(text, watch_keys);
-  } catch (const json::parse_error& error) {
-    const auto [line, column] = line_and_column(text, error.byte == 0 ? 0 : error.byte - 1);
-    std::string detail = error.what();
-    if (const auto place = detail.find("syntax error"); place != std::string::npos)
-      detail = detail.substr(place);
-    throw InputError(
-        fmt::format("{}: line {}, column {}: not JSON: {}", path, line, column, detail));
-  } catch (const json::exception& error) {
-    throw InputError(fmt::format("{}: not usable JSON: {}", path, error.what()));
-  }
-  if (!repeated.empty())
-    throw InputError(fmt::format("{}: key \"{}\" stands twice in one object", path, repeated));
-  return root;
-}
 
 /// Value of --set: a JSON scalar, or a text for anything else (a name, or an expression where a
 /// number is expected).
@@ -158,7 +108,7 @@ bool is_identifier(const std::string& name) {
 /// Parameters may refer to each other in any order. Each pass resolves those whose references are
 /// resolved.
 void resolve_parameters(SceneText& text) {
-  ObjectNode root(Node(text, text.root, ""));
+  ObjectNode root{Node(text)};
   const std::optional<Node> parameters = root.find("parameters");
   if (!parameters) return;
   ObjectNode names(*parameters);
@@ -223,10 +173,30 @@ std::string scene_path(const std::string& name_or_path) {
                                nearest_name(name_or_path, names)));
 }
 
+bool SceneText::is_expression(const std::string& text, const std::string& pointer) const {
+  return text.starts_with('=') || overrides.contains(pointer);
+}
+
+double SceneText::evaluate(const std::string& text) const {
+  try {
+    return dss::evaluate(text.substr(text.starts_with('=') ? 1 : 0), parameters);
+  } catch (const InputError& error) {
+    std::vector<std::string> known;
+    for (const auto& item : parameters) known.push_back(item.first);
+    throw InputError(
+        fmt::format("{}; parameters are {}", error.what(), known.empty() ? "none" : listed(known)));
+  }
+}
+
+std::string SceneText::changed_by(const std::string& pointer) const {
+  const auto change = overrides.find(pointer);
+  return change == overrides.end() ? "" : change->second;
+}
+
 SceneText read_scene_text(const std::string& path, const std::vector<Override>& overrides) {
   SceneText text;
   text.path = path;
-  text.root = parse(path, file_content(path));
+  text.root = parse_json_file(path);
   if (!text.root.is_object())
     throw InputError(fmt::format("{}: a scene is a JSON object {{...}}", path));
   for (const Override& change : overrides)
