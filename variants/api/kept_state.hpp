@@ -1,6 +1,6 @@
 #pragma once
-/// Which numbers a method keeps of an element, in the order of Executor::save and
-/// Executor::restore. The order is the same for all executors, so that elements can move from one
+/// Which numbers a method keeps of an element, in the order of StateTransfer::save and
+/// StateTransfer::restore. The order is the same for all executors, so that elements can move from one
 /// to another.
 #include "kernels/fields.hpp"
 #include "kernels/model.hpp"
