@@ -5,7 +5,6 @@
 #include "experiments/run/plan/names.hpp"
 #include "kernels/model.hpp"
 #include "solver/decomposition/decomposition.hpp"
-#include "solver/error.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
 
@@ -70,23 +69,11 @@ struct Block {
   std::optional<WeakScaling> weak;
 };
 
-/// Reads a list of names and checks each.
-/// @param otherwise  value if the block has no such key
-std::vector<std::string> known_names(ObjectNode& block, const std::string& key,
-                                     const char* otherwise, const char* what,
-                                     const std::vector<std::string>& known) {
-  const auto node = block.find(key);
-  if (!node) return {otherwise};
-  std::vector<std::string> names;
-  for (const Node& item : node->list()) names.push_back(item.known_name(what, known));
-  return names;
-}
-
 void read_ranks(ObjectNode& object, int cores, Block& block) {
   block.ranks = read_counts(object, "ranks", cores);
-  block.decompositions =
-      known_names(object, "decompositions", "strips", "decomposition", names_of("DECOMPOSITION"));
-  block.halos = known_names(object, "halos", "auto", "halo strategy", names_of("HALO"));
+  block.decompositions = object.known_names_or("decompositions", "decomposition",
+                                               names_of("DECOMPOSITION"), {"strips"});
+  block.halos = object.known_names_or("halos", "halo strategy", names_of("HALO"), {"auto"});
   for (const std::string& variant : block.variants)
     if (block.ranks.back() > 1 && !can_distribute(variant))
       object.require("ranks").fail(fmt::format(
@@ -137,9 +124,10 @@ Block read_block(ObjectNode& object, const Sets& scale_sets, const CellRules& ru
     }
   read_variants(object, rules.cores, block);
   block.threads = read_counts(object, "threads", rules.cores);
-  block.models = known_names(object, "models", "spatial", "model", model_names());
-  block.precisions = known_names(object, "precisions", "f64", "precision", names_of("PRECISION"));
-  block.integrators = known_names(object, "integrators", "rk4", "integrator", method_names());
+  block.models = object.known_names_or("models", "model", model_names(), {"spatial"});
+  block.precisions =
+      object.known_names_or("precisions", "precision", names_of("PRECISION"), {"f64"});
+  block.integrators = object.known_names_or("integrators", "integrator", method_names(), {"rk4"});
   read_ranks(object, rules.cores, block);
   object.allow(rules.block_keys);
   object.finish();
@@ -252,14 +240,10 @@ void require_loadable(const Node& place, const Block& block, const std::vector<C
   std::set<std::string> loaded;
   for (const Cell& cell : cells) {
     if (!loaded.insert(cell.set_text()).second) continue;
-    try {
-      const Scene scene = load_scene(cell.scene, cell.set);
-      for (const std::string& model : block.models)
-        if (const std::string why = why_not(*find_model(model), scene.problem); !why.empty())
-          throw InputError(fmt::format("model \"{}\": {}", model, why));
-    } catch (const InputError& error) {
-      place.fail(error.what());
-    }
+    const Scene scene = place.placed([&] { return load_scene(cell.scene, cell.set); });
+    for (const std::string& model : block.models)
+      if (const std::string why = why_not(*find_model(model), scene.problem); !why.empty())
+        place.fail(fmt::format("model \"{}\": {}", model, why));
   }
 }
 

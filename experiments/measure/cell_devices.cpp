@@ -59,12 +59,8 @@ std::string members_text(const Node& place, int cores) {
   const std::string text =
       replaced(replaced(place.name(), ":cores", cores), ":rest", std::max(1, cores - 1));
   if (text == "auto") return text;
-  try {
-    for (const Member& member : parse_members(text))
-      if (member.variant != "auto") require_device_variant(member.variant, member.device, place);
-  } catch (const InputError& error) {
-    place.fail(error.what());
-  }
+  for (const Member& member : place.placed([&] { return parse_members(text); }))
+    if (member.variant != "auto") require_device_variant(member.variant, member.device, place);
   return text;
 }
 

@@ -1,16 +1,7 @@
 #include "experiments/measure/solution_rule.hpp"
-#include "experiments/run/plan/run_plan.hpp"
-#include "solver/error.hpp"
+#include "solver/numerics/method.hpp"
 
 namespace dss {
-
-std::string method_name_in(const Node& node) {
-  try {
-    return std::string(require_method(node.name()).name);
-  } catch (const InputError& error) {
-    node.fail(error.what());
-  }
-}
 
 SolutionRule read_solution_rule(ObjectNode& object) {
   SolutionRule rule;
@@ -18,7 +9,7 @@ SolutionRule read_solution_rule(ObjectNode& object) {
   if (!node) return rule;
   ObjectNode solution(*node);
   if (const auto integrator = solution.find("integrator"))
-    rule.integrator = method_name_in(*integrator);
+    rule.integrator = integrator->known_name("integrator", method_names());
   rule.tolerance = solution.positive_or("tolerance", rule.tolerance);
   rule.most_steps = solution.positive_or("most_steps", rule.most_steps);
   solution.finish();

@@ -8,10 +8,6 @@
 
 namespace dss {
 
-/// Reads the name of a method.
-/// @throws InputError with the place and the nearest known name
-std::string method_name_in(const Node& place);
-
 /// Reads "solution": {"integrator", "tolerance", "most_steps"}; each key may be absent.
 /// @throws InputError with the place
 SolutionRule read_solution_rule(ObjectNode& object);

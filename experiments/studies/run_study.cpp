@@ -46,7 +46,8 @@ std::vector<std::unique_ptr<Study>> read_studies(const StudyFile& file) {
     for (const StudyKind* kind : study_kinds()) known.emplace_back(kind->key);
     root.fail(fmt::format("asks for nothing; give one of {}", listed(known)));
   }
-  root.allow({"$schema", "experiment", "title", "scales"});
+  root.name_or("$schema", "");
+  root.allow({"experiment", "title", "scales"});
   for (const StudyKind* kind : kinds) root.allow(keys_of(*kind));
   root.finish();
   std::vector<std::unique_ptr<Study>> studies;

@@ -79,11 +79,7 @@ Decomposition read_decomposition(const std::string& path, const Problem& problem
                               read_parts(parts, CellGrid(problem.lattice))};
   root.finish();
   sort_shares(decomposition.shares);
-  try {
-    require_fit(decomposition, problem.lattice);
-  } catch (const InputError& error) {
-    place.fail(error.what());
-  }
+  place.placed([&] { require_fit(decomposition, problem.lattice); });
   decomposition.shares = tidy(decomposition.shares, problem.lattice);
   return decomposition;
 }

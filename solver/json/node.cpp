@@ -1,6 +1,5 @@
 #include "solver/json/node.hpp"
 
-#include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <fmt/format.h>
@@ -49,11 +48,7 @@ double Node::number() const {
   if (!is_number())
     fail(fmt::format("{} is not a number; write {}", shown(), file_->number_forms()));
   if (value_->is_number()) return value_->get<double>();
-  try {
-    return file_->evaluate(value_->get_ref<const std::string&>());
-  } catch (const InputError& error) {
-    fail(error.what());
-  }
+  return placed([&] { return file_->evaluate(value_->get_ref<const std::string&>()); });
 }
 
 std::string Node::with_source(double value) const {
@@ -126,6 +121,12 @@ std::vector<Node> Node::list() const { return is_array() ? items(1) : std::vecto
 std::vector<std::string> Node::names() const {
   std::vector<std::string> all;
   for (const Node& item : list()) all.push_back(item.name());
+  return all;
+}
+
+std::vector<double> Node::non_negatives() const {
+  std::vector<double> all;
+  for (const Node& item : list()) all.push_back(item.non_negative());
   return all;
 }
 

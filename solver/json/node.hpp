@@ -2,6 +2,7 @@
 /// Typed view of a JSON file. Each value knows its place, so every error says what is wrong, where,
 /// and what would be right.
 #include "kernels/fields.hpp"
+#include "solver/error.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -59,9 +60,10 @@ public:
   std::vector<Node> items(std::size_t least = 0) const; ///< items of an array
   /// Items of an array that is not empty. A single value counts as an array of one.
   std::vector<Node> list() const;
-  std::vector<std::string> names() const;   ///< of list()
-  std::vector<double> positives() const;    ///< of list()
-  std::vector<int> counts(int least) const; ///< of list()
+  std::vector<std::string> names() const;    ///< of list()
+  std::vector<double> non_negatives() const; ///< of list()
+  std::vector<double> positives() const;     ///< of list()
+  std::vector<int> counts(int least) const;  ///< of list()
 
   /// Index of a text among `names`. `what` is the kind of thing, for the error message.
   std::size_t choice(const char* what, const std::vector<std::string>& names) const;
@@ -78,6 +80,15 @@ public:
   const std::string& file() const { return file_->path; }
   std::string where() const; ///< file and JSON pointer; errors begin with it
   [[noreturn]] void fail(const std::string& message) const;
+  /// Calls `check` and gives its InputError this place.
+  template <class Check>
+  auto placed(Check&& check) const {
+    try {
+      return check();
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
+  }
 
 private:
   friend class ObjectNode;

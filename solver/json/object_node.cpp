@@ -73,6 +73,16 @@ std::vector<std::string> ObjectNode::names_or(const std::string& key,
   return read_or(*this, key, otherwise, &Node::names);
 }
 
+std::vector<std::string> ObjectNode::known_names_or(const std::string& key, const char* what,
+                                                    const std::vector<std::string>& known,
+                                                    const std::vector<std::string>& otherwise) {
+  const std::optional<Node> node = find(key);
+  if (!node) return otherwise;
+  std::vector<std::string> names;
+  for (const Node& item : node->list()) names.push_back(item.known_name(what, known));
+  return names;
+}
+
 void ObjectNode::must_have(const std::vector<std::string>& keys) {
   std::vector<std::string> missing;
   for (const std::string& key : keys)

@@ -30,6 +30,10 @@ public:
   std::string name_or(const std::string& key, const std::string& otherwise);
   std::vector<std::string> names_or(const std::string& key,
                                     const std::vector<std::string>& otherwise);
+  /// Names that must be among `known`. `what` is the kind of thing, for the error message.
+  std::vector<std::string> known_names_or(const std::string& key, const char* what,
+                                          const std::vector<std::string>& known,
+                                          const std::vector<std::string>& otherwise);
 
   /// @throws InputError that names all of these keys that are missing
   void must_have(const std::vector<std::string>& keys);

@@ -3,7 +3,6 @@
 #include "experiments/measure/study_sets.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "experiments/studies/advise/advise_study.hpp"
-#include "solver/error.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -11,6 +10,7 @@
 namespace dss {
 namespace {
 
+/// Reads all but the scene itself.
 AdviseStudy::Case read_case(const Node& node, double shorten, const std::string& file) {
   ObjectNode object(node);
   AdviseStudy::Case of;
@@ -20,11 +20,6 @@ AdviseStudy::Case read_case(const Node& node, double shorten, const std::string&
     of.quantity = *find_quantity(quantity->known_name("quantity", names_of("QUANTITY")));
   of.times = read_saved_times(object, shorten);
   object.finish();
-  try {
-    of.loaded = load_scene(of.scene, of.set);
-  } catch (const InputError& error) {
-    node.fail(error.what());
-  }
   return of;
 }
 
@@ -38,18 +33,20 @@ AdviseStudy read_advise(const StudyFile& file) {
   study.scale = file.scale_name;
   study.solution = read_solution_rule(object);
   study.bar = object.positive_or("bar", study.bar);
-  const Node own = object.require("tolerances");
-  study.tolerances = scale.find("tolerances").value_or(own).positives();
+  study.tolerances = object.require("tolerances").positives();
+  if (const auto own = scale.find("tolerances")) study.tolerances = own->positives();
   std::ranges::sort(study.tolerances, std::greater());
   const double shorten = scale.positive_or("shorten", 1);
   const std::vector<std::string> chosen = scale.names_or("scenes", {});
   const Node scenes = object.require("scenes");
   scale.finish();
   object.finish();
-  for (const Node& item : scenes.list()) {
+  for (const Node& item : scenes.items(1)) {
+    AdviseStudy::Case of = read_case(item, shorten, file.path);
     const std::string name = ObjectNode(item).require("scene").name();
-    if (chosen.empty() || std::ranges::find(chosen, name) != chosen.end())
-      study.cases.push_back(read_case(item, shorten, file.path));
+    if (!chosen.empty() && std::ranges::find(chosen, name) == chosen.end()) continue;
+    of.loaded = item.placed([&] { return load_scene(of.scene, of.set); });
+    study.cases.push_back(std::move(of));
   }
   if (study.cases.empty()) scenes.fail("no scene is left");
   return study;

@@ -45,7 +45,7 @@ BalanceStudy read_balance(const StudyFile& file) {
   balance.slow_speed = object.require("slow_element_steps_per_s").positive();
   balance.ratios = object.require("speed_ratios").positives();
   balance.rows = object.require("n").counts(2);
-  for (const Node& item : object.require("links").list()) {
+  for (const Node& item : object.require("links").items(1)) {
     ObjectNode link(item);
     balance.links.push_back({link.require("label").name(),
                              {1e-6 * link.require("latency_us").positive(),

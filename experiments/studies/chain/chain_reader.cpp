@@ -36,8 +36,8 @@ ChainStudy read_chain(const StudyFile& file) {
   chain.scene = scene_beside(file.path, object.require("scene").name());
   chain.set = one_set(object, "set");
   if (scale.has("set")) chain.set = one_set(scale, "set");
-  const Node end_time = object.require("end_time");
-  chain.end_time = scale.find("end_time").value_or(end_time).positive();
+  chain.end_time = object.require("end_time").positive();
+  chain.end_time = scale.positive_or("end_time", chain.end_time);
   chain.saved_times = object.require("saved_times").count(1);
   chain.bar = object.require("bar").positive();
   chain.repetitions = scale.require("repetitions").count(1);

@@ -2,11 +2,11 @@
 #include "experiments/measure/study_sets.hpp"
 #include "experiments/run/cluster/simulation.hpp"
 #include "experiments/studies/cluster/cluster_study.hpp"
-#include "solver/error.hpp"
 #include "variants/api/distribution.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace dss {
 namespace {
@@ -38,23 +38,21 @@ void read_problems(ObjectNode& object, SimulationBlock& block) {
     block.ranks.push_back(int(item.whole(1, most_ranks)));
 }
 
+/// Strategies that messages alone carry out.
+std::vector<std::string> simulated_halos() {
+  std::vector<std::string> names{"auto"};
+  for (const HaloStrategy& strategy : halo_strategies())
+    if (strategy.transport != HaloStrategy::Transport::shared) names.emplace_back(strategy.name);
+  return names;
+}
+
 void read_choices(ObjectNode& object, SimulationBlock& block) {
   const Node platforms = object.require("platforms");
   block.platforms = platforms.names();
-  for (const std::string& name : block.platforms) try {
-      Platform::require_known(name);
-    } catch (const InputError& error) {
-      platforms.fail(error.what());
-    }
-  std::vector<std::string> known{"auto"};
-  for (const HaloStrategy& strategy : halo_strategies())
-    if (strategy.transport != HaloStrategy::Transport::shared) known.emplace_back(strategy.name);
-  block.halos = {"auto"};
-  if (const auto halos = object.find("halos")) {
-    block.halos.clear();
-    for (const Node& item : halos->list())
-      block.halos.push_back(item.known_name("halo strategy of a simulation", known));
-  }
+  for (const std::string& name : block.platforms)
+    platforms.placed([&] { Platform::require_known(name); });
+  block.halos =
+      object.known_names_or("halos", "halo strategy of a simulation", simulated_halos(), {"auto"});
   block.decompositions = object.names_or("decompositions", {"strips"});
   for (const std::string& name : block.decompositions)
     if (const std::string why = why_no_decomposition(name); !why.empty())
@@ -87,28 +85,27 @@ SimulationBlock read_block(const Node& node) {
   read_choices(object, block);
   read_published(object, block);
   object.finish();
-  for (const auto& set : block.sets) try {
-      load_scene(block.scene, set);
-    } catch (const InputError& error) {
-      node.fail(error.what());
-    }
   return block;
 }
 
-/// Removes the blocks that a scale leaves out before they are read, because loading a large scene
-/// takes seconds.
-std::vector<Node> kept_blocks(const Node& simulation, ObjectNode& scale) {
-  std::vector<Node> kept = simulation.list();
-  const auto left_out = scale.find("leave_out");
-  if (!left_out) return kept;
-  for (const Node& label : left_out->list()) {
-    const auto is_left_out = [&](const Node& block) {
-      return ObjectNode(block).require("label").name() == label.name();
-    };
-    if (std::erase_if(kept, is_left_out) == 0)
-      label.fail(fmt::format("no block of \"simulation\" has the label \"{}\"", label.name()));
+/// Reads all blocks. Loads no scene of a block that a scale leaves out, because loading a large
+/// scene takes seconds.
+std::vector<SimulationBlock> read_blocks(const Node& simulation, ObjectNode& scale) {
+  const std::vector<std::string> labels = scale.names_or("leave_out", {});
+  std::vector<SimulationBlock> blocks;
+  std::set<std::string> known;
+  for (const Node& item : simulation.list()) {
+    SimulationBlock block = read_block(item);
+    known.insert(block.label);
+    if (std::ranges::find(labels, block.label) != labels.end()) continue;
+    for (const auto& set : block.sets) item.placed([&] { load_scene(block.scene, set); });
+    blocks.push_back(std::move(block));
   }
-  return kept;
+  for (const std::string& label : labels)
+    if (!known.contains(label))
+      scale.require("leave_out")
+          .fail(fmt::format("no block of \"simulation\" has the label \"{}\"", label));
+  return blocks;
 }
 
 /// Removes problems that are too large for the scale.
@@ -138,9 +135,7 @@ void limit(ObjectNode& scale, std::vector<SimulationBlock>& blocks) {
 std::vector<SimulationBlock> read_simulation(const StudyFile& file) {
   const bool is_alone = !ObjectNode(file.root).has("cells");
   ObjectNode scale(file.scale);
-  std::vector<SimulationBlock> blocks;
-  for (const Node& block : kept_blocks(file.part("simulation"), scale))
-    blocks.push_back(read_block(block));
+  std::vector<SimulationBlock> blocks = read_blocks(file.part("simulation"), scale);
   limit(scale, blocks);
   if (!is_alone) return blocks;
   scale.finish();

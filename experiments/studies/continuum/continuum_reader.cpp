@@ -86,7 +86,7 @@ ContinuumStudy read_continuum(const StudyFile& file) {
   const double most = scale.positive_or("up_to", 1e9);
   scale.finish();
   ContinuumStudy continuum{file.name, file.title, file.path, {}};
-  for (const Node& item : file.part("continuum").list())
+  for (const Node& item : file.part("continuum").items(1))
     continuum.checks.push_back(read_check(item, file.path, most));
   return continuum;
 }

@@ -2,8 +2,10 @@
 #include "experiments/measure/solution_rule.hpp"
 #include "experiments/measure/study_file.hpp"
 #include "experiments/measure/study_sets.hpp"
-#include "experiments/run/plan/run_plan.hpp"
+#include "experiments/run/plan/names.hpp"
+#include "kernels/model.hpp"
 #include "solver/error.hpp"
+#include "solver/numerics/method.hpp"
 
 #include <algorithm>
 
@@ -16,7 +18,8 @@ void read_refinement(const Node& node, BudgetScene& budget) {
   budget.is_one_body = object.flag_or("one_body", budget.is_one_body);
   budget.ratio = object.positive_or("ratio", budget.ratio);
   if (!(budget.ratio > 1))
-    object.require("ratio").fail("is not above 1: each grid is finer than the one before");
+    object.require("ratio").fail(
+        fmt::format("{} is not above 1: each grid is finer than the one before", budget.ratio));
   const Node grids = object.require("grids");
   object.finish();
   for (const Node& grid : grids.items()) budget.refinement.push_back(one_set(grid));
@@ -24,23 +27,18 @@ void read_refinement(const Node& node, BudgetScene& budget) {
 }
 
 /// Rejects impossible scenes before any run starts.
-void require_loadable(const Node& node, BudgetScene& budget) {
-  try {
-    const Scene scene = load_scene(budget.scene, budget.set);
-    budget.integrator = std::string(
-        require_method(budget.integrator.empty() ? scene.integrator : budget.integrator).name);
-    if (budget.dt == 0) budget.dt = scene.problem.dt;
-    budget.times.whole_steps_between(budget.dt);
-    if (!budget.refinement.empty() && scene.problem.loads.empty())
-      throw InputError(
-          "refinement: the scene has no load, whose elements' displacement would be compared");
-    for (const std::vector<Override>& grid : budget.refinement) {
-      std::vector<Override> set = budget.set;
-      set.insert(set.end(), grid.begin(), grid.end());
-      load_scene(budget.scene, set);
-    }
-  } catch (const InputError& error) {
-    node.fail(error.what());
+void require_loadable(BudgetScene& budget) {
+  const Scene scene = load_scene(budget.scene, budget.set);
+  if (budget.integrator.empty()) budget.integrator = scene.integrator;
+  if (budget.dt == 0) budget.dt = scene.problem.dt;
+  budget.times.whole_steps_between(budget.dt);
+  if (!budget.refinement.empty() && scene.problem.loads.empty())
+    throw InputError(
+        "refinement: the scene has no load, whose elements' displacement would be compared");
+  for (const std::vector<Override>& grid : budget.refinement) {
+    std::vector<Override> set = budget.set;
+    set.insert(set.end(), grid.begin(), grid.end());
+    load_scene(budget.scene, set);
   }
 }
 
@@ -51,15 +49,16 @@ BudgetScene read_scene(const Node& node, double shorten) {
   budget.label = object.name_or("label", budget.scene);
   budget.variant = object.name_or("variant", "auto");
   budget.set = one_set(object, "set");
-  budget.integrator = object.name_or("integrator", "");
+  if (const auto integrator = object.find("integrator"))
+    budget.integrator = integrator->known_name("integrator", method_names());
   budget.dt = object.positive_or("dt", 0);
   budget.times = read_saved_times(object, shorten);
-  budget.precisions = object.names_or("precisions", {});
-  budget.models = object.names_or("models", {});
-  budget.rotations = object.names_or("rotations", {});
+  budget.precisions = object.known_names_or("precisions", "precision", names_of("PRECISION"), {});
+  budget.models = object.known_names_or("models", "model", model_names(), {});
+  budget.rotations = object.known_names_or("rotations", "rotation", names_of("ROTATION"), {});
   if (const auto refinement = object.find("refinement")) read_refinement(*refinement, budget);
   object.finish();
-  require_loadable(node, budget);
+  node.placed([&] { require_loadable(budget); });
   return budget;
 }
 
@@ -74,7 +73,7 @@ ErrorBudgetStudy read_error_budget(const StudyFile& file) {
   budget.solution = read_solution_rule(object);
   const Node scenes = object.require("scenes");
   object.finish();
-  for (const Node& item : scenes.list()) {
+  for (const Node& item : scenes.items(1)) {
     const BudgetScene scene = read_scene(item, shorten);
     if (chosen.empty() || std::ranges::find(chosen, scene.label) != chosen.end())
       budget.scenes.push_back(scene);

@@ -141,7 +141,7 @@ FailureCase read_case(const Node& node, const std::string& path) {
       std::regex_search(node.json().dump(), std::regex("[^A-Za-z0-9_]limit[^A-Za-z0-9_]"));
   if (const auto reference = object.find("reference"))
     atlas.reference = read_reference(*reference, path);
-  for (const Node& item : object.require("expect").list())
+  for (const Node& item : object.require("expect").items(1))
     atlas.expectations.push_back(read_expectation(item));
   object.finish();
   // reports errors early
@@ -154,7 +154,7 @@ FailureCase read_case(const Node& node, const std::string& path) {
 FailureStudy read_failures(const StudyFile& file) {
   FailureStudy atlas{file.name, file.title, file.path, {}};
   std::set<std::string> names;
-  for (const Node& item : file.part("failures").list()) {
+  for (const Node& item : file.part("failures").items(1)) {
     atlas.cases.push_back(read_case(item, file.path));
     if (!names.insert(atlas.cases.back().name).second)
       item.fail(fmt::format("a second case \"{}\"; names differ", atlas.cases.back().name));

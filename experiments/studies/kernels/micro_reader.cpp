@@ -1,4 +1,5 @@
 #include "experiments/base/cores.hpp"
+#include "experiments/measure/kernels/working_set.hpp"
 #include "experiments/measure/study_file.hpp"
 #include "experiments/measure/study_names.hpp"
 #include "experiments/studies/kernels/micro_study.hpp"
@@ -23,11 +24,15 @@ std::vector<int> thread_counts(const Node& node) {
 MicroSet read_micro_set(const Node& node) {
   ObjectNode object(node);
   const std::vector<std::string> all{"*"};
+  const auto known = [&](const char* key, const char* what, std::vector<std::string> names) {
+    names.emplace_back("*");
+    return object.known_names_or(key, what, names, all);
+  };
   MicroSet set{object.names_or("kernels", all),
-               object.names_or("models", all),
-               object.names_or("precisions", all),
+               known("models", "model", model_names()),
+               known("precisions", "precision", {"f64", "f32"}),
                object.names_or("variants", all),
-               object.names_or("levels", all),
+               known("levels", "level", memory_levels),
                {1},
                {}};
   if (const auto threads = object.find("threads")) set.threads = thread_counts(*threads);
@@ -58,9 +63,9 @@ MicroStudy read_micro_study(const StudyFile& file) {
   micro.attribution_sample_s = scale.require("attribution_sample_s").positive();
   micro.has_ceilings = scale.flag_or("ceilings", micro.has_ceilings);
   scale.finish();
-  for (const Node& set : object.require("sets").list()) micro.sets.push_back(read_micro_set(set));
+  for (const Node& set : object.require("sets").items(1)) micro.sets.push_back(read_micro_set(set));
   if (const auto attribution = object.find("attribution"))
-    for (const Node& item : attribution->list()) read_attribution(item, micro.attribution);
+    for (const Node& item : attribution->items(1)) read_attribution(item, micro.attribution);
   object.finish();
   return micro;
 }

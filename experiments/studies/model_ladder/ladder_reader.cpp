@@ -2,7 +2,6 @@
 #include "experiments/measure/study_names.hpp"
 #include "experiments/measure/study_sets.hpp"
 #include "experiments/studies/model_ladder/ladder_study.hpp"
-#include "solver/error.hpp"
 
 #include <algorithm>
 
@@ -28,11 +27,6 @@ LadderScene read_ladder_scene(const Node& node, const std::string& path) {
   scene.fails = read_models(object, "fails");
   scene.suffices = read_models(object, "suffices");
   object.finish();
-  try {
-    load_scene(scene.scene, scene.set);
-  } catch (const InputError& error) {
-    node.fail(error.what());
-  }
   return scene;
 }
 
@@ -50,9 +44,13 @@ LadderStudy read_ladder(const StudyFile& file) {
   const Node scenes = object.require("scenes");
   scale.finish();
   object.finish();
-  for (const Node& item : scenes.list())
-    if (std::ranges::find(left_out, ObjectNode(item).require("scene").name()) == left_out.end())
-      ladder.scenes.push_back(read_ladder_scene(item, file.path));
+  for (const Node& item : scenes.items(1)) {
+    const LadderScene scene = read_ladder_scene(item, file.path);
+    const std::string name = ObjectNode(item).require("scene").name();
+    if (std::ranges::find(left_out, name) != left_out.end()) continue;
+    item.placed([&] { load_scene(scene.scene, scene.set); });
+    ladder.scenes.push_back(scene);
+  }
   return ladder;
 }
 

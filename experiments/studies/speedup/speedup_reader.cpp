@@ -7,7 +7,7 @@ namespace {
 void read_paper(const Node& node, SpeedupStudy& study) {
   ObjectNode paper(node);
   study.paper_source = paper.require("source").name();
-  for (const Node& item : paper.require("rows").list()) {
+  for (const Node& item : paper.require("rows").items(1)) {
     ObjectNode row(item);
     study.paper.push_back({row.require("label").name(), row.require("wall_s").positive(),
                            row.positive_or("speedup", 0), row.name_or("set", "")});

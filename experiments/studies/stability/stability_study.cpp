@@ -24,7 +24,9 @@ StabilityStudy::Case mode_case(const std::string& scene, double zeta) {
 void read_mode(const Node& node, ObjectNode& scale, const std::string& file,
                StabilityStudy& study) {
   ObjectNode object(node);
-  const Node name = object.require("scene"), own = object.require("zeta");
+  const Node name = object.require("scene");
+  std::vector<double> zetas = object.require("zeta").non_negatives();
+  if (const auto own = scale.find("zeta")) zetas = own->non_negatives();
   object.finish();
   const std::string scene = scene_beside(file, name.name());
   const Scene as_it_is = load_scene(scene, {});
@@ -32,8 +34,7 @@ void read_mode(const Node& node, ObjectNode& scale, const std::string& file,
     if (!as_it_is.parameters.contains(parameter))
       name.fail(fmt::format("has no parameter \"{}\"; give a scene of one mode", parameter));
   study.undamped = mode_case(scene, 0);
-  for (const Node& zeta : scale.find("zeta").value_or(own).list())
-    study.cases.push_back(mode_case(scene, zeta.non_negative()));
+  for (const double zeta : zetas) study.cases.push_back(mode_case(scene, zeta));
 }
 
 void read_scene_cases(const Node& node, std::size_t most_elements, const std::string& file,

@@ -140,7 +140,7 @@ StaticsStudy read_statics(const StudyFile& file) {
   statics.title = file.title;
   statics.variant = object.name_or("variant", statics.variant);
   statics.bar = object.positive_or("bar", statics.bar);
-  for (const Node& item : object.require("cases").list()) {
+  for (const Node& item : object.require("cases").items(1)) {
     ObjectNode place(item);
     StaticsCase one;
     one.scene = scene_beside(file.path, place.require("scene").name());

@@ -1,6 +1,5 @@
 #include "experiments/studies/work_precision/precision_cells.hpp"
 #include "experiments/run/plan/run_plan.hpp"
-#include "solver/error.hpp"
 #include "solver/numerics/stability.hpp"
 
 #include <algorithm>
@@ -32,16 +31,15 @@ std::set<long> step_counts(ObjectNode& accuracy, const CellAccuracy& of,
   const double interval = of.times.interval();
   // Of methods that bear any step the interval, and of those that bear none.
   const double largest = of.step_limit > 0 ? std::min(of.step_limit, interval) : interval;
-  if (const auto own = accuracy.find("halvings"))
-    for (const int times : halvings.empty() ? read_halvings(*own) : halvings)
+  if (const auto node = accuracy.find("halvings")) {
+    const std::vector<int> own = read_halvings(*node);
+    for (const int times : halvings.empty() ? own : halvings)
       counts.insert(of.times.steps_between(largest / std::exp2(times)));
+  }
   if (const auto dt = accuracy.find("dt"))
     for (const Node& item : dt->list()) {
-      try {
-        counts.insert(of.times.whole_steps_between(item.positive()));
-      } catch (const InputError& error) {
-        item.fail(error.what());
-      }
+      const double step = item.positive();
+      counts.insert(item.placed([&] { return of.times.whole_steps_between(step); }));
     }
   return counts;
 }

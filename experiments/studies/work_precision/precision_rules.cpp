@@ -1,4 +1,6 @@
 #include "experiments/studies/work_precision/precision_rules.hpp"
+#include "experiments/run/plan/names.hpp"
+#include "solver/numerics/method.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -8,8 +10,10 @@ namespace {
 
 Contender read_contender(const Node& node) {
   ObjectNode object(node);
-  const Contender contender{method_name_in(object.require("integrator")),
-                            object.require("precision").name(), object.positive_or("dt", 0)};
+  const Contender contender{
+      object.require("integrator").known_name("integrator", method_names()),
+      object.require("precision").known_name("precision", names_of("PRECISION")),
+      object.positive_or("dt", 0)};
   object.finish();
   return contender;
 }
@@ -32,7 +36,8 @@ PrecisionRules read_precision_rules(const Node& node) {
   rules.tolerances = object.require("tolerances").positives();
   std::ranges::sort(rules.tolerances, std::greater<>());
   if (const auto comparisons = object.find("comparisons"))
-    for (const Node& item : comparisons->list()) rules.comparisons.push_back(read_comparison(item));
+    for (const Node& item : comparisons->items(1))
+      rules.comparisons.push_back(read_comparison(item));
   object.finish();
   return rules;
 }
