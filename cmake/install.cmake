@@ -6,7 +6,10 @@ include(CMakePackageConfigHelpers)
 # they have the paths of the source tree.
 install(DIRECTORY experiments DESTINATION share/dssbench
   FILES_MATCHING PATTERN "*.json" PATTERN "*.xml")
-install(FILES solver/scene/scene.schema.json LICENSE CITATION.cff DESTINATION share/dssbench)
+install(FILES LICENSE CITATION.cff DESTINATION share/dssbench)
+# The "$schema" of scenes and studies is a relative path.
+install(FILES solver/scene/scene.schema.json DESTINATION share/dssbench/solver/scene)
+install(FILES solver/json/names.schema.json DESTINATION share/dssbench/solver/json)
 install(DIRECTORY examples DESTINATION share/dssbench)
 
 # For variants that implement variants/api/api.hpp: the headers, with the paths of their #include
