@@ -57,14 +57,15 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
                      1 + (end - line_start));
 }
 
-/// The library's words without its number of the error, in one line.
+/// The library's words without its number of the error, in one line of ASCII: they repeat a part of
+/// the text, which may be no UTF-8.
 std::string detail_of(const json::exception& error) {
   std::string words = error.what();
   if (const auto end = words.find("] "); end != std::string::npos) words.erase(0, end + 2);
   if (const auto place = words.find("syntax error"); place != std::string::npos)
     words.erase(0, place);
   std::replace_if(
-      words.begin(), words.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+      words.begin(), words.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return words;
 }
 

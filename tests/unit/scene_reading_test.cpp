@@ -72,9 +72,6 @@ TEST_F(scene_file, that_is_broken_json_is_refused_with_line_and_column) {
 TEST_F(scene_file, that_says_a_key_twice_is_refused) {
   expect_part(refusal(written("twice.json", R"({"scene": "a", "run": {"dt": 1, "dt": 2}})")),
               ": /run/dt: key \"dt\" stands twice");
-  expect_part(refusal(written("deep.json",
-                              R"({"bodies": [{"name": "a"}, {"b": [1, {"x/y": 1, "x/y": 2}]}]})")),
-              ": /bodies/1/b/1/x~1y: key \"x/y\" stands twice");
 }
 
 TEST_F(scene_file, may_name_a_voxel_file_beside_it) {
