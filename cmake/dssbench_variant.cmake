@@ -1,24 +1,51 @@
 # How a variant is compiled, in this tree and outside of it. This file is installed.
+# dss_isa_folder, set by whoever includes it, is the folder variants/isa.
 
-# dssbench_variant_module(TARGET NAME name MARCH isa VECTOR_BITS b EXPORTS file [OPTIONS flag...]
+# The processor that is compiled for, as variants/isa names it.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  set(dss_architecture x86)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  set(dss_architecture aarch64)
+else()
+  message(FATAL_ERROR
+    "variants/isa has no folder for ${CMAKE_SYSTEM_PROCESSOR}; it has x86 and aarch64")
+endif()
+
+# dss_isa(OUT isa key)
+#
+# Sets OUT to the value of a key of variants/isa/ISA/isa.json for this processor. It is empty if the
+# instruction set belongs to another processor.
+function(dss_isa out isa key)
+  set(file ${dss_isa_folder}/${isa}/isa.json)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  string(JSON processor ERROR_VARIABLE is_of_another GET "${text}" ${dss_architecture})
+  set(value "")
+  if(NOT is_of_another)
+    string(JSON value GET "${processor}" ${key})
+  endif()
+  set(${out} "${value}" PARENT_SCOPE)
+endfunction()
+
+# dssbench_variant_module(TARGET NAME name MARCH march ISA isa EXPORTS file [OPTIONS flag...]
 #                         SOURCES file...)
 #
 # A MODULE library NAME.so that exports one symbol, dss_plugin. It is compiled for its own
 # instruction set, and reports it.
 function(dssbench_variant_module target)
-  cmake_parse_arguments(arg "" "NAME;MARCH;VECTOR_BITS;EXPORTS" "OPTIONS;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "" "NAME;MARCH;ISA;EXPORTS" "OPTIONS;SOURCES" ${ARGN})
   add_library(${target} MODULE ${arg_SOURCES})
   target_compile_options(${target} PRIVATE -march=${arg_MARCH} ${arg_OPTIONS})
-  set(isa ${arg_MARCH})
-  if(isa STREQUAL native) # find the -march= that the compiler uses for the build host
+  set(march ${arg_MARCH})
+  if(march STREQUAL native) # find the -march= that the compiler uses for the build host
     execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=native -E -v -x c++ /dev/null
       ERROR_VARIABLE verbose OUTPUT_QUIET)
     if(verbose MATCHES "(-march=|\"?-target-cpu\"? \"?)([a-mo-z][a-z0-9_.-]+|nehalem)")
-      set(isa "native: ${CMAKE_MATCH_2}")
+      set(march "native: ${CMAKE_MATCH_2}")
     endif()
   endif()
-  target_compile_definitions(${target} PRIVATE DSS_VARIANT="${arg_NAME}" DSS_ISA="${isa}"
-    DSS_VECTOR_BITS=${arg_VECTOR_BITS})
+  target_compile_definitions(${target} PRIVATE DSS_VARIANT="${arg_NAME}" DSS_ISA="${march}")
+  dss_use_packs(${target} ${arg_ISA})
   # Weak symbols of templates must stay inside. Otherwise link order would decide which
   # instruction set runs.
   target_link_options(${target} PRIVATE -Wl,--version-script=${arg_EXPORTS})
@@ -46,10 +73,18 @@ function(dssbench_engine_sources out root)
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# dss_march_needs(OUT isa [flag...])
+# dss_use_packs(TARGET isa): kernels/simd/simd.hpp takes the packs of this instruction set.
+function(dss_use_packs target isa)
+  if(NOT EXISTS ${dss_isa_folder}/${isa}/packs.hpp)
+    message(FATAL_ERROR "${dss_isa_folder} has no instruction set ${isa}")
+  endif()
+  target_compile_definitions(${target} PRIVATE DSS_ISA_PACKS="variants/isa/${isa}/packs.hpp")
+endfunction()
+
+# dss_march_needs(OUT march [flag...])
 #
-# Sets OUT to the CPU features that code uses if it is compiled with -march=isa and with those of
-# the flags that start with -m. The features have the names of __builtin_cpu_supports.
+# Sets OUT to the CPU features that code uses if it is compiled with -march=MARCH and with those of
+# the flags that start with -m: those whose macro the compiler then defines.
 function(dss_march_needs out march)
   set(flags ${ARGN})
   list(FILTER flags INCLUDE REGEX "^-m")
@@ -58,12 +93,15 @@ function(dss_march_needs out march)
   if(result)
     message(FATAL_ERROR "-march=${march} ${flags}: the compiler does not take it\n${complaint}")
   endif()
+  set(features ${dss_isa_folder}/${dss_architecture}/cpu_features.hpp)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${features})
+  file(READ ${features} text)
+  string(REGEX MATCHALL "X\\(\"[a-z0-9.]+\", __[A-Z0-9_]+" entries "${text}")
   set(needs "")
-  foreach(feature sse4.2 avx avx2 fma bmi bmi2 avx512f avx512dq avx512bw avx512vl avx512cd
-      avx512vbmi avx512ifma avx512vnni)
-    string(TOUPPER ${feature} macro)
-    string(REPLACE "." "_" macro ${macro})
-    if(macros MATCHES "#define __${macro}__ 1")
+  foreach(entry IN LISTS entries)
+    string(REGEX MATCH "\"(.+)\", (.+)" found "${entry}")
+    set(feature ${CMAKE_MATCH_1})
+    if(macros MATCHES "#define ${CMAKE_MATCH_2} 1")
       list(APPEND needs ${feature})
     endif()
   endforeach()

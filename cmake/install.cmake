@@ -18,8 +18,8 @@ install(DIRECTORY kernels solver DESTINATION include/dssbench
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 install(DIRECTORY variants/engine DESTINATION include/dssbench/variants
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.cpp" PATTERN "*.cpp.in")
-install(DIRECTORY variants/api variants/loading variants/cost
-  DESTINATION include/dssbench/variants FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY variants/api variants/loading variants/cost variants/isa
+  DESTINATION include/dssbench/variants FILES_MATCHING PATTERN "*.hpp" PATTERN "isa.json")
 install(TARGETS dss_options dss_solver EXPORT dssbench ARCHIVE DESTINATION lib/dssbench)
 install(EXPORT dssbench NAMESPACE dssbench:: FILE dssbench-targets.cmake
   DESTINATION lib/cmake/dssbench)

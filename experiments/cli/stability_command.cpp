@@ -3,7 +3,7 @@
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/stability/stability_limit.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <algorithm>
 #include <cmath>

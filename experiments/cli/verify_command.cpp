@@ -8,7 +8,7 @@
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "solver/nearest_name.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>

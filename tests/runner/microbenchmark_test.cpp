@@ -9,6 +9,7 @@
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "tests/runner/own_directory.hpp"
+#include "variants/isa/instruction_set.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <cmath>
@@ -46,41 +47,6 @@ TEST_F(Microbenchmarks, AKernelWithOneWrongLaneIsCaught) {
     static_cast<double*>(out)[elements - 1] += 1e-9;
   };
   EXPECT_GT(kernel_error(wrong), 1e-10);
-}
-
-/// Per pack of two doubles: three sums, two products, one load that feeds a product, one store, one
-/// move to the stack. Written as instructions, so that no compiler can change their number.
-void run_known_instructions(int, const void* in, void* out, std::size_t elements, std::size_t) {
-  const double* from = static_cast<const double*>(in);
-  double* to = static_cast<double*>(out);
-  for (std::size_t e = 0; e + 2 <= elements; e += 2)
-    asm volatile("movapd (%0), %%xmm0\n\t"
-                 "addpd %%xmm0, %%xmm0\n\t"
-                 "addpd %%xmm0, %%xmm0\n\t"
-                 "subpd %%xmm0, %%xmm0\n\t"
-                 "mulpd (%0), %%xmm0\n\t"
-                 "mulpd %%xmm0, %%xmm0\n\t"
-                 "movapd %%xmm0, (%1)\n\t"
-                 :
-                 : "r"(from + e), "r"(to + e)
-                 : "xmm0", "memory");
-}
-
-TEST_F(Microbenchmarks, AMixHasTheInstructionsThatWereWritten) {
-  const CompiledKernel known{
-      "known", Model::axial, Precision::f64, 1, 1, 5, 2, run_known_instructions, 0, true};
-  InstructionMix mix;
-  try {
-    mix = executed_mix(known);
-  } catch (const InputError& error) {
-    GTEST_SKIP() << error.what();
-  }
-  EXPECT_EQ(mix.fma, 0);
-  EXPECT_EQ(mix.sums, 3);
-  EXPECT_EQ(mix.products, 2);
-  EXPECT_EQ(mix.shuffles, 0);
-  EXPECT_EQ(mix.loads - mix.stack_loads, 2);
-  EXPECT_EQ(mix.stores - mix.stack_stores, 1);
 }
 
 /// The compiler chooses how many instructions a row takes. This test only asserts that all kinds
@@ -131,9 +97,9 @@ TEST_F(Microbenchmarks, StepsOfEveryModelThatCanMakeThemAreThoseOfTheReference) 
 
 TEST_F(Microbenchmarks, CeilingsOfOurOwnAreNumbers) {
   const auto is_number = [](double value) { return std::isfinite(value) && value > 0; };
-  EXPECT_PRED1(is_number, own_peak_flops("scalar", "f64", 1));
+  EXPECT_PRED1(is_number, own_peak_flops(instruction_set("scalar"), true, 1));
   for (const char* stream : {"load", "copy", "triad"})
-    EXPECT_PRED1(is_number, own_bandwidth("scalar", stream, 1 << 14, 1)) << stream;
+    EXPECT_PRED1(is_number, own_bandwidth(instruction_set("scalar"), stream, 1 << 14, 1)) << stream;
 }
 
 std::set<std::string> recorded(const std::string& path) {
@@ -165,7 +131,7 @@ TEST_F(Microbenchmarks, ARoofIsTheSmallerOfPeakAndBandwidth) {
       {false, "load", "scalar", "", "L1", 0, 1, 40e9, "own", "", ""},
       {false, "triad", "scalar", "", "L1", 0, 1, 20e9, "own", "", ""}};
   Record record{{"cell", "a"},
-                {"isa", "x86-64-v2"},
+                {"isa", instruction_set("scalar").march},
                 {"precision", "f64"},
                 {"level", "L1"},
                 {"threads", "1"},

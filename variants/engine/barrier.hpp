@@ -1,6 +1,7 @@
 #pragma once
 /// The barrier at which the threads of a team meet, once a pass.
 #include "variants/engine/wake.hpp"
+#include "variants/isa/architecture.hpp"
 
 #include <sched.h>
 
@@ -26,7 +27,7 @@ public:
       if (is_crowded_)
         ::sched_yield();
       else
-        __builtin_ia32_pause();
+        isa::pause();
     }
     round_.wait(round, std::memory_order_acquire);
   }

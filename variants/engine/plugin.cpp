@@ -1,16 +1,17 @@
 /// Entry point of every module that consists of the row engine. CMake defines DSS_VARIANT and
 /// DSS_ISA.
+#include "kernels/simd/simd.hpp"
 #include "variants/engine/compiled_kernels.hpp"
 #include "variants/engine/row_executor.hpp"
 
 extern "C" const dss::Plugin* dss_plugin() {
-#ifdef __FMA__
-  constexpr bool has_fma = true;
-#else
-  constexpr bool has_fma = false;
-#endif
-  static constexpr dss::Plugin plugin{
-      dss::plugin_abi,          DSS_VARIANT,          DSS_ISA, has_fma, true, false,
-      dss::create_row_executor, dss::compiled_kernels};
+  static constexpr dss::Plugin plugin{.abi = dss::plugin_abi,
+                                      .name = DSS_VARIANT,
+                                      .isa = DSS_ISA,
+                                      .has_fma = dss::simd::has_fma,
+                                      .is_threaded = true,
+                                      .is_distributed = false,
+                                      .create = dss::create_row_executor,
+                                      .kernels = dss::compiled_kernels};
   return &plugin;
 }

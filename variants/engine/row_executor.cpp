@@ -1,8 +1,8 @@
 #include "variants/engine/row_executor.hpp"
 
-#include "solver/numerics/denormals.hpp"
 #include "variants/api/tried_steps.hpp"
 #include "variants/engine/thread_team.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <algorithm>
 #include <atomic>

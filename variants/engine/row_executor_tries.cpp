@@ -1,7 +1,7 @@
 /// Adaptive steps of the row executor: tries them stage by stage and accepts them.
-#include "solver/numerics/denormals.hpp"
 #include "variants/engine/row_executor.hpp"
 #include "variants/engine/thread_team.hpp"
+#include "variants/isa/denormals.hpp"
 
 namespace dss {
 

@@ -2,6 +2,7 @@
 
 #include "variants/engine/wake.hpp"
 #include "variants/hybrid/clock.hpp"
+#include "variants/isa/architecture.hpp"
 
 #include <sched.h>
 
@@ -24,7 +25,7 @@ void Exchange::await(const Channel::Slot& slot, std::uint32_t number) const {
     if (found == number || is_stopped())
       return; // in this order: stop() changes the slot after the flag
     if (!is_crowded_ && spins < most_spins)
-      __builtin_ia32_pause();
+      isa::pause();
     else if (is_crowded_ && spins == 0)
       ::sched_yield();
     else

@@ -3,7 +3,7 @@
 #include "solver/error.hpp"
 #include "solver/io/program_files.hpp"
 #include "solver/nearest_name.hpp"
-#include "variants/loading/cpu_features.hpp"
+#include "variants/isa/cpu_features.hpp"
 #include "variants/loading/outside.hpp"
 
 #include <algorithm>

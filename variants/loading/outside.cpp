@@ -3,7 +3,7 @@
 #include "solver/error.hpp"
 #include "solver/json/object_node.hpp"
 #include "solver/json/parse.hpp"
-#include "variants/loading/cpu_features.hpp"
+#include "variants/isa/cpu_features.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,5 @@
 #include "solver/error.hpp"
+#include "variants/isa/architecture.hpp"
 #include "variants/mpi/transports.hpp"
 #include "variants/mpi/waiting.hpp"
 
@@ -129,7 +130,7 @@ private:
       if (is_crowded_ || spins > most_spins)
         ::sched_yield();
       else
-        __builtin_ia32_pause();
+        isa::pause();
     }
   }
 

@@ -1,6 +1,6 @@
 #include "variants/opencl/program.hpp"
 #include "solver/error.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 #include "variants/opencl/binary_cache.hpp"
 
 #include <chrono>

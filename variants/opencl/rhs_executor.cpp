@@ -1,9 +1,9 @@
 #include "variants/opencl/rhs_executor.hpp"
 
 #include "kernels/rk_update/update.hpp"
-#include "solver/numerics/denormals.hpp"
 #include "variants/api/tried_steps.hpp"
 #include "variants/engine/packs.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

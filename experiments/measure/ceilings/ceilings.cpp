@@ -3,6 +3,7 @@
 #include "experiments/base/cores.hpp"
 #include "experiments/measure/ceilings/own_ceilings.hpp"
 #include "experiments/measure/kernels/working_set.hpp"
+#include "variants/isa/instruction_set.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -15,19 +16,6 @@ namespace dss {
 namespace {
 
 constexpr double likwid_sample_s = 0.2, likwid_limit_s = 60;
-
-struct IsaNames {
-  const char *isa, *peak, *peak_single, *suffix; ///< names in likwid-bench
-  bool is_there;
-};
-/// Slowest first.
-std::vector<IsaNames> isas() {
-  return {{"scalar", "peakflops", "peakflops_sp", "", true},
-          {"avx2", "peakflops_avx_fma", "peakflops_sp_avx_fma", "_avx",
-           __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")},
-          {"avx512", "peakflops_avx512_fma", "peakflops_sp_avx512_fma", "_avx512",
-           __builtin_cpu_supports("avx512f") != 0}};
-}
 
 std::string likwid_bench() {
   for (const char* path : {"/usr/bin/likwid-bench", "/usr/local/bin/likwid-bench"})
@@ -84,11 +72,12 @@ void run_likwid(const std::string& program, Ceiling& ceiling) {
 void run_own(Ceiling& ceiling) {
   ceiling.tool = "own";
   ceiling.command = "dssbench bench --ceilings";
+  const InstructionSet& isa = instruction_set(ceiling.isa);
   try {
-    ceiling.per_s = ceiling.is_flops
-                        ? own_peak_flops(ceiling.isa, ceiling.precision, ceiling.threads)
-                        : own_bandwidth(ceiling.isa, ceiling.benchmark, ceiling.working_set_bytes,
-                                        ceiling.threads);
+    ceiling.per_s =
+        ceiling.is_flops
+            ? own_peak_flops(isa, ceiling.precision == "f64", ceiling.threads)
+            : own_bandwidth(isa, ceiling.benchmark, ceiling.working_set_bytes, ceiling.threads);
   } catch (const std::exception& error) {
     ceiling.per_s = std::nan("");
     ceiling.reason = error.what();
@@ -97,13 +86,13 @@ void run_own(Ceiling& ceiling) {
 
 std::vector<Ceiling> wanted(const std::vector<int>& threads) {
   std::vector<Ceiling> list;
-  IsaNames widest = isas().front();
-  for (const IsaNames& isa : isas()) {
-    if (!isa.is_there) continue;
+  InstructionSet widest = instruction_sets().front();
+  for (const InstructionSet& isa : instruction_sets()) {
+    if (!isa.is_here()) continue;
     widest = isa;
     for (const int count : threads)
       for (const bool is_single : {false, true})
-        list.push_back({true, is_single ? isa.peak_single : isa.peak, isa.isa,
+        list.push_back({true, is_single ? isa.peak_f32 : isa.peak_f64, isa.name,
                         is_single ? "f32" : "f64", "", working_set("L1", 1).bytes, count, 0,
                         "likwid-bench", "", ""});
   }
@@ -111,7 +100,7 @@ std::vector<Ceiling> wanted(const std::vector<int>& threads) {
     for (const int count : threads)
       for (const char* access : {"load", "copy", "triad"}) {
         const WorkingSet set = working_set(level, count);
-        list.push_back({false, std::string(access) + widest.suffix, widest.isa, "", level,
+        list.push_back({false, std::string(access) + widest.stream_suffix, widest.name, "", level,
                         set.bytes, count, std::nan(""), "likwid-bench", "", set.unusable});
       }
   return list;

@@ -2,9 +2,8 @@
 #include "experiments/base/child.hpp"
 #include "experiments/measure/kernels/kernel_work.hpp"
 #include "solver/error.hpp"
+#include "variants/isa/machine_code.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <csignal>
 #include <cstdlib>
 #include <dlfcn.h>
@@ -12,7 +11,6 @@
 #include <map>
 #include <sstream>
 #include <sys/ptrace.h>
-#include <sys/user.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -51,9 +49,8 @@ void step_to_stop(pid_t child, std::uint64_t base, std::uint64_t size, long sign
     if (WSTOPSIG(status) != SIGTRAP)
       throw InputError(
           fmt::format("instruction mix: the traced process got signal {}", WSTOPSIG(status)));
-    user_regs_struct registers{};
-    ::ptrace(PTRACE_GETREGS, child, nullptr, &registers);
-    if (registers.rip - base < size) executions[registers.rip - base] += sign;
+    const std::uint64_t address = program_counter(child) - base;
+    if (address < size) executions[address] += sign;
   }
 }
 
@@ -90,40 +87,6 @@ Executions trace(const CompiledKernel& kernel, std::uint64_t base, std::uint64_t
   return executions;
 }
 
-bool begins_with_any(const std::string& text, std::initializer_list<const char*> heads) {
-  return std::ranges::any_of(heads, [&](const char* head) { return text.starts_with(head); });
-}
-
-/// Counts one line of the disassembly, such as "vaddpd 0x40(%rsp),%zmm1,%zmm2".
-void count_instruction(const std::string& text, double count, InstructionMix& mix) {
-  std::istringstream words(text);
-  std::string operation, operands;
-  words >> operation >> operands;
-  const std::string name = operation.starts_with('v') ? operation.substr(1) : operation;
-  const bool is_floating =
-      name.ends_with("pd") || name.ends_with("ps") || name.ends_with("sd") || name.ends_with("ss");
-  if (begins_with_any(name, {"fmadd", "fmsub", "fnmadd", "fnmsub"}))
-    mix.fma += count;
-  else if (is_floating && begins_with_any(name, {"add", "sub", "max", "min"}))
-    mix.sums += count;
-  else if (is_floating && begins_with_any(name, {"mul", "div", "sqrt"}))
-    mix.products += count;
-  else if (begins_with_any(name, {"align", "perm", "shuf", "unpck", "palignr", "insertf",
-                                  "extractf", "movddup"}))
-    mix.shuffles += count;
-  else
-    mix.rest += count;
-  const bool is_memory = operands.find('(') != std::string::npos &&
-                         !begins_with_any(operation, {"lea", "nop", "prefetch"});
-  if (!is_memory) return;
-  const bool is_stack = operands.find("(%rsp") != std::string::npos;
-  const bool is_store =
-      operands.ends_with(')') && !begins_with_any(operation, {"cmp", "test", "ucomi", "comi"});
-  const bool is_load = !is_store || !begins_with_any(name, {"mov", "kmov"});
-  if (is_load) mix.loads += count, mix.stack_loads += is_stack ? count : 0;
-  if (is_store) mix.stores += count, mix.stack_stores += is_stack ? count : 0;
-}
-
 /// The disassembly of an address range of a module, one instruction per line.
 std::string disassembly(const std::string& module, std::uint64_t first, std::uint64_t last) {
   const ChildResult child = run_child("/usr/bin/env",
@@ -137,8 +100,8 @@ std::string disassembly(const std::string& module, std::uint64_t first, std::uin
 }
 
 InstructionMix looked_up(const std::string& module, const Executions& executions, double packs) {
-  constexpr std::uint64_t gap =
-      4096; // Distant functions are disassembled separately: a whole module takes seconds.
+  // Distant functions are disassembled separately: a whole module takes seconds.
+  constexpr std::uint64_t gap = 4096;
   InstructionMix mix;
   for (auto first = executions.begin(); first != executions.end();) {
     auto last = first;

@@ -1,8 +1,8 @@
 #pragma once
 /// Counts the instructions that a kernel executes. Counting shows what declared costs do not: moves
 /// between registers and the stack.
-#include "experiments/measure/ceilings/generated_code.hpp"
 #include "kernels/compiled_kernel.hpp"
+#include "variants/isa/instruction_mix.hpp"
 
 namespace dss {
 

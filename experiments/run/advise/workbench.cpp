@@ -2,9 +2,9 @@
 #include "experiments/run/advise/first_steps.hpp"
 #include "experiments/run/timed/adaptive_steps.hpp"
 #include "experiments/run/timed/breakdown.hpp"
-#include "solver/numerics/denormals.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
+#include "variants/isa/denormals.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>

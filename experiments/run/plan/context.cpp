@@ -2,7 +2,7 @@
 #include "experiments/base/build_info.hpp"
 #include "experiments/base/cores.hpp"
 #include "solver/io/atomic_file.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <CLI/Version.hpp>

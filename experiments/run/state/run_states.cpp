@@ -2,8 +2,8 @@
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/breakdown.hpp"
-#include "solver/numerics/denormals.hpp"
 #include "solver/numerics/signal_rows.hpp"
+#include "variants/isa/denormals.hpp"
 
 namespace dss {
 

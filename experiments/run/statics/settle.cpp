@@ -4,9 +4,9 @@
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/breakdown.hpp"
 #include "solver/error.hpp"
-#include "solver/numerics/denormals.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <algorithm>
 #include <cmath>

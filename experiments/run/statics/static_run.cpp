@@ -8,9 +8,9 @@
 #include "solver/model/energy.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
-#include "solver/numerics/denormals.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/statics/held.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <chrono>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "experiments/run/timed/output.hpp"
 #include "experiments/run/timed/timed_run.hpp"
 #include "solver/model/energy.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/studies/chain/chain_study.hpp"
 #include "experiments/studies/chain/chain_table.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

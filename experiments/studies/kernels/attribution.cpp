@@ -5,6 +5,7 @@
 #include "experiments/measure/samples.hpp"
 #include "experiments/studies/kernels/timed_parts.hpp"
 #include "solver/error.hpp"
+#include "variants/api/message_order.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -28,9 +29,8 @@ struct RowPart {
   double bytes = 0; ///< an element
 };
 
-const char* ceiling_isa(const CompiledKernel& kernel) {
-  const int bytes = kernel.lanes * (kernel.precision == Precision::f64 ? 8 : 4);
-  return bytes == 64 ? "avx512" : bytes == 32 ? "avx2" : "scalar";
+const InstructionSet& isa_of(const CompiledKernel& kernel) {
+  return instruction_set_of(kernel.lanes, int(number_bytes(kernel.precision)));
 }
 
 const CompiledKernel& row_kernel(const Plugin& plugin, const AttributionCase& one, bool is_last) {
@@ -53,13 +53,14 @@ RowPart row_part(const Plugin& plugin, const AttributionCase& one, bool is_last,
   part.in_level = in_level.make();
   part.in_l1 = kernel_case(plugin, kernel, "L1", 1).make();
   part.bytes = in_level.bytes;
-  const std::string isa = ceiling_isa(kernel), precision{name(one.precision)};
+  const InstructionSet& isa = isa_of(kernel);
+  const bool is_double = one.precision == Precision::f64;
   try {
     part.mix = executed_mix(kernel);
-    part.as_executed = std::make_unique<GeneratedMix>(part.mix, isa, precision);
+    part.as_executed = std::make_unique<GeneratedMix>(part.mix, isa, is_double);
     InstructionMix lean = part.mix;
     lean.loads -= lean.stack_loads, lean.stores -= lean.stack_stores;
-    part.without_stack = std::make_unique<GeneratedMix>(lean, isa, precision);
+    part.without_stack = std::make_unique<GeneratedMix>(lean, isa, is_double);
   } catch (const InputError& error) {
     part.mix_missing = error.what();
   }
@@ -176,7 +177,7 @@ TimedParts parts_of(const AttributionCase& one, const MicroCase& step, MicroWork
   const CompiledKernel& kernel = *rows.front().kernel;
   const double lanes = kernel.lanes;
   const double peak_flops_a_pass =
-      peak_instructions * lanes * (ceiling_isa(kernel) == std::string_view("scalar") ? 1 : 2);
+      peak_instructions * lanes * (isa_of(kernel).is_scalar() ? 1 : 2);
   // Rows of n elements fill packs: what the rest of the last one costs is a step's, too.
   const double filled = one.n / (lanes * std::ceil(one.n / lanes));
   TimedParts parts;
@@ -248,8 +249,8 @@ std::vector<Record> attribute_step(const AttributionCase& one, int rounds, doubl
   std::vector<RowPart> rows;
   for (const bool is_last : {false, true})
     rows.push_back(row_part(plugin, one, is_last, step.level));
-  const std::string isa = ceiling_isa(*rows.front().kernel);
-  const GeneratedMix peak(peak_mix(isa == "scalar"), isa, std::string(name(one.precision)));
+  const InstructionSet& isa = isa_of(*rows.front().kernel);
+  const GeneratedMix peak(peak_mix(isa.is_scalar()), isa, one.precision == Precision::f64);
   TimedParts parts = parts_of(one, step, *steps, rows, peak);
   time_rounds(parts, rounds, sample_s);
   record_rounds(one, parts, raw);

@@ -2,6 +2,7 @@
 #include "experiments/base/statistics.hpp"
 #include "experiments/base/text_table.hpp"
 #include "experiments/measure/samples.hpp"
+#include "variants/isa/instruction_set.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +24,12 @@ const std::vector<std::string> kept_columns = {"cell",
                                                "flops_per_element",
                                                "bytes_per_element"};
 
-/// Of the variant's module, in the words of the ceilings; empty where none is measured.
-std::string isa_of_ceiling(const std::string& isa) {
-  for (const auto& [word, ceiling] :
-       std::initializer_list<std::pair<const char*, const char*>>{{"x86-64-v4", "avx512"},
-                                                                  {"x86-64-v3", "avx2"},
-                                                                  {"x86-64-v2", "scalar"},
-                                                                  {"OpenCL", "opencl"}})
-    if (isa.starts_with(word)) return ceiling;
+/// The instruction set of a module in the words of the ceilings; empty where none is measured.
+/// @param march  what the module says of itself
+std::string isa_of_ceiling(const std::string& march) {
+  if (march.starts_with("OpenCL")) return "opencl";
+  for (const InstructionSet& isa : instruction_sets())
+    if (isa.march == march) return isa.name;
   return "";
 }
 

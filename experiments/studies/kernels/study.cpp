@@ -4,7 +4,7 @@
 #include "experiments/run/plan/context.hpp"
 #include "experiments/studies/kernels/micro_study.hpp"
 #include "experiments/studies/kernels/micro_tables.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>

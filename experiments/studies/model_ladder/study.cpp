@@ -1,7 +1,7 @@
 #include "experiments/studies/study.hpp"
 #include "experiments/measure/cell.hpp"
 #include "experiments/studies/model_ladder/ladder_study.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "experiments/studies/study.hpp"
 #include "experiments/studies/stability/stability_study.hpp"
-#include "solver/numerics/denormals.hpp"
+#include "variants/isa/denormals.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,20 @@
 #pragma once
 /// What this CPU has of what a variant needs, asked before any of the variant's code runs.
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace dss {
 
-/// Every feature that a variant may need, as __builtin_cpu_supports names them.
+struct CpuFeature {
+  const char* name;
+  bool (*is_there)();
+};
+/// All features of this architecture that can be checked. Defined in the architecture's folder.
+std::span<const CpuFeature> checked_cpu_features();
+
+/// Every feature that a variant may need.
 std::vector<std::string> cpu_features();
 
 /// First of the features, comma-separated, that this CPU lacks, or that DSSBENCH_HIDE_CPU_FEATURES
