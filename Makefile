@@ -11,7 +11,7 @@ export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
-.PHONY: verify-cpu verify-devices
+.PHONY: verify-cpu verify-devices test-aarch64
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -29,6 +29,14 @@ build: dependencies
 test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium universal-ctags
 test: build
 	@ctest --preset $(PRESET)
+
+# The same bits on another processor: cross-built, and run under an emulator.
+test-aarch64: TARGETS := --target dssbench
+test-aarch64: build
+	@./cmake/install_aarch64.sh
+	@cmake --preset aarch64 >/dev/null
+	@cmake --build --preset aarch64 --target dssbench
+	@/usr/bin/python3 tests/aarch64/aarch64_test.py $(BUILD) build/aarch64
 
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.
