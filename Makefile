@@ -34,7 +34,7 @@ test: build
 test-aarch64: TARGETS := --target dssbench
 test-aarch64: build
 	@./cmake/install_aarch64.sh
-	@cmake --preset aarch64 >/dev/null
+	@cmake --preset aarch64 --no-warn-unused-cli >/dev/null
 	@cmake --build --preset aarch64 --target dssbench
 	@/usr/bin/python3 tests/aarch64/aarch64_test.py $(BUILD) build/aarch64
 
