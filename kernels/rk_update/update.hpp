@@ -329,7 +329,5 @@ typename P::real update_apart(const RowTask<T>& task, T scale_of_turn, std::ptrd
   update(at, e, force, turn);
   return update.check.sum;
 }
-DSS_INLINE_BEGIN
 
 } // namespace dss
-DSS_INLINE_END

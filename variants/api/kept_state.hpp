@@ -1,7 +1,7 @@
 #pragma once
 /// Which numbers a method keeps of an element, in the order of StateTransfer::save and
-/// StateTransfer::restore. The order is the same for all executors, so that elements can move from one
-/// to another.
+/// StateTransfer::restore. The order is the same for all executors, so that elements can move from
+/// one to another.
 #include "kernels/fields.hpp"
 #include "kernels/model.hpp"
 #include "solver/numerics/method.hpp"

@@ -176,8 +176,7 @@ TimedParts parts_of(const AttributionCase& one, const MicroCase& step, MicroWork
   const Plugin& plugin = load_variant(one.variant);
   const CompiledKernel& kernel = *rows.front().kernel;
   const double lanes = kernel.lanes;
-  const double peak_flops_a_pass =
-      peak_instructions * lanes * (isa_of(kernel).is_scalar() ? 1 : 2);
+  const double peak_flops_a_pass = peak_instructions * lanes * (isa_of(kernel).is_scalar() ? 1 : 2);
   // Rows of n elements fill packs: what the rest of the last one costs is a step's, too.
   const double filled = one.n / (lanes * std::ceil(one.n / lanes));
   TimedParts parts;
