@@ -175,12 +175,14 @@ function(dss_test name)
   add_dependencies(${name} dss_all_variants)
   get_filename_component(kind ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(properties LABELS ${kind} ENVIRONMENT "${dss_test_environment}")
+  # On a busy machine, listing the tests of a fresh executable has taken over 5 s, the default.
+  set(discovery DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120)
   if(arg_TEAMS)
     gtest_discover_tests(${name} TEST_FILTER "${arg_TEAMS}" TEST_LIST ${name}_teams
-      PROPERTIES ${properties} PROCESSORS 2 DISCOVERY_MODE PRE_TEST)
+      PROPERTIES ${properties} PROCESSORS 2 ${discovery})
     set(others TEST_FILTER "-${arg_TEAMS}")
   endif()
-  gtest_discover_tests(${name} ${others} PROPERTIES ${properties} DISCOVERY_MODE PRE_TEST)
+  gtest_discover_tests(${name} ${others} PROPERTIES ${properties} ${discovery})
 endfunction()
 
 # dss_embed(TARGET FILES path...)
