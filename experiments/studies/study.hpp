@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace dss {
@@ -54,6 +55,34 @@ public:
   virtual StudyResult run(const StudyRun& how) = 0;
   /// True if the study itself writes raw/NAME.csv and the circumstances of these records.
   virtual bool keeps_records() const { return false; }
+};
+
+/// A study that makes one table. Its kind gives four functions: `read` (StudyFile -> its own type),
+/// `plan_of` (that -> text of the plan), `table_of` (that, or that and StudyRun -> Table),
+/// `text_of` (that and the table -> summary).
+template <auto read, auto plan_of, auto table_of, auto text_of>
+class TableStudy : public Study {
+public:
+  explicit TableStudy(const StudyFile& file) : study_(read(file)) {}
+
+  std::string plan(const StudyPaths&) const override { return plan_of(study_); }
+
+  StudyResult run(const StudyRun& how) override {
+    const Table table = made(how);
+    return result_of(study_.name, table, text_of(study_, table));
+  }
+
+private:
+  using Own = std::invoke_result_t<decltype(read), const StudyFile&>;
+
+  Table made([[maybe_unused]] const StudyRun& how) const {
+    if constexpr (std::is_invocable_v<decltype(table_of), const Own&, const StudyRun&>)
+      return table_of(study_, how);
+    else
+      return table_of(study_);
+  }
+
+  const Own study_;
 };
 
 /// A kind of study: the keys that it reads from a file, and its reader.

@@ -6,27 +6,19 @@
 namespace dss {
 namespace {
 
-class AdviceTrials : public Study {
-public:
-  explicit AdviceTrials(const StudyFile& file) : study_(read_advise(file)) {}
+std::string advise_plan(const AdviseStudy& study) {
+  return fmt::format("{}: advice on {} scenes at {} tolerances\n", study.name, study.cases.size(),
+                     study.tolerances.size());
+}
 
-  std::string plan(const StudyPaths&) const override {
-    return fmt::format("{}: advice on {} scenes at {} tolerances\n", study_.name,
-                       study_.cases.size(), study_.tolerances.size());
-  }
-
-  StudyResult run(const StudyRun& how) override {
-    const Table table = advise_table(study_, how.paths.oracle_directory, how.note());
-    return result_of(study_.name, table, advise_study_text(study_, table));
-  }
-
-private:
-  const AdviseStudy study_;
-};
+Table made_advise(const AdviseStudy& study, const StudyRun& how) {
+  return advise_table(study, how.paths.oracle_directory, how.note());
+}
 
 } // namespace
 
 extern const StudyKind advise_kind;
-const StudyKind advise_kind{"advise", read_study<AdviceTrials>};
+const StudyKind advise_kind{
+    "advise", read_study<TableStudy<read_advise, advise_plan, made_advise, advise_study_text>>};
 
 } // namespace dss

@@ -6,26 +6,14 @@
 namespace dss {
 namespace {
 
-class BalanceModel : public Study {
-public:
-  explicit BalanceModel(const StudyFile& file) : study_(read_balance(file)) {}
-
-  std::string plan(const StudyPaths&) const override {
-    return fmt::format("{}: {} rows of a model\n", study_.name, balance_table(study_).rows.size());
-  }
-
-  StudyResult run(const StudyRun&) override {
-    const Table table = balance_table(study_);
-    return result_of(study_.name, table, balance_text(study_, table));
-  }
-
-private:
-  const BalanceStudy study_;
-};
+std::string balance_plan(const BalanceStudy& study) {
+  return fmt::format("{}: {} rows of a model\n", study.name, balance_table(study).rows.size());
+}
 
 } // namespace
 
 extern const StudyKind balance_kind;
-const StudyKind balance_kind{"balance", read_study<BalanceModel>};
+const StudyKind balance_kind{
+    "balance", read_study<TableStudy<read_balance, balance_plan, balance_table, balance_text>>};
 
 } // namespace dss

@@ -8,31 +8,24 @@
 namespace dss {
 namespace {
 
-class ModelLadder : public Study {
-public:
-  explicit ModelLadder(const StudyFile& file) : study_(read_ladder(file)) {}
+std::string model_ladder_plan(const LadderStudy& study) {
+  std::string text;
+  for (const LadderScene& scene : study.scenes)
+    text += fmt::format("{}: {} {}, auto ends with {}\n", study.name, scene.scene,
+                        set_text(scene.set), name(scene.ends_with));
+  return text;
+}
 
-  std::string plan(const StudyPaths&) const override {
-    std::string text;
-    for (const LadderScene& scene : study_.scenes)
-      text += fmt::format("{}: {} {}, auto ends with {}\n", study_.name, scene.scene,
-                          set_text(scene.set), name(scene.ends_with));
-    return text;
-  }
-
-  StudyResult run(const StudyRun& how) override {
-    flush_denormals();
-    const Table table = ladder_table(study_, how.note());
-    return result_of(study_.name, table, ladder_text(study_, table));
-  }
-
-private:
-  const LadderStudy study_;
-};
+Table made_model_ladder(const LadderStudy& study, const StudyRun& how) {
+  flush_denormals();
+  return ladder_table(study, how.note());
+}
 
 } // namespace
 
 extern const StudyKind model_ladder_kind;
-const StudyKind model_ladder_kind{"model_ladder", read_study<ModelLadder>};
+const StudyKind model_ladder_kind{
+    "model_ladder",
+    read_study<TableStudy<read_ladder, model_ladder_plan, made_model_ladder, ladder_text>>};
 
 } // namespace dss
