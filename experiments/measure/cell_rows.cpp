@@ -11,14 +11,6 @@
 namespace dss {
 namespace {
 
-std::vector<double> numbers_of(const CellSample& sample, const char* column) {
-  std::vector<double> numbers;
-  for (const auto& [repetition, record] : sample.repetitions)
-    if (const double number = number_in(record, column); !std::isnan(number))
-      numbers.push_back(number);
-  return numbers;
-}
-
 std::string distinct_texts(const CellSample& sample, const char* column) {
   std::set<std::string> texts;
   for (const auto& [repetition, record] : sample.repetitions) texts.insert(text_in(record, column));

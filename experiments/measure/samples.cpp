@@ -45,6 +45,14 @@ double CellSample::check_error() const {
   return most;
 }
 
+std::vector<double> numbers_of(const CellSample& sample, const std::string& column) {
+  std::vector<double> numbers;
+  for (const auto& [repetition, record] : sample.repetitions)
+    if (const double number = number_in(record, column); !std::isnan(number))
+      numbers.push_back(number);
+  return numbers;
+}
+
 std::vector<CellSample> samples_of(const std::vector<Record>& records) {
   std::vector<CellSample> samples;
   std::map<std::string, std::size_t> places;

@@ -43,6 +43,9 @@ std::vector<CellSample> samples_of(const std::vector<Record>& records);
 /// Ratios a / b of the times per step, for the repetitions that both cells have.
 std::vector<double> paired_ratios(const CellSample& a, const CellSample& b);
 
+/// Numbers in a column, of the repetitions that have one.
+std::vector<double> numbers_of(const CellSample& sample, const std::string& column);
+
 /// Puts a median in COLUMN and the ends of its interval in COLUMN_low and COLUMN_high. Without an
 /// interval those two stay empty.
 void put_interval(Record& row, const std::string& column, const Estimate& estimate);

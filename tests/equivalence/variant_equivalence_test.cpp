@@ -4,6 +4,7 @@
 #include "solver/numerics/stability.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
+#include "variants/engine/kernel_set.hpp"
 
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -16,12 +17,6 @@ namespace {
 
 /// The two most common models, with every method.
 bool is_common(Model model) { return model == Model::spatial || model == Model::planar; }
-/// The models of this build.
-#ifdef DSS_FEWER_MODELS
-bool is_built(Model model) { return !descriptor(model).is_heavy; }
-#else
-bool is_built(Model) { return true; }
-#endif
 
 struct Case {
   std::string name;

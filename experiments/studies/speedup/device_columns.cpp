@@ -10,18 +10,12 @@
 namespace dss {
 namespace {
 
-/// Of the repetitions that have it; NaN without any.
-double median_of(const CellSample& sample, const std::string& column) {
-  std::vector<double> values;
-  for (const auto& [number, record] : sample.repetitions)
-    if (const double value = number_in(record, column); !std::isnan(value)) values.push_back(value);
-  return values.empty() ? std::nan("") : median(values);
-}
-
 /// Ceilings of the device, measured beside the runs.
 void put_ceilings(const CellSample& sample, Record& row) {
-  for (const char* column : {"triad_bytes_per_s", "peak_flops_per_s"})
-    row[column] = number_text(median_of(sample, column));
+  for (const char* column : {"triad_bytes_per_s", "peak_flops_per_s"}) {
+    const std::vector<double> numbers = numbers_of(sample, column);
+    row[column] = numbers.empty() ? "" : number_text(median(numbers));
+  }
 }
 
 /// Shares of what the device was measured to do at best.
