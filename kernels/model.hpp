@@ -49,8 +49,8 @@ struct ModelDescriptor {
   /// qx, qy, qz hold half of the rotation vector. Other parts of the program see the quaternions of
   /// these vectors.
   bool has_vectors = false;
-  bool is_linear =
-      false; ///< the equations of motion are linear in the state; loads may vary in time
+  /// The equations of motion are linear in the state. Loads may vary in time.
+  bool is_linear = false;
   bool is_common = false; ///< many runs use it, so that specialised code is worth its compile time
   bool is_heavy = false;  ///< takes longest to compile; builds with DSS_FEWER_MODELS leave it out
   RowFlops flops{};
