@@ -3,6 +3,8 @@
 /// scalar or for a pack of lanes.
 #include "kernels/model.hpp"
 #include "kernels/simd/simd.hpp"
+#include "kernels/stage_row/action_sets.hpp"
+#include "kernels/stage_row/row.hpp"
 
 DSS_INLINE_BEGIN
 namespace dss {
@@ -20,6 +22,8 @@ struct Terms {
   constexpr bool has_couples() const { return is_material || is_damped || is_bending; }
   /// True if forces depend on velocities. The leapfrog method then carries predicted velocities.
   constexpr bool is_velocity_dependent() const { return is_damped || is_gyroscopic || is_tied; }
+  /// True if all terms are compiled in that few scenes have.
+  constexpr bool is_full() const { return is_gyroscopic && is_tied; }
   constexpr bool operator==(const Terms&) const = default;
   constexpr bool covers(const Terms& need) const {
     return is_material == need.is_material && is_damped >= need.is_damped &&
@@ -27,89 +31,6 @@ struct Terms {
            is_tied >= need.is_tied && (is_material || is_oblong >= need.is_oblong);
   }
 };
-
-// The shared headers have no include guards, because each model includes them with its own algebra.
-#define REAL Real
-#define FMA(a, b, c) simd::fma(a, b, c)
-#define SPLAT(a) Real(a)
-
-/// The physics of a model over numbers of type Real.
-template <Model model, class Real>
-struct Physics;
-
-/// What a model's physics has besides the shared headers.
-template <Model model, class Real>
-struct PhysicsTraits {
-  using real = Real;
-  static constexpr int fields = int(descriptor(model).fields.size()), axes = descriptor(model).axes;
-  static constexpr bool is_common = descriptor(model).is_common;
-};
-
-// The order of the includes matters. end.h ends the words of the algebra.
-// clang-format off
-template <class Real>
-struct Physics<Model::spatial, Real> : PhysicsTraits<Model::spatial, Real> {
-#include "kernels/algebra/spatial.h"
-#include "kernels/laws.h"
-#define STRESS
-#include "kernels/stress/stress.h"
-#include "kernels/case_functions.h"
-#include "kernels/algebra/end.h"
-};
-template <class Real>
-struct Physics<Model::small, Real> : PhysicsTraits<Model::small, Real> {
-#include "kernels/algebra/small.h"
-#include "kernels/laws.h"
-#include "kernels/case_functions.h"
-#include "kernels/algebra/end.h"
-};
-template <class Real>
-struct Physics<Model::linear, Real> : PhysicsTraits<Model::linear, Real> {
-#include "kernels/algebra/linear.h"
-#include "kernels/laws.h"
-#include "kernels/case_functions.h"
-#include "kernels/algebra/end.h"
-};
-template <class Real>
-struct Physics<Model::bending, Real> : PhysicsTraits<Model::bending, Real> {
-#include "kernels/algebra/bending.h"
-#include "kernels/laws.h"
-#include "kernels/case_functions.h"
-#include "kernels/algebra/end.h"
-};
-template <class Real>
-struct Physics<Model::membrane, Real> : PhysicsTraits<Model::membrane, Real> {
-#include "kernels/algebra/membrane.h"
-#include "kernels/laws.h"
-#include "kernels/case_functions.h"
-#include "kernels/algebra/end.h"
-};
-template <class Real>
-struct Physics<Model::planar, Real> : PhysicsTraits<Model::planar, Real> {
-#include "kernels/algebra/planar.h"
-#include "kernels/laws.h"
-#include "kernels/case_functions.h"
-#include "kernels/algebra/end.h"
-};
-template <class Real>
-struct Physics<Model::axial, Real> : PhysicsTraits<Model::axial, Real> {
-#include "kernels/algebra/axial.h"
-#include "kernels/laws.h"
-#include "kernels/algebra/end.h"
-};
-// clang-format on
-
-#undef REAL
-#undef FMA
-#undef SPLAT
-
-/// Calls action.operator()<Physics>() with the physics of a model.
-template <class Real, class Action>
-void with_physics(Model model, Action&& action) {
-  for_each_model([&]<Model each>() {
-    if (each == model) action.template operator()<Physics<each, Real>>();
-  });
-}
 
 /// Calls visit(component) for each component of a vec, spin, rotor or element, in the order in
 /// which the fields are stored.
@@ -153,6 +74,77 @@ inline Tuple each_pair(const Tuple& a, const Tuple& b, Combine&& combine) {
     if constexpr (requires { a.z; }) r.z = combine(a.z, b.z);
   }
   return r;
+}
+
+// The shared headers have no include guards, because each model includes them with its own algebra.
+#define REAL Real
+#define FMA(a, b, c) simd::fma(a, b, c)
+#define SPLAT(a) Real(a)
+
+/// The physics of a model over numbers of type Real.
+template <Model model, class Real>
+struct Physics;
+
+/// What a model's physics has besides the shared headers.
+template <Model model, class Real>
+struct PhysicsTraits {
+  using real = Real;
+  static constexpr int fields = int(descriptor(model).fields.size()), axes = descriptor(model).axes,
+                       vec_size = descriptor(model).vec_size(),
+                       spin_size = int(descriptor(model).wrench.size()) - vec_size;
+  static constexpr bool is_common = descriptor(model).is_common;
+};
+
+// The order of the includes matters.
+// clang-format off
+template <class Real>
+struct Physics<Model::spatial, Real> : PhysicsTraits<Model::spatial, Real> {
+#include "kernels/algebra/spatial.h"
+#define STRESS
+#include "kernels/laws.hpp"
+};
+template <class Real>
+struct Physics<Model::small, Real> : PhysicsTraits<Model::small, Real> {
+#include "kernels/algebra/small.h"
+#include "kernels/laws.hpp"
+};
+template <class Real>
+struct Physics<Model::linear, Real> : PhysicsTraits<Model::linear, Real> {
+#include "kernels/algebra/linear.h"
+#include "kernels/laws.hpp"
+};
+template <class Real>
+struct Physics<Model::bending, Real> : PhysicsTraits<Model::bending, Real> {
+#include "kernels/algebra/bending.h"
+#include "kernels/laws.hpp"
+};
+template <class Real>
+struct Physics<Model::membrane, Real> : PhysicsTraits<Model::membrane, Real> {
+#include "kernels/algebra/membrane.h"
+#include "kernels/laws.hpp"
+};
+template <class Real>
+struct Physics<Model::planar, Real> : PhysicsTraits<Model::planar, Real> {
+#include "kernels/algebra/planar.h"
+#include "kernels/laws.hpp"
+};
+template <class Real>
+struct Physics<Model::axial, Real> : PhysicsTraits<Model::axial, Real> {
+#include "kernels/algebra/axial.h"
+#include "kernels/laws.hpp"
+};
+// clang-format on
+
+#undef REAL
+#undef FMA
+#undef SPLAT
+
+/// Calls action.operator()<Physics>() with the physics of a model.
+template <class Real, class Action>
+void with_physics(Model model, Action&& action) {
+  for_each_model([&]<Model each>() {
+    if (each == model) action.template operator()<Physics<each, Real>>();
+  });
 }
 
 } // namespace dss

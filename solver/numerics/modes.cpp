@@ -1,9 +1,9 @@
 #include "solver/numerics/modes.hpp"
+#include "solver/numerics/dense_eigen.hpp"
 #include "solver/numerics/linearised.hpp"
 #include "solver/numerics/step_growth.hpp"
-#include "solver/numerics/symmetric_eigen.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -132,7 +132,7 @@ Eigen::VectorXcd roots_of(const Coupled& piece) {
   matrix.topRightCorner(size, size).diagonal().setConstant(omega);
   matrix.bottomLeftCorner(size, size) = -piece.k / omega;
   matrix.bottomRightCorner(size, size) = -piece.c;
-  return matrix.eigenvalues();
+  return eigenvalues(matrix);
 }
 
 /// Eigenvector of lambda^2 x + lambda C x + K x = 0, by inverse iteration.

@@ -1,6 +1,6 @@
 #include "solver/numerics/spectrum.hpp"
+#include "solver/numerics/dense_eigen.hpp"
 #include "solver/numerics/linearised.hpp"
-#include "solver/numerics/symmetric_eigen.hpp"
 
 #include <array>
 #include <cmath>

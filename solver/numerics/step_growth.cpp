@@ -1,6 +1,6 @@
 #include "solver/numerics/step_growth.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "solver/numerics/dense_eigen.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,16 +92,15 @@ double spectral_radius(const Method& method, double h, double omega, double rate
   case Method::Family::leapfrog: {
     // One step of (x, h v_half, h p), with h^2 a = -stiffness x - damping h p.
     const double s = method.smoothing, of_acceleration = 1 + (1 - s) / 2;
-    // Dynamic size as in modes.cpp: solvers of other sizes take seconds to compile.
     Eigen::MatrixXd step(3, 3);
     step << 1 - stiffness, 1, -damping, -stiffness, 1, -damping, -of_acceleration * stiffness,
         1 - s, s - of_acceleration * damping;
-    return step.eigenvalues().cwiseAbs().maxCoeff();
+    return spectral_radius(step);
   }
   case Method::Family::symplectic_euler: {
     Eigen::MatrixXd step(2, 2); // of (x, h v)
     step << 1 - stiffness, 1 - damping, -stiffness, 1 - damping;
-    return step.eigenvalues().cwiseAbs().maxCoeff();
+    return spectral_radius(step);
   }
   case Method::Family::implicit_midpoint:
     return 1; // at most 1, for every mode that no load excites

@@ -1,5 +1,6 @@
 #include "solver/reference/coordinates.hpp"
 
+#include "solver/reference/real_types.hpp"
 #include "solver/reference/rotation_vector.hpp"
 #include "solver/reference/tait_bryan.hpp"
 
@@ -102,8 +103,8 @@ void Coordinates<T>::reframe(std::size_t e, Orientation<T>& c) {
   if (has_bases() && std::abs(c.v.y()) > T(largest_middle_angle)) c = write(e, read(e, c));
 }
 
-template class Coordinates<float>;
-template class Coordinates<double>;
-template class Coordinates<long double>;
+#define DSS_INSTANTIATE(T) template class Coordinates<T>;
+DSS_EACH_REAL(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
 
 } // namespace dss::reference

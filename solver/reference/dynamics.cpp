@@ -1,6 +1,7 @@
 #include "solver/reference/dynamics.hpp"
 
 #include "solver/reference/linearised_law.hpp"
+#include "solver/reference/real_types.hpp"
 #include "solver/reference/small_law.hpp"
 
 #include <algorithm>
@@ -239,11 +240,10 @@ std::size_t Dynamics<T>::bytes() const {
          coordinates_.bytes();
 }
 
-template class Dynamics<float>;
-template class Dynamics<double>;
-template class Dynamics<long double>;
-template Motion<float> motion_of(const float*);
-template Motion<double> motion_of(const double*);
-template Motion<long double> motion_of(const long double*);
+#define DSS_INSTANTIATE(T)                                                                         \
+  template class Dynamics<T>;                                                                      \
+  template Motion<T> motion_of(const T*);
+DSS_EACH_REAL(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
 
 } // namespace dss::reference

@@ -1,6 +1,7 @@
 #include "solver/reference/implicit_midpoint.hpp"
 
 #include "solver/reference/colouring.hpp"
+#include "solver/reference/real_types.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -229,8 +230,8 @@ std::size_t ImplicitMidpoint<T>::bytes() const {
          of_factors * (sizeof(double) + sizeof(int));
 }
 
-template class ImplicitMidpoint<float>;
-template class ImplicitMidpoint<double>;
-template class ImplicitMidpoint<long double>;
+#define DSS_INSTANTIATE(T) template class ImplicitMidpoint<T>;
+DSS_EACH_REAL(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
 
 } // namespace dss::reference

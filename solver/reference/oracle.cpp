@@ -2,6 +2,7 @@
 
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/implicit_midpoint.hpp"
+#include "solver/reference/real_types.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -267,8 +268,8 @@ std::size_t Oracle<T>::bytes() const {
          (implicit_ ? implicit_->bytes() : 0);
 }
 
-template class Oracle<float>;
-template class Oracle<double>;
-template class Oracle<long double>;
+#define DSS_INSTANTIATE(T) template class Oracle<T>;
+DSS_EACH_REAL(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
 
 } // namespace dss

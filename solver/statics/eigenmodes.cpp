@@ -1,6 +1,6 @@
 #include "solver/statics/eigenmodes.hpp"
 #include "solver/error.hpp"
-#include "solver/numerics/symmetric_eigen.hpp"
+#include "solver/numerics/dense_eigen.hpp"
 #include "solver/statics/sparse_solver.hpp"
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #include "solver/statics/held.hpp"
+#include "solver/numerics/dense_eigen.hpp"
 #include "solver/numerics/linearised.hpp"
-#include "solver/numerics/symmetric_eigen.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>

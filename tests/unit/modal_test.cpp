@@ -1,10 +1,11 @@
 #include "solver/error.hpp"
+#include "solver/numerics/dense_eigen.hpp"
 #include "solver/numerics/spectrum.hpp"
 #include "solver/statics/equilibrium.hpp"
 #include "solver/statics/modal.hpp"
 #include "tests/fixtures/problems.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +18,10 @@ Eigen::MatrixXd whole(const SparseMatrix& lower) {
 }
 
 Eigen::VectorXd all_values(const SparseMatrix& stiffness, const SparseMatrix& mass) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(whole(stiffness), whole(mass))
-      .eigenvalues();
+  // K x = omega^2 M x with M = L L^T has the eigenvalues of L^-1 K L^-T.
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(whole(mass));
+  const Eigen::MatrixXd half = cholesky.matrixL().solve(whole(stiffness));
+  return SymmetricEigen(cholesky.matrixL().solve(half.transpose())).values;
 }
 
 Problem held_block(LinkLaw law) {

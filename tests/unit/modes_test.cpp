@@ -1,5 +1,6 @@
 /// Exact step limits of small problems, against step matrices built from the oracle. Methods are
 /// shipped ones and others.
+#include "solver/numerics/dense_eigen.hpp"
 #include "solver/numerics/stability.hpp"
 #include "tests/fixtures/linear_motion.hpp"
 #include "tests/fixtures/methods.hpp"
@@ -58,8 +59,8 @@ std::vector<Problem> small_problems() {
 
 /// Spectral radius of a step on the problem, linearised by differences of the oracle.
 double radius(const Problem& problem, const Method& method, double h) {
-  return fixture::spectral_radius(fixture::step_matrix(
-      fixture::linearised(problem, true), fixture::linearised(problem, false), method, h));
+  return spectral_radius(fixture::step_matrix(fixture::linearised(problem, true),
+                                              fixture::linearised(problem, false), method, h));
 }
 
 TEST(ExactLimit, is_where_an_eigenvalue_of_the_whole_step_matrix_leaves_the_unit_circle) {

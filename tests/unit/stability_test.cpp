@@ -1,3 +1,4 @@
+#include "solver/numerics/dense_eigen.hpp"
 #include "solver/numerics/spectrum.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
@@ -5,7 +6,6 @@
 #include "tests/fixtures/methods.hpp"
 #include "tests/fixtures/problems.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using fixture::verlet;
 
 /// Largest eigenvalue over the free degrees of freedom. The rows of clamped ones are already zero.
 double largest_eigenvalue(const Eigen::MatrixXd& matrix) {
-  return matrix.eigenvalues().real().maxCoeff();
+  return eigenvalues(matrix).real().maxCoeff();
 }
 
 std::vector<Problem> spectra() {

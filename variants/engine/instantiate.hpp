@@ -19,20 +19,27 @@ struct RowKernels {
   static constexpr int leapfrog_fields = P::fields + half_velocities;
   static constexpr bool has_packs = simd::lanes<T> != 1;
 
-  // Common actions have a function of their own. All other actions share one, as do all actions of
-  // rare models in single precision or without packs: one function for each would multiply the
-  // code. The shared function is slower: it branches for each pack and looks up the distance
-  // between packs (README.md).
+  // How much of a row is compiled for one action alone, at the expense of compile time. What the
+  // rest loses is in README.md.
+  static constexpr bool is_single = sizeof(T) == sizeof(float);
+  /// A function for each common action. The other rows have one for all, which branches for each
+  /// pack and looks up the distance between packs.
+  static constexpr bool has_own_functions =
+      is_single ? P::is_common && has_packs && !terms.is_full() : P::is_common || has_packs;
+  /// All other actions in line. The other rows call a function for each pack.
+  static constexpr int other_actions =
+      P::is_common && terms.is_damped && !terms.is_oblong && !terms.is_full() ? rare_action
+                                                                              : called_action;
   static constexpr int in_place = half_velocities > 0 ? predicted_step : leapfrog_step;
   template <int action, int fields>
   DSS_FLATTEN static bool run_stage(const RowTask<T>& task) {
     const StageRow<P, T, terms, fields> row{task};
     RowUpdate<P, T, simd::lanes<T>, action> update(task, row.turn_scale());
     row.run(update);
-    return update.check.passed();
+    return update.is_finite();
   }
   static bool stage(const RowTask<T>& task) {
-    if constexpr (P::is_common || (sizeof(T) == sizeof(double) && has_packs)) {
+    if constexpr (has_own_functions) {
       switch (task.action) {
       case plain_stage:
         return run_stage<plain_stage, P::fields>(task);
@@ -41,15 +48,15 @@ struct RowKernels {
       case in_place:
         return run_stage<in_place, leapfrog_fields>(task);
       case kept_stage:
-        if constexpr (sizeof(T) == sizeof(float)) return run_stage<kept_stage, 2 * P::fields>(task);
+        if constexpr (is_single) return run_stage<kept_stage, 2 * P::fields>(task);
         break;
       case kept_step:
-        if constexpr (sizeof(T) == sizeof(float)) return run_stage<kept_step, 2 * P::fields>(task);
+        if constexpr (is_single) return run_stage<kept_step, 2 * P::fields>(task);
         break;
       default:
         break;
       }
-      return run_stage<rare_action, any_fields>(task);
+      return run_stage<other_actions, any_fields>(task);
     }
     return run_stage<any_action, any_fields>(task);
   }

@@ -25,8 +25,7 @@ inline constexpr std::array compiled_terms{
 /// (README.md).
 constexpr bool is_compiled(Model model, const Terms& terms) {
   if (model == Model::spatial || model == Model::planar) return true;
-  const bool is_full = terms.is_gyroscopic && terms.is_tied;
-  return is_full || terms.is_material || !terms.is_oblong;
+  return terms.is_full() || terms.is_material || !terms.is_oblong;
 }
 
 /// How much memory an element of a row needs, as its terms require.

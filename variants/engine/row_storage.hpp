@@ -1,12 +1,15 @@
 #pragma once
-/// Which numbers of an element a row of the state holds. The rows of stages hold the same.
+/// What a method keeps in the rows of a state, and what its stages do with them.
 #include "kernels/model.hpp"
 #include "solver/numerics/method.hpp"
 #include "variants/engine/packed_rows.hpp"
 
+#include <cstddef>
+
 namespace dss {
 
-/// A pack holds, in this order:
+/// Which numbers of an element a row of the state holds. The rows of stages hold the same. A pack
+/// holds, in this order:
 /// 1. the fields of the model;
 /// 2. if the method is staggered and forces depend on velocities: the velocities of the half step
 /// (those among the fields are then predictions);
@@ -26,5 +29,19 @@ struct RowStorage {
   bool is_predicted() const { return half_velocities > 0; }
   bool is_compensated() const { return lows > 0; }
 };
+
+/// The action of a stage with a number of increments (stages whose outputs it reads).
+inline row_action action_of(const Method& method, const RowStorage& storage, std::size_t increments,
+                            bool is_last) {
+  const bool is_kept = storage.is_compensated();
+  if (method.has_error_stage && is_last) return is_kept ? kept_error : error_stage;
+  if (method.has_error_stage) is_last = false; // a tried step is not accepted yet
+  if (method.is_in_place()) {
+    if (storage.is_predicted()) return is_kept ? kept_predicted : predicted_step;
+    return is_kept ? kept_leapfrog : leapfrog_step;
+  }
+  if (is_kept) return is_last ? kept_step : kept_stage;
+  return increments == 0 ? plain_stage : increments <= 3 ? combined_stage : wide_stage;
+}
 
 } // namespace dss

@@ -45,19 +45,6 @@ int steps_a_pass(const PackedRows<T, W>& packed, const Method& method,
   return steps;
 }
 
-static row_action action_of(const Method& method, const RowStorage& storage, std::size_t increments,
-                            bool is_last) {
-  const bool is_kept = storage.is_compensated();
-  if (method.has_error_stage && is_last) return is_kept ? kept_error : error_stage;
-  if (method.has_error_stage) is_last = false; // a tried step is not accepted yet
-  if (method.is_in_place()) {
-    if (storage.is_predicted()) return is_kept ? kept_predicted : predicted_step;
-    return is_kept ? kept_leapfrog : leapfrog_step;
-  }
-  if (is_kept) return is_last ? kept_step : kept_stage;
-  return increments == 0 ? plain_stage : increments <= 3 ? combined_stage : wide_stage;
-}
-
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage,
                                           int lanes, double dt) {

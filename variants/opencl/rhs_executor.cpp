@@ -139,7 +139,7 @@ int RhsExecutor<T, W>::update_stage(int stage) {
                                   lane % W); // the sums lie in the place of the rates
       update(at, element_at(in + at), sum.v, sum.w);
     }
-    return update.check.passed() || !packed_.first_failed(r, row(r), rows_.stored_fields());
+    return update.is_finite() || !packed_.first_failed(r, row(r), rows_.stored_fields());
   });
 }
 

@@ -73,7 +73,7 @@ std::string head(const ProgramKind& kind, bool has_items) {
   std::string text = is_f64 ? "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n" : "";
   text += fmt::format(
       "#pragma OPENCL FP_CONTRACT OFF\n#define NUMBER {}\n#define W {}\n#define ALL_LANES {}u\n"
-      "#define FMA(a, b, c) fma(a, b, c)\n"
+      "#define FMA(a, b, c) fma(a, b, c)\n#define GLOBAL global\n"
       // Structs of packs must stay in registers.
       "#undef inline\n#define inline inline __attribute__((always_inline))\n",
       is_f64 ? "double" : "float", kind.lanes, (1u << kind.lanes) - 1);
@@ -85,8 +85,8 @@ std::string head(const ProgramKind& kind, bool has_items) {
   text += model_words(kind.model) + text_of(fmt::format("kernels/algebra/{}.h", name(kind.model))) +
           text_of("kernels/laws.h");
   text += text_of("kernels/stage_row/row_action.h");
-  for (const char* file : {"tables.h", "tables_of_device.h", "tuples.cl"})
-    text += device_text(file);
+  text += device_text("tables.h") + device_text("tables_of_device.h") +
+          text_of("kernels/algebra/memory.h") + device_text("tuples.cl");
   return text;
 }
 
@@ -99,7 +99,7 @@ std::string row_program(const ProgramKind& kind) {
     actions += fmt::format(" | ((action) == {})", int(action));
   text += fmt::format("#define HAS(action) ((0{}) != 0)\n", actions);
   if (!kind.has_items) text += device_text("shifts_of_vectors.cl");
-  text += device_text("row_update.cl");
+  text += text_of("kernels/rk_update/row_update.h");
   std::string cases;
   for (std::size_t n = 0; n < kind.terms.size(); ++n) {
     const Terms& t = kind.terms[n];

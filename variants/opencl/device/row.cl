@@ -79,6 +79,9 @@ static inline REAL NAME(update)(device d, global const row_stage* task,
   spin angular = turn(sum.moment, i.e, spin_splat(body->inertia), spin_splat(body->inverse_inertia),
                       FLAGS.is_gyroscopic);
   if (is_applied) NAME(hold)(d, task, pack, &sum.force, &angular);
-  return row_update(d, task, place, i.e, sum.force, SPLAT(body->inverse_mass), angular,
-                    SPLAT(FLAGS.is_gyroscopic ? 1 : body->inverse_inertia[2]), check);
+  const device_row row = {d.arena, task};
+  const row_update u =
+      update_of_row(row, task->beta * d.step, body->inverse_mass,
+                    FLAGS.is_gyroscopic ? 1 : body->inverse_inertia[2]);
+  return updated(u, place, i.e, sum.force, angular, check);
 }

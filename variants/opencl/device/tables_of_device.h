@@ -17,3 +17,14 @@ typedef struct {
       global const ushort *restrict free_lanes, const NUMBER step_length
 #define DEVICE                                                                                     \
   { arena, tasks, bodies, masks, applied, patterns, free_lanes, step_length }
+
+/* A row of a device, in the words of kernels/rk_update/row_update.h. */
+typedef struct {
+  global NUMBER* arena;
+  global const row_stage* task;
+} device_row;
+#define ROW device_row
+#define TASK(row) ((row).task)
+#define PLACE(row, p) ((row).arena + (p))
+/* HAS(action) is constant: whether rows of this program have the action. */
+#define IF_ACTION(u, a) if (HAS(a) && (u).action == (a))

@@ -1,4 +1,4 @@
-#include "solver/numerics/symmetric_eigen.hpp"
+#include "solver/numerics/dense_eigen.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -16,6 +16,11 @@ SymmetricEigen::SymmetricEigen(const Eigen::VectorXd& diagonal,
   Solver solved;
   solved.computeFromTridiagonal(diagonal, off_diagonal);
   values = solved.eigenvalues(), vectors = solved.eigenvectors();
+}
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) { return matrix.eigenvalues(); }
+double spectral_radius(const Eigen::MatrixXd& matrix) {
+  return eigenvalues(matrix).cwiseAbs().maxCoeff();
 }
 
 } // namespace dss

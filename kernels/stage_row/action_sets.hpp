@@ -1,0 +1,40 @@
+#pragma once
+/// Which actions a compiled row has. The rare ones would be most of a row's code and of its compile
+/// time if they were inlined everywhere. So most rows call one noinline function for them
+/// (apart_action), which the rows of all terms share.
+#include "kernels/stage_row/row.hpp"
+
+namespace dss {
+
+/// A single action, or one of these sets.
+enum ActionSet : int {
+  any_action = -1,    ///< all: common ones inlined, rare ones called
+  rare_action = -2,   ///< all without a function of their own in common rows, inlined
+  called_action = -3, ///< the same, called
+  apart_action = -4,  ///< the function that is called
+};
+
+/// True for actions that few runs use. A new action is rare.
+constexpr bool is_rare(row_action action) {
+  return action != plain_stage && action != combined_stage && action != leapfrog_step &&
+         action != predicted_step;
+}
+/// True if compensated sums are made. Double precision needs no low parts.
+constexpr bool is_kept(row_action action) {
+  return action == kept_stage || action == kept_step || action == kept_leapfrog ||
+         action == kept_predicted || action == kept_error;
+}
+/// True if rows of a set have the code of an action in line.
+template <class T>
+constexpr bool has_action(int set, row_action action) {
+  if (action == bare_rates || (is_kept(action) && sizeof(T) > sizeof(float))) return false;
+  if (set == any_action) return !is_rare(action);
+  if (set == called_action) return false;
+  if (set == apart_action) return action != plain_stage && action != combined_stage;
+  if (set == rare_action)
+    return action != plain_stage && action != combined_stage && action != kept_stage &&
+           action != kept_step;
+  return action == set;
+}
+
+} // namespace dss
