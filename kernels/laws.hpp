@@ -1,5 +1,6 @@
-/// The rest of a model's physics in C++, after its algebra (physics.hpp). No include guard: each
-/// model includes it. The order of the includes matters.
+/// The rest of a model's physics in C++, after its algebra (physics.hpp). It ends the algebra, so
+/// that the next model can begin. No include guard: each model includes it. The order of the
+/// includes matters. The axial model has no cases.
 // clang-format off
 #include "kernels/laws.h"
 #ifdef STRESS
@@ -18,7 +19,7 @@ struct Update {
 #define GLOBAL
 #define LOAD(p) simd::load(p)
 #define STORE(v, p) simd::store(p, v)
-#define STORE_EARLY(v, p) simd::store(p, v)
+#define STORE_EARLY(v, p) STORE(v, p)
 #define STORE_LATE(v, p) (void)0
 #define EACH_OF_VEC(act, t)                                                                        \
   each_component(t, [&]([[maybe_unused]] REAL& component) { act(component) });
@@ -30,9 +31,9 @@ struct Update {
 #define ROW const RowTask<T>*
 #define TASK(row) (row)
 #define PLACE(row, p) (p)
-#define IF_ACTION(u, which)                                                                        \
+#define IF_ACTION(k, which)                                                                        \
   if constexpr (has_action<T>(fixed_action, which))                                                \
-    if (fixed_action == (which) || (u).action == (which))
+    if (fixed_action == (which) || (k).action == (which))
 #include "kernels/algebra/memory.h"
 #include "kernels/rk_update/row_update.h"
 #undef NUMBER
@@ -51,5 +52,10 @@ struct Update {
 #undef TASK
 #undef PLACE
 #undef IF_ACTION
+#undef V_AT
+#undef Q_AT
+#undef W_AT
+#undef V_HALF_AT
+#undef W_HALF_AT
 };
 #include "kernels/algebra/end.h"

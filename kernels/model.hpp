@@ -61,6 +61,8 @@ struct ModelDescriptor {
     for (const int component : wrench) size += component < 3;
     return size;
   }
+  /// Number of wrench components that are moments.
+  constexpr int spin_size() const { return int(wrench.size()) - vec_size(); }
 };
 
 namespace model_parts {

@@ -22,7 +22,7 @@ struct Terms {
   constexpr bool has_couples() const { return is_material || is_damped || is_bending; }
   /// True if forces depend on velocities. The leapfrog method then carries predicted velocities.
   constexpr bool is_velocity_dependent() const { return is_damped || is_gyroscopic || is_tied; }
-  /// True if all terms are compiled in that few scenes have.
+  /// True for rows with the terms that few scenes have.
   constexpr bool is_full() const { return is_gyroscopic && is_tied; }
   constexpr bool operator==(const Terms&) const = default;
   constexpr bool covers(const Terms& need) const {
@@ -47,15 +47,6 @@ constexpr void each_component(Tuple& t, Visit&& visit) {
     if constexpr (requires { t.y; }) visit(t.y);
     if constexpr (requires { t.z; }) visit(t.z);
   }
-}
-
-/// Number of components of a vec, spin, rotor or element.
-template <class Tuple>
-constexpr int component_count() {
-  Tuple t{};
-  int n = 0;
-  each_component(t, [&](auto&) { ++n; });
-  return n;
 }
 
 /// Returns combine(a, b), component by component.
@@ -91,7 +82,7 @@ struct PhysicsTraits {
   using real = Real;
   static constexpr int fields = int(descriptor(model).fields.size()), axes = descriptor(model).axes,
                        vec_size = descriptor(model).vec_size(),
-                       spin_size = int(descriptor(model).wrench.size()) - vec_size;
+                       spin_size = descriptor(model).spin_size();
   static constexpr bool is_common = descriptor(model).is_common;
 };
 

@@ -24,17 +24,16 @@ public:
 
   /// @param turn_scale  w' divided by turn (kernels/motion/motion.h)
   RowUpdate(const RowTask<T>& task, T turn_scale)
-      : task_(task), turn_scale_(turn_scale),
-        update_(Update::update_of_row(&task, task.beta, task.body->inverse_mass, turn_scale)) {}
+      : constants_(Update::update_of_row(&task, task.beta, task.body->inverse_mass, turn_scale)) {}
 
   /// @param at  offset of the pack in its row
   void operator()(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
-    if constexpr (fixed_action == any_action || fixed_action == called_action)
-      if (fixed_action == called_action || is_rare(task_.action)) {
+    if constexpr (fixed_action == any_action || fixed_action == rest_called)
+      if (fixed_action == rest_called || is_rare(constants_.row->action)) {
         check_ = check_ + act_apart(at, e, force, turn);
         return;
       }
-    check_ = Update::updated(update_, at, e, force, turn, check_);
+    check_ = Update::updated(constants_, at, e, force, turn, check_);
   }
   /// 0, or NaN if a result that must be finite is not.
   R check() const { return check_; }
@@ -46,12 +45,10 @@ private:
   /// Passed by value: taking an address would force the operands into memory for common actions
   /// too.
   R act_apart(std::ptrdiff_t at, element e, vec force, spin turn) const {
-    return update_apart<P, T, W>(task_, turn_scale_, at, e, force, turn);
+    return update_apart<P, T, W>(*constants_.row, constants_.turn_scale, at, e, force, turn);
   }
 
-  const RowTask<T>& task_;
-  const T turn_scale_;
-  typename Update::row_update update_;
+  const typename Update::row_update constants_;
   R check_ = R(T(0));
 };
 

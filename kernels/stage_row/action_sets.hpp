@@ -6,12 +6,13 @@
 
 namespace dss {
 
-/// A single action, or one of these sets.
+/// Values of `fixed_action` besides a single action. The rest are the actions without a function of
+/// their own in common rows.
 enum ActionSet : int {
-  any_action = -1,    ///< all: common ones inlined, rare ones called
-  rare_action = -2,   ///< all without a function of their own in common rows, inlined
-  called_action = -3, ///< the same, called
-  apart_action = -4,  ///< the function that is called
+  any_action = -1,   ///< all: common ones in line, rare ones called
+  rest_in_line = -2, ///< the rest, in line
+  rest_called = -3,  ///< the rest, called
+  apart_action = -4, ///< the function that is called
 };
 
 /// True for actions that few runs use. A new action is rare.
@@ -24,14 +25,16 @@ constexpr bool is_kept(row_action action) {
   return action == kept_stage || action == kept_step || action == kept_leapfrog ||
          action == kept_predicted || action == kept_error;
 }
-/// True if rows of a set have the code of an action in line.
+/// True if rows of a set (or of a single action) have the code of an action in line. Rows that hold
+/// predictions have a function of their own for predicted_step, or are of any_action.
 template <class T>
 constexpr bool has_action(int set, row_action action) {
   if (action == bare_rates || (is_kept(action) && sizeof(T) > sizeof(float))) return false;
   if (set == any_action) return !is_rare(action);
-  if (set == called_action) return false;
+  if (set == rest_called) return false;
+  if (action == predicted_step && (set == apart_action || set == rest_in_line)) return false;
   if (set == apart_action) return action != plain_stage && action != combined_stage;
-  if (set == rare_action)
+  if (set == rest_in_line)
     return action != plain_stage && action != combined_stage && action != kept_stage &&
            action != kept_step;
   return action == set;

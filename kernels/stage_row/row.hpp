@@ -66,7 +66,7 @@ struct RowTask {
   T* out = nullptr;
   T beta = 0;
   int increments = 0;
-  /// A combined stage with fewer than three repeats the first increment, with the ratio 0.
+  /// Unused places repeat the first increment, with the ratio 0.
   const T* increment[most_increments] = {};
   T alpha[most_increments] = {};
 };

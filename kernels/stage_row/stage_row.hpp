@@ -26,10 +26,9 @@ struct StageRow {
   using spin = typename P::spin;
   using rotor = typename P::rotor;
   static constexpr int W = simd::lanes<T>;
-  static constexpr int wrench_components = component_count<vec>() + component_count<spin>();
+  static constexpr int wrench_components = P::vec_size + P::spin_size;
   /// Scalars that a pack of link forces (and couples) takes in a carry buffer.
-  static constexpr int carry_size =
-      (terms.has_couples() ? wrench_components : component_count<vec>()) * W;
+  static constexpr int carry_size = (terms.has_couples() ? wrench_components : P::vec_size) * W;
 
   using prepared = typename P::prepared;
   using carried = typename P::carried;
@@ -108,7 +107,7 @@ struct StageRow {
   }
   prepared prepare(const T* p) const { return P::prepare(load_element(p), laws[0], flags); }
 
-  static constexpr int parked_size = is_parked ? 4 * component_count<vec>() * W : 1;
+  static constexpr int parked_size = is_parked ? 4 * P::vec_size * W : 1;
   static void park(T* p, const prepared& a) {
     store_all(p, a.pull);
     store_all(p, a.lower_x);

@@ -19,7 +19,7 @@ struct SymmetricEigen {
 
 /// Eigenvalues of a square matrix, in no order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
-/// Largest absolute value of them.
+/// Largest absolute value of the eigenvalues of a square matrix.
 double spectral_radius(const Eigen::MatrixXd& matrix);
 
 } // namespace dss

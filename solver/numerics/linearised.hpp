@@ -4,7 +4,7 @@
 /// rest.
 #include "solver/model/problem.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>

@@ -13,23 +13,21 @@ template <Model model, class T, Terms terms>
 struct RowKernels {
   using P = Physics<model, simd::Pack<T>>;
   static constexpr int half_velocities =
-      terms.is_velocity_dependent()
-          ? component_count<typename P::vec>() + component_count<typename P::spin>()
-          : 0;
+      terms.is_velocity_dependent() ? P::vec_size + P::spin_size : 0;
   static constexpr int leapfrog_fields = P::fields + half_velocities;
   static constexpr bool has_packs = simd::lanes<T> != 1;
 
-  // How much of a row is compiled for one action alone, at the expense of compile time. What the
-  // rest loses is in README.md.
+  // A function of its own for an action is faster, and costs compile time (README.md). Rows without
+  // such functions have one for all actions, which branches for each pack and looks up the distance
+  // between packs.
   static constexpr bool is_single = sizeof(T) == sizeof(float);
-  /// A function for each common action. The other rows have one for all, which branches for each
-  /// pack and looks up the distance between packs.
   static constexpr bool has_own_functions =
-      is_single ? P::is_common && has_packs && !terms.is_full() : P::is_common || has_packs;
-  /// All other actions in line. The other rows call a function for each pack.
-  static constexpr int other_actions =
-      P::is_common && terms.is_damped && !terms.is_oblong && !terms.is_full() ? rare_action
-                                                                              : called_action;
+      is_single ? P::is_common && !terms.is_full() : P::is_common || has_packs;
+  /// The rest of the actions: in line in common damped rows, else called for each pack.
+  static constexpr int rest = P::is_common && terms.is_damped && !terms.is_oblong &&
+                                      !terms.is_full() && (has_packs || !is_single)
+                                  ? rest_in_line
+                                  : rest_called;
   static constexpr int in_place = half_velocities > 0 ? predicted_step : leapfrog_step;
   template <int action, int fields>
   DSS_FLATTEN static bool run_stage(const RowTask<T>& task) {
@@ -48,15 +46,15 @@ struct RowKernels {
       case in_place:
         return run_stage<in_place, leapfrog_fields>(task);
       case kept_stage:
-        if constexpr (is_single) return run_stage<kept_stage, 2 * P::fields>(task);
+        if constexpr (is_single && has_packs) return run_stage<kept_stage, 2 * P::fields>(task);
         break;
       case kept_step:
-        if constexpr (is_single) return run_stage<kept_step, 2 * P::fields>(task);
+        if constexpr (is_single && has_packs) return run_stage<kept_step, 2 * P::fields>(task);
         break;
       default:
         break;
       }
-      return run_stage<other_actions, any_fields>(task);
+      return run_stage<rest, any_fields>(task);
     }
     return run_stage<any_action, any_fields>(task);
   }

@@ -68,7 +68,7 @@ struct RateScales {
   };
   Part parts[4];
   RateScales(const BodyConstants<T>& body, const ModelDescriptor& layout, bool is_gyroscopic) {
-    const int force = layout.vec_size(), turn = int(layout.wrench.size()) - force,
+    const int force = layout.vec_size(), turn = layout.spin_size(),
               rotor = int(layout.fields.size()) - 2 * force - turn;
     parts[0] = {force, T(1)};
     parts[1] = {force, body.inverse_mass};

@@ -63,9 +63,9 @@ std::string tuple_words(const ModelDescriptor& layout, std::string_view name, Fi
 std::string model_words(Model model) {
   const ModelDescriptor& layout = descriptor(model);
   return fmt::format("#define VEC_SIZE {}\n#define SPIN_SIZE {}\n#define FIELDS {}\n{}{}{}",
-                     layout.vec_size(), int(layout.wrench.size()) - layout.vec_size(),
-                     layout.fields.size(), tuple_words(layout, "VEC", ux, uz),
-                     tuple_words(layout, "ROTOR", qs, qz), tuple_words(layout, "SPIN", wx, wz));
+                     layout.vec_size(), layout.spin_size(), layout.fields.size(),
+                     tuple_words(layout, "VEC", ux, uz), tuple_words(layout, "ROTOR", qs, qz),
+                     tuple_words(layout, "SPIN", wx, wz));
 }
 
 std::string head(const ProgramKind& kind, bool has_items) {

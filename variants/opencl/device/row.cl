@@ -64,7 +64,7 @@ static inline void NAME(hold)(device d, global const row_stage* task, const int 
 
 /* From the sum over the links to the updated state of a pack.
  * @param place  offset of the pack's first field in its row
- * @return `check` plus a zero, or a number that is not zero if the result is not finite */
+ * @return `check` plus 0, or plus NaN if a result that must be finite is not */
 static inline REAL NAME(update)(device d, global const row_stage* task,
                                 global const NUMBER* signals, const int pack, const long place,
                                 prepared i, wrench sum, REAL check) {
@@ -80,8 +80,8 @@ static inline REAL NAME(update)(device d, global const row_stage* task,
                       FLAGS.is_gyroscopic);
   if (is_applied) NAME(hold)(d, task, pack, &sum.force, &angular);
   const device_row row = {d.arena, task};
-  const row_update u =
+  const row_update k =
       update_of_row(row, task->beta * d.step, body->inverse_mass,
                     FLAGS.is_gyroscopic ? 1 : body->inverse_inertia[2]);
-  return updated(u, place, i.e, sum.force, angular, check);
+  return updated(k, place, i.e, sum.force, angular, check);
 }

@@ -27,4 +27,4 @@ typedef struct {
 #define TASK(row) ((row).task)
 #define PLACE(row, p) ((row).arena + (p))
 /* HAS(action) is constant: whether rows of this program have the action. */
-#define IF_ACTION(u, a) if (HAS(a) && (u).action == (a))
+#define IF_ACTION(k, a) if (HAS(a) && (k).action == (a))

@@ -1,4 +1,4 @@
-/* Tuples of zeros, and of one number a component. The host defines COMPONENTS_OF_VEC(act) and
+/* Tuples with all components zero, or with one number in all lanes of each component. The host defines COMPONENTS_OF_VEC(act) and
  * COMPONENTS_OF_SPIN(act) besides the words of kernels/algebra/memory.h. */
 #define WRENCH_SIZE (VEC_SIZE + SPIN_SIZE)
 
