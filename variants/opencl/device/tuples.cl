@@ -1,5 +1,6 @@
-/* Tuples with all components zero, or with one number in all lanes of each component. The host defines COMPONENTS_OF_VEC(act) and
- * COMPONENTS_OF_SPIN(act) besides the words of kernels/algebra/memory.h. */
+/* Tuples with all components zero, or with one number in all lanes of each component. The host
+ * defines COMPONENTS_OF_VEC(act) and COMPONENTS_OF_SPIN(act) besides the words of
+ * kernels/algebra/memory.h. */
 #define WRENCH_SIZE (VEC_SIZE + SPIN_SIZE)
 
 static inline vec vec_zero(void) {
