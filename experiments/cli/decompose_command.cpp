@@ -1,12 +1,14 @@
 #include "experiments/base/text_table.hpp"
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
+#include "experiments/run/plan/names.hpp"
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <numeric>
 
@@ -161,10 +163,11 @@ void add_decompose_command(CLI::App& app, Chosen& chosen) {
   command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")
       ->required();
   CLI::Option* parts = command->add_option("--parts", arguments->parts, "Number of parts");
-  CLI::Option* method =
-      command
-          ->add_option("--method", arguments->method, "strips, blocks or metis (default: strips)")
-          ->type_name("DECOMPOSITION");
+  CLI::Option* method = command
+                            ->add_option("--method", arguments->method,
+                                         fmt::format("{} (default: strips)",
+                                                     fmt::join(names_of("DECOMPOSITION"), ", ")))
+                            ->type_name("DECOMPOSITION");
   CLI::Option* from = command->add_option("--from", arguments->from,
                                           "Read the parts from a decomposition file instead");
   from->excludes(parts)->excludes(method);

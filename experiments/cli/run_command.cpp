@@ -2,6 +2,7 @@
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/plan/job.hpp"
+#include "experiments/run/plan/names.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/statics/analysis.hpp"
 #include "experiments/run/timed/run.hpp"
@@ -172,15 +173,17 @@ void add_where_options(CLI::App& command, RunRequest& request, std::vector<std::
 void add_rank_options(CLI::App& command, RunRequest& request) {
   command
       .add_option("--decomposition", request.decomposition,
-                  "How to divide the scene into parts: strips, blocks, metis, or a file of "
-                  "`dssbench decompose`")
+                  fmt::format("How to divide the scene into parts: {}, or a file of "
+                              "`dssbench decompose`",
+                              fmt::join(names_of("DECOMPOSITION"), ", ")))
       ->capture_default_str()
       ->type_name("DECOMPOSITION")
       ->group("Ranks");
   command
       .add_option("--halo", request.halo,
-                  "How ranks exchange their halos: sendrecv, overlap, deep, deep-overlap, shared; "
-                  "auto: the fastest in a short trial")
+                  fmt::format("How ranks exchange their halos: {}; auto: the fastest in a short "
+                              "trial",
+                              fmt::join(names_of("HALO"), ", ")))
       ->capture_default_str()
       ->type_name("HALO")
       ->group("Ranks");
@@ -220,8 +223,8 @@ void add_model_options(CLI::App& command, RunRequest& request) {
       ->type_name("INTEGRATOR");
   command
       .add_option("--rotation", request.rotation,
-                  "quaternion (default); the variant reference also has tait_bryan, "
-                  "tait_bryan_raw, linearised, small")
+                  fmt::format("{} (default: quaternion); only the variant reference has the others",
+                              fmt::join(names_of("ROTATION"), ", ")))
       ->type_name("ROTATION");
 }
 

@@ -9,6 +9,7 @@
 #include "solver/nearest_name.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace dss {
@@ -84,6 +85,8 @@ int simulate_scene(const SimulateArguments& arguments) {
 } // namespace
 
 void add_simulate_command(CLI::App& app, Chosen& chosen) {
+  std::vector<std::string> halos = names_of("HALO");
+  std::erase(halos, "shared"); // every simulated rank is a node of its own
   CLI::App* command =
       app.add_subcommand("simulate", "Simulate a scene's exchanges on a cluster (SimGrid)");
   const auto arguments = std::make_shared<SimulateArguments>();
@@ -100,10 +103,12 @@ void add_simulate_command(CLI::App& app, Chosen& chosen) {
       ->type_name("PLATFORM");
   command
       ->add_option("--halo", arguments->halo,
-                   "sendrecv, overlap, deep, deep-overlap; auto: the fastest")
+                   fmt::format("{}; auto: the fastest", fmt::join(halos, ", ")))
       ->capture_default_str()
       ->type_name("HALO");
-  command->add_option("--decomposition", arguments->decomposition, "strips, blocks or metis")
+  command
+      ->add_option("--decomposition", arguments->decomposition,
+                   fmt::format("{}", fmt::join(names_of("DECOMPOSITION"), ", ")))
       ->capture_default_str()
       ->type_name("DECOMPOSITION");
   command

@@ -24,7 +24,7 @@ struct HaloStrategy {
   bool is_possible(int threads) const { return threads == 1 || is_every_stage || !is_overlapped; }
 };
 
-/// All strategies: sendrecv, overlap, deep, deep-overlap, shared.
+/// All strategies.
 std::span<const HaloStrategy> halo_strategies();
 /// @return the strategy of this name, or null
 const HaloStrategy* find_halo_strategy(std::string_view name);
