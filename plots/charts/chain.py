@@ -4,10 +4,10 @@ from tables.results import NotMeasured
 from tables.words import shown
 
 COLUMNS = {
-    "link": "stage", "label": "label", "scene": "scene", "set": "set", "variant": "variant",
+    "stage": "stage", "label": "label", "scene": "scene", "set": "set", "variant": "variant",
     "threads": "threads", "model": "model", "precision": "precision", "integrator": "method",
     "dt_s": "step [s]", "measured_wall_s": "median time [s]",
-    "factor_of_link": "factor of this stage", "factor_vs_reference": "against the reference",
+    "factor_of_stage": "factor of this stage", "factor_vs_reference": "against the reference",
     "factor_vs_reference_low": "from", "factor_vs_reference_high": "to",
     "contaminated": "contaminated repetitions", "repetitions": "repetitions", "error_max": "error",
     "error_bar": "error allowed", "status": "status", "reason": "reason"}
@@ -23,13 +23,13 @@ def best_stage(frame):
 def chain(results):
     """The factors as bars, and the errors below."""
     interval = ["factor_vs_reference_low", "factor_vs_reference_high"]
-    frame = results.table("chain", "link", "label", "factor_vs_reference", "status", optional=[
-        "factor_of_link", "error_max", "error_bar", *interval]).sort_values("link")
+    frame = results.table("chain", "stage", "label", "factor_vs_reference", "status", optional=[
+        "factor_of_stage", "error_max", "error_bar", *interval]).sort_values("stage")
     good = frame[frame["factor_vs_reference"].notna()].copy()
     if good.empty:
         raise NotMeasured("no stage of the chain has a factor")
     good["factor"] = [f"x {shown(value)}" if shown(value) else ""
-                      for value in good["factor_of_link"]]
+                      for value in good["factor_of_stage"]]
     factors = Series("times the reference", good, "label", "factor_vs_reference", Look("#0072B2"),
                      kind="bars", low=interval[0], high=interval[1], label="factor")
     errors = [Series("error", good, "label", "error_max",

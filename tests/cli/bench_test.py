@@ -123,7 +123,7 @@ class Bench(ProgramTest):
 
 
 class Chain(ProgramTest):
-    def test_each_link_has_a_factor_and_an_error(self):
+    def test_each_stage_has_a_factor_and_an_error(self):
         result = dssbench("experiment", "chain", "--scale", "smoke", "--out", self.path("out"))
         with open(self.path("out/tables/chain.csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
@@ -143,10 +143,10 @@ class Chain(ProgramTest):
             "scales": {"host": {"repetitions": 1, "sample_s": 1e-3}},
             "chain": {"scene": "plate_paper", "end_time": 1e-5, "saved_times": 1, "bar": 1,
                       "solution": {"steps_an_interval": 20},
-                      "links": [{"label": "a", "variant": "scalar", "steps_an_interval": 10},
-                                {"label": "b", "model": "planer"}]}
+                      "stages": [{"label": "a", "variant": "scalar", "steps_an_interval": 10},
+                                 {"label": "b", "model": "planer"}]}
         }
-        self.assert_refused(2, ["/chain/links/1/model", "planer", "planar"], "experiment",
+        self.assert_refused(2, ["/chain/stages/1/model", "planer", "planar"], "experiment",
                             self.write("c.json", json.dumps(study)), "--out", self.path("out"))
 
 

@@ -25,8 +25,8 @@ CEILINGS = """kind,benchmark,isa,precision,level,working_set_bytes,threads,measu
 ATTRIBUTION = """variant,model,precision,scene,n,threads,part,count_per_step,
     measured_ns_per_element_step,share_of_step,share_of_ceiling,mix_bound_ns,limiter,
     sum_over_step"""
-CHAIN = """link,label,scene,set,variant,threads,model,precision,integrator,dt_s,end_time_s,steps,
-    measured_wall_s,measured_wall_low_s,measured_wall_high_s,factor_of_link,factor_vs_reference,
+CHAIN = """stage,label,scene,set,variant,threads,model,precision,integrator,dt_s,end_time_s,steps,
+    measured_wall_s,measured_wall_low_s,measured_wall_high_s,factor_of_stage,factor_vs_reference,
     factor_vs_reference_low,factor_vs_reference_high,error_max,error_bar,check,status,reason"""
 FAILURES = """experiment,case,scene,set,method,precision,rotation,model,variant,dt_s,steps,metric,
     figure,predicted,deviation,verdict,expected,why,status,reason"""

@@ -8,22 +8,22 @@ namespace dss {
 namespace {
 
 /// Reads the values that a stage names; it keeps the other values of the stage before.
-void read_link(const Node& node, ChainLink& link) {
+void read_stage(const Node& node, ChainStage& stage) {
   ObjectNode object(node);
-  link.label = object.name_or("label", link.label);
+  stage.label = object.name_or("label", stage.label);
   if (const auto variant = object.find("variant"))
-    link.variant = load_variant(variant->name()).name;
-  if (const auto model = object.find("model")) link.model = model_in(*model);
-  if (const auto precision = object.find("precision")) link.precision = precision_in(*precision);
+    stage.variant = load_variant(variant->name()).name;
+  if (const auto model = object.find("model")) stage.model = model_in(*model);
+  if (const auto precision = object.find("precision")) stage.precision = precision_in(*precision);
   if (const auto integrator = object.find("integrator")) {
-    link.integrator = integrator->name();
-    const Method* method = find_method(link.integrator);
+    stage.integrator = integrator->name();
+    const Method* method = find_method(stage.integrator);
     if (method == nullptr || method->has_error_stage)
       integrator->fail("is not a method of equal steps; `dssbench list methods` shows all");
   }
-  link.steps_an_interval = object.whole_or("steps_an_interval", 1, link.steps_an_interval);
+  stage.steps_an_interval = object.whole_or("steps_an_interval", 1, stage.steps_an_interval);
   if (const auto threads = object.find("threads"))
-    link.threads = threads->json() == "cores" ? usable_cores() : threads->count(1);
+    stage.threads = threads->json() == "cores" ? usable_cores() : threads->count(1);
   object.finish();
 }
 
@@ -43,19 +43,19 @@ ChainStudy read_chain(const StudyFile& file) {
   chain.repetitions = scale.require("repetitions").count(1);
   chain.sample_s = scale.require("sample_s").positive();
   scale.finish();
-  ChainLink link{
+  ChainStage stage{
       "", load_variant("auto").name, "rk4", Model::spatial, Precision::f64, usable_cores(), 0};
-  chain.solution = link;
-  const Node solution = object.require("solution"), links = object.require("links");
+  chain.solution = stage;
+  const Node solution = object.require("solution"), stages = object.require("stages");
   object.finish();
-  read_link(solution, chain.solution);
+  read_stage(solution, chain.solution);
   if (chain.solution.steps_an_interval < 2) solution.fail("names fewer than two steps_an_interval");
-  for (const Node& item : links.items(2)) {
-    read_link(item, link);
-    chain.links.push_back(link);
+  for (const Node& item : stages.items(2)) {
+    read_stage(item, stage);
+    chain.stages.push_back(stage);
   }
-  if (chain.links[0].steps_an_interval == 0)
-    links.fail("the first link names no steps_an_interval");
+  if (chain.stages[0].steps_an_interval == 0)
+    stages.fail("the first stage names no steps_an_interval");
   return chain;
 }
 

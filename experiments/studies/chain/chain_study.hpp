@@ -1,7 +1,6 @@
 #pragma once
 /// The chain of factors: stages that lead from straightforward code to the cheapest run of the same
-/// accuracy. All stages are timed in turn, and each has its error. experiments/README.md describes
-/// the JSON, where a stage is called "link".
+/// accuracy. All stages are timed in turn, and each has its error. README.md describes the JSON.
 #include "experiments/base/records.hpp"
 #include "experiments/measure/study_file.hpp"
 #include "experiments/measure/study_sets.hpp"
@@ -15,7 +14,7 @@ namespace dss {
 
 /// A stage of the chain: one way to compute the scene. It keeps all values of the stage before,
 /// except those that it names.
-struct ChainLink {
+struct ChainStage {
   std::string label, variant, integrator;
   Model model = Model::spatial;
   Precision precision = Precision::f64;
@@ -30,8 +29,8 @@ struct ChainStudy {
   double end_time = 0; ///< [s]
   int saved_times = 1;
   double bar = 0; ///< largest error that the last stage may have
-  ChainLink solution;
-  std::vector<ChainLink> links;
+  ChainStage solution;
+  std::vector<ChainStage> stages;
   int repetitions = 9;
   double sample_s = 0.1;
 };

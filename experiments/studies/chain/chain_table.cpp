@@ -13,7 +13,7 @@ namespace {
 const std::vector<std::string>& chain_columns() {
   static const std::vector<std::string> columns = {"experiment",
                                                    "scale",
-                                                   "link",
+                                                   "stage",
                                                    "label",
                                                    "scene",
                                                    "set",
@@ -32,9 +32,9 @@ const std::vector<std::string>& chain_columns() {
                                                    "measured_wall_low_s",
                                                    "measured_wall_high_s",
                                                    "extrapolated_wall_s",
-                                                   "factor_of_link",
-                                                   "factor_of_link_low",
-                                                   "factor_of_link_high",
+                                                   "factor_of_stage",
+                                                   "factor_of_stage_low",
+                                                   "factor_of_stage_high",
                                                    "factor_vs_reference",
                                                    "factor_vs_reference_low",
                                                    "factor_vs_reference_high",
@@ -55,7 +55,7 @@ public:
       : study_(study), samples_(samples_of(records)) {}
 
   const CellSample& of(std::size_t n) const {
-    return *std::ranges::find(samples_, chain_cell(n, study_.links[n]), &CellSample::key);
+    return *std::ranges::find(samples_, chain_cell(n, study_.stages[n]), &CellSample::key);
   }
   /// Ratio of the times of whole runs, stage `base` over stage n, of the same repetition.
   Estimate factor(std::size_t base, std::size_t n) const {
@@ -66,38 +66,38 @@ public:
 
 private:
   double steps_an_interval(std::size_t n) const {
-    return double(study_.links[n].steps_an_interval);
+    return double(study_.stages[n].steps_an_interval);
   }
   const ChainStudy& study_;
   const std::vector<CellSample> samples_;
 };
 
-double steps_of(const ChainStudy& study, const ChainLink& link) {
-  return double(link.steps_an_interval) * study.saved_times;
+double steps_of(const ChainStudy& study, const ChainStage& stage) {
+  return double(stage.steps_an_interval) * study.saved_times;
 }
 
 /// What a stage is, and its error.
 Record stage_record(const ChainStudy& study, std::size_t n, const CellSample& sample,
                     ChainErrors& errors) {
-  const ChainLink& link = study.links[n];
+  const ChainStage& stage = study.stages[n];
   return {{"experiment", study.name},
           {"scale", study.scale},
-          {"link", fmt::format("{}", n)},
-          {"label", link.label},
+          {"stage", fmt::format("{}", n)},
+          {"label", stage.label},
           {"scene", study.scene},
           {"set", set_text(study.set)},
-          {"variant", link.variant},
-          {"threads", fmt::format("{}", link.threads)},
-          {"model", std::string(name(link.model))},
-          {"precision", std::string(name(link.precision))},
-          {"integrator", link.integrator},
+          {"variant", stage.variant},
+          {"threads", fmt::format("{}", stage.threads)},
+          {"model", std::string(name(stage.model))},
+          {"precision", std::string(name(stage.precision))},
+          {"integrator", stage.integrator},
           {"dt_s", text_in(sample.last, "dt_s")},
           {"end_time_s", number_text(study.end_time)},
-          {"steps", number_text(steps_of(study, link))},
+          {"steps", number_text(steps_of(study, stage))},
           {"timed_steps", text_in(sample.last, "steps")},
           {"repetitions", fmt::format("{}", sample.repetitions.size())},
           {"contaminated", fmt::format("{}", sample.contaminated)},
-          {"error_max", number_text(errors.of(link))},
+          {"error_max", number_text(errors.of(stage))},
           {"solution_error", number_text(errors.of_solution())},
           {"error_bar", number_text(study.bar)},
           {"check", sample.check()},
@@ -123,23 +123,23 @@ void put_factors(const ChainSamples& samples, std::size_t n, Record& row) {
   const auto is_right = [&](std::size_t k) { return samples.of(k).status() == "ok"; };
   if (!is_right(n) || !is_right(0) || samples.of(n).is_oversubscribed()) return;
   put_interval(row, "factor_vs_reference", samples.factor(0, n));
-  if (n > 0 && is_right(n - 1)) put_interval(row, "factor_of_link", samples.factor(n - 1, n));
+  if (n > 0 && is_right(n - 1)) put_interval(row, "factor_of_stage", samples.factor(n - 1, n));
 }
 
 } // namespace
 
-std::string chain_cell(std::size_t n, const ChainLink& link) {
-  return fmt::format("{} {} {} t{} {}", n, link.label, link.variant, link.threads,
-                     numerics_of(link));
+std::string chain_cell(std::size_t n, const ChainStage& stage) {
+  return fmt::format("{} {} {} t{} {}", n, stage.label, stage.variant, stage.threads,
+                     numerics_of(stage));
 }
 
 Table chain_table(const ChainStudy& study, const std::vector<Record>& records,
                   ChainErrors& errors) {
   const ChainSamples samples(study, records);
   Table table{chain_columns(), {}};
-  for (std::size_t n = 0; n < study.links.size(); ++n) {
+  for (std::size_t n = 0; n < study.stages.size(); ++n) {
     Record row = stage_record(study, n, samples.of(n), errors);
-    put_time(samples.of(n), steps_of(study, study.links[n]), row);
+    put_time(samples.of(n), steps_of(study, study.stages[n]), row);
     put_factors(samples, n, row);
     table.rows.push_back(std::move(row));
   }
@@ -151,7 +151,7 @@ std::string chain_text(const ChainStudy& study, const Table& table) {
   for (const Record& row : table.rows)
     rows.push_back({text_in(row, "label"), text_in(row, "variant"), text_in(row, "threads"),
                     text_in(row, "model"), text_in(row, "precision"), text_in(row, "integrator"),
-                    shown(row, "dt_s", "{:.3g}"), shown(row, "factor_of_link", "{:.2f}"),
+                    shown(row, "dt_s", "{:.3g}"), shown(row, "factor_of_stage", "{:.2f}"),
                     shown(row, "factor_vs_reference", "{:.1f}"),
                     row.contains("factor_vs_reference_low")
                         ? fmt::format("[{}, {}]", shown(row, "factor_vs_reference_low", "{:.1f}"),

@@ -21,12 +21,12 @@ constexpr double state_tolerance = 1e-9, single_state_tolerance = 1e-4;
 
 /// Difference of a stage's state from the expected one after a few steps. The expected state comes
 /// from the variant `reference` for the spatial model in f64, else from the variant `scalar`.
-double state_difference(const ChainStudy& study, const Scene& scene, const ChainLink& link) {
-  ChainLink right = link;
+double state_difference(const ChainStudy& study, const Scene& scene, const ChainStage& stage) {
+  ChainStage right = stage;
   right.variant =
-      link.model == Model::spatial && link.precision == Precision::f64 ? "reference" : "scalar";
+      stage.model == Model::spatial && stage.precision == Precision::f64 ? "reference" : "scalar";
   right.threads = 1;
-  LinkRun run(study, scene, link), expected(study, scene, right);
+  StageRun run(study, scene, stage), expected(study, scene, right);
   run.advance(checked_steps);
   expected.advance(checked_steps);
   return displacement_difference(run.state(), expected.state());
@@ -34,7 +34,7 @@ double state_difference(const ChainStudy& study, const Scene& scene, const Chain
 
 const std::vector<std::string>& raw_chain_columns() {
   static const std::vector<std::string> columns = {
-      "experiment", "cell",         "link",    "label",       "variant",
+      "experiment", "cell",         "stage",   "label",       "variant",
       "threads",    "cores",        "model",   "precision",   "integrator",
       "dt_s",       "repetition",   "steps",   "wall_s",      "cpu_s",
       "sample_s",   "contaminated", "check",   "check_error", "check_tolerance",
@@ -43,17 +43,17 @@ const std::vector<std::string>& raw_chain_columns() {
 }
 
 /// Times all stages in turn, for the study's number of repetitions.
-void time_links(const ChainStudy& study, const Scene& scene, RecordFile& records,
-                Progress& progress) {
+void time_stages(const ChainStudy& study, const Scene& scene, RecordFile& records,
+                 Progress& progress) {
   std::set<std::pair<std::string, std::string>> present;
   for (const Record& record : records.present())
     present.emplace(text_in(record, "cell"), text_in(record, "repetition"));
-  std::vector<std::unique_ptr<LinkRun>> runs;
+  std::vector<std::unique_ptr<StageRun>> runs;
   std::vector<long> steps;
   std::vector<double> differences;
-  for (const ChainLink& link : study.links) {
-    differences.push_back(state_difference(study, scene, link));
-    runs.push_back(std::make_unique<LinkRun>(study, scene, link));
+  for (const ChainStage& stage : study.stages) {
+    differences.push_back(state_difference(study, scene, stage));
+    runs.push_back(std::make_unique<StageRun>(study, scene, stage));
     long count = 1;
     for (runs.back()->advance(count); runs.back()->wall_s() < study.sample_s;
          runs.back()->advance(count))
@@ -64,33 +64,33 @@ void time_links(const ChainStudy& study, const Scene& scene, RecordFile& records
   double done = 0;
   for (int repetition = 0; repetition < study.repetitions; ++repetition)
     for (std::size_t n = 0; n < runs.size(); ++n) {
-      const ChainLink& link = study.links[n];
-      progress.show(done++, double(study.repetitions) * double(runs.size()), link.label);
-      if (present.contains({chain_cell(n, link), fmt::format("{}", repetition)})) continue;
+      const ChainStage& stage = study.stages[n];
+      progress.show(done++, double(study.repetitions) * double(runs.size()), stage.label);
+      if (present.contains({chain_cell(n, stage), fmt::format("{}", repetition)})) continue;
       runs[n]->advance(steps[n]);
       const Usage usage = runs[n]->usage();
-      const double wall_s = runs[n]->wall_s(), tolerance = link.precision == Precision::f64
+      const double wall_s = runs[n]->wall_s(), tolerance = stage.precision == Precision::f64
                                                                ? state_tolerance
                                                                : single_state_tolerance;
       const bool is_right = differences[n] <= tolerance;
       records.append(
           {{"experiment", study.name},
-           {"cell", chain_cell(n, link)},
-           {"link", fmt::format("{}", n)},
-           {"label", link.label},
-           {"variant", link.variant},
-           {"threads", fmt::format("{}", link.threads)},
+           {"cell", chain_cell(n, stage)},
+           {"stage", fmt::format("{}", n)},
+           {"label", stage.label},
+           {"variant", stage.variant},
+           {"threads", fmt::format("{}", stage.threads)},
            {"cores", fmt::format("{}", usable_cores())},
-           {"model", std::string(name(link.model))},
-           {"precision", std::string(name(link.precision))},
-           {"integrator", link.integrator},
+           {"model", std::string(name(stage.model))},
+           {"precision", std::string(name(stage.precision))},
+           {"integrator", stage.integrator},
            {"dt_s", number_text(runs[n]->dt())},
            {"repetition", fmt::format("{}", repetition)},
            {"steps", fmt::format("{}", steps[n])},
            {"wall_s", number_text(wall_s)},
            {"cpu_s", number_text(usage.cpu_s)},
            {"sample_s", number_text(wall_s)},
-           {"contaminated", is_contaminated(usage, wall_s, link.threads) ? "true" : "false"},
+           {"contaminated", is_contaminated(usage, wall_s, stage.threads) ? "true" : "false"},
            {"check", is_right ? "passed" : "failed"},
            {"check_error", number_text(differences[n])},
            {"check_tolerance", number_text(tolerance)},
@@ -106,9 +106,10 @@ public:
 
   std::string plan(const StudyPaths&) const override {
     std::string text;
-    for (const ChainLink& link : study_.links)
-      text += fmt::format("{}: {}: {} t{} {} {} {}\n", study_.name, link.label, link.variant,
-                          link.threads, name(link.model), name(link.precision), link.integrator);
+    for (const ChainStage& stage : study_.stages)
+      text +=
+          fmt::format("{}: {}: {} t{} {} {} {}\n", study_.name, stage.label, stage.variant,
+                      stage.threads, name(stage.model), name(stage.precision), stage.integrator);
     return text;
   }
 
@@ -123,7 +124,7 @@ public:
       write_circumstances(paths.context, measurement_context(), of);
     else
       note_resumption(paths.context);
-    time_links(study_, scene, records, how.progress);
+    time_stages(study_, scene, records, how.progress);
     ChainErrors errors(study_, scene, how.note());
     const Table table = chain_table(study_, read_csv(paths.raw).rows, errors);
     const bool is_right = std::ranges::all_of(

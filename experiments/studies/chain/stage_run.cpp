@@ -1,4 +1,4 @@
-#include "experiments/studies/chain/link_run.hpp"
+#include "experiments/studies/chain/stage_run.hpp"
 #include "experiments/base/clock.hpp"
 #include "experiments/base/cores.hpp"
 #include "kernels/fields.hpp"
@@ -12,15 +12,15 @@
 
 namespace dss {
 
-LinkRun::LinkRun(const ChainStudy& study, const Scene& scene, const ChainLink& link)
-    : scene_(scene), method_(*find_method(link.integrator)),
-      dt_(study.end_time / double(study.saved_times) / double(link.steps_an_interval)),
+StageRun::StageRun(const ChainStudy& study, const Scene& scene, const ChainStage& stage)
+    : scene_(scene), method_(*find_method(stage.integrator)),
+      dt_(study.end_time / double(study.saved_times) / double(stage.steps_an_interval)),
       executor_(
-          load_variant(link.variant)
-              .create({scene.problem, method_, link.model, link.precision, dt_, link.threads})),
-      end_(link.steps_an_interval * study.saved_times), start_(state()) {}
+          load_variant(stage.variant)
+              .create({scene.problem, method_, stage.model, stage.precision, dt_, stage.threads})),
+      end_(stage.steps_an_interval * study.saved_times), start_(state()) {}
 
-void LinkRun::advance(long steps) {
+void StageRun::advance(long steps) {
   if (done_ > 0 && done_ + steps > end_) {
     executor_->write(0, start_);
     done_ = 0;
@@ -37,19 +37,19 @@ void LinkRun::advance(long steps) {
   done_ += steps;
 }
 
-std::vector<double> LinkRun::state() {
+std::vector<double> StageRun::state() {
   std::vector<double> fields(scene_.problem.lattice.element_count * field_count);
   executor_->read(0, fields);
   return fields;
 }
 
-static States states_of(const ChainStudy& study, const Scene& scene, ChainLink link) {
-  link.variant = load_variant("auto").name;
-  link.threads = usable_cores();
-  LinkRun run(study, scene, link);
+static States states_of(const ChainStudy& study, const Scene& scene, ChainStage stage) {
+  stage.variant = load_variant("auto").name;
+  stage.threads = usable_cores();
+  StageRun run(study, scene, stage);
   States states;
   for (int time = 0; time < study.saved_times; ++time) {
-    run.advance(link.steps_an_interval);
+    run.advance(stage.steps_an_interval);
     states.push_back(run.state());
   }
   return states;
@@ -68,16 +68,16 @@ static double largest_error(const States& states, const States& solution) {
   return difference / largest;
 }
 
-std::string numerics_of(const ChainLink& link) {
-  return fmt::format("{} {} {} {}", name(link.model), name(link.precision), link.integrator,
-                     link.steps_an_interval);
+std::string numerics_of(const ChainStage& stage) {
+  return fmt::format("{} {} {} {}", name(stage.model), name(stage.precision), stage.integrator,
+                     stage.steps_an_interval);
 }
 
 ChainErrors::ChainErrors(const ChainStudy& study, const Scene& scene,
                          std::function<void(const std::string&)> note)
     : study_(study), scene_(scene), note_(std::move(note)),
       solution_(states_of(study, scene, study.solution)) {
-  ChainLink coarse = study.solution;
+  ChainStage coarse = study.solution;
   coarse.steps_an_interval /= 2;
   // The difference of two runs, one with twice the steps of the other, is 2^p - 1 times the error
   // of the finer run; p is the order of the method.
@@ -87,10 +87,10 @@ ChainErrors::ChainErrors(const ChainStudy& study, const Scene& scene,
                     study.solution.steps_an_interval * study.saved_times, solution_error_));
 }
 
-double ChainErrors::of(const ChainLink& link) {
-  const auto [place, is_new] = errors_.try_emplace(numerics_of(link));
+double ChainErrors::of(const ChainStage& stage) {
+  const auto [place, is_new] = errors_.try_emplace(numerics_of(stage));
   if (is_new) {
-    place->second = largest_error(states_of(study_, scene_, link), solution_);
+    place->second = largest_error(states_of(study_, scene_, stage), solution_);
     note_(fmt::format("chain: {}: error {:.2e}", place->first, place->second));
   }
   return place->second;

@@ -13,9 +13,9 @@
 namespace dss {
 
 /// An executor of a stage, starting from the initial state.
-class LinkRun {
+class StageRun {
 public:
-  LinkRun(const ChainStudy& study, const Scene& scene, const ChainLink& link);
+  StageRun(const ChainStudy& study, const Scene& scene, const ChainStage& stage);
   double dt() const { return dt_; } ///< [s]
   /// Advances by `steps` steps. Restarts from the initial state first if the run would pass its
   /// end.
@@ -39,7 +39,7 @@ private:
 using States = std::vector<std::vector<double>>; ///< fields at the saved times
 
 /// Model, precision, method and steps: everything that the error depends on.
-std::string numerics_of(const ChainLink& link);
+std::string numerics_of(const ChainStage& stage);
 
 /// Errors of whole runs against the solution, by numerics_of. The fastest variant computes each
 /// once.
@@ -50,7 +50,7 @@ public:
   double of_solution() const { return solution_error_; }
   /// Largest difference of a displacement component at any saved time, relative to the largest
   /// component at any.
-  double of(const ChainLink& link);
+  double of(const ChainStage& stage);
 
 private:
   const ChainStudy& study_;
