@@ -73,12 +73,15 @@ function(dssbench_engine_sources out root)
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# dss_use_packs(TARGET isa): kernels/simd/simd.hpp takes the packs of this instruction set.
+# dss_use_packs(TARGET isa): kernels/simd/simd.hpp takes the packs of this instruction set, and
+# knows how many registers it has.
 function(dss_use_packs target isa)
   if(NOT EXISTS ${dss_isa_folder}/${isa}/packs.hpp)
     message(FATAL_ERROR "${dss_isa_folder} has no instruction set ${isa}")
   endif()
-  target_compile_definitions(${target} PRIVATE DSS_ISA_PACKS="variants/isa/${isa}/packs.hpp")
+  dss_isa(registers ${isa} registers)
+  target_compile_definitions(${target} PRIVATE DSS_ISA_PACKS="variants/isa/${isa}/packs.hpp"
+    DSS_ISA_REGISTERS=${registers})
 endfunction()
 
 # dss_march_needs(OUT march [flag...])

@@ -1,17 +1,22 @@
 #pragma once
 /// Packs of lanes for the instruction set that the including module is compiled for. DSS_ISA_PACKS
-/// names the header that declares them: variants/isa/NAME/packs.hpp, given by the variant's build
-/// rule. Without it a pack is a scalar, and there is no fused multiply-add.
+/// names the header that declares them, variants/isa/NAME/packs.hpp, and DSS_ISA_REGISTERS is the
+/// number of registers. The variant's build rule gives both. Without them a pack is a scalar, and
+/// there is no fused multiply-add.
 #include "kernels/simd/inline.hpp"
 #include "kernels/simd/lane_mask.hpp"
 #include <cmath>
 
 #ifdef DSS_ISA_PACKS
 #include DSS_ISA_PACKS
+namespace dss::simd {
+inline constexpr int registers = DSS_ISA_REGISTERS;
+} // namespace dss::simd
 #else
 #include "kernels/simd/scalar.hpp"
 namespace dss::simd {
 inline constexpr bool has_fma = false;
+inline constexpr int registers = 16;
 } // namespace dss::simd
 #endif
 

@@ -52,6 +52,11 @@ struct StageRow {
   /// body without branches. Spatial rows that are not parked are slower with it: straight code over
   /// 13 fields spills more (README.md).
   static constexpr bool has_plain_path = P::axes < 3 || P::fields < 13 || is_parked;
+  /// With few registers, a fence for the compiler stands before the other path. Otherwise the
+  /// compiler moves what both paths load to a place before the branch, and the plain path spills
+  /// more.
+  static constexpr bool has_path_fence =
+      has_plain_path && !is_parked && W > 1 && simd::registers < 32;
   static bool has_all_links(const PackMasks& masks) {
     if constexpr (P::axes == 1) return masks.link_x == simd::all_lanes<T>;
     if (P::axes == 3 && (masks.link_z | masks.below_z) != 0) return false;
@@ -294,10 +299,12 @@ struct StageRow {
     for (int pack = 0; pack < packs; ++pack) {
       const bool is_applied = unsigned(pack - applied_first) < unsigned(applied_packs);
       if (has_plain_path && has_all_links(all_masks[pack]) && !is_applied && !is_accelerated)
-          [[likely]]
+          [[likely]] {
         one_pack(pack, false, std::true_type{});
-      else
+      } else {
+        if constexpr (has_path_fence) std::atomic_signal_fence(std::memory_order_acq_rel);
         one_pack(pack, is_applied, std::false_type{});
+      }
     }
   }
 };
