@@ -54,7 +54,7 @@ struct StageRow {
   static constexpr bool has_plain_path = P::axes < 3 || P::fields < 13 || is_parked;
   /// With few registers, a fence for the compiler stands before the other path. Otherwise the
   /// compiler moves what both paths load to a place before the branch, and the plain path spills
-  /// more.
+  /// more. Scalar rows do not all gain from it (README.md).
   static constexpr bool has_path_fence =
       has_plain_path && !is_parked && W > 1 && simd::registers < 32;
   static bool has_all_links(const PackMasks& masks) {
