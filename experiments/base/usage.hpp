@@ -5,18 +5,21 @@
 
 namespace dss {
 
-/// Sums over all threads of this process.
+/// Sums over all threads of this process, and over the processors of the machine.
 struct Usage {
   double cpu_s = 0; ///< user and system time [s]
   /// Time in a run queue, runnable but not running [s]; NaN if the kernel does not report it.
   double wait_s = 0;
+  /// Time that the hypervisor took from the processors of this machine while they had work [s]; 0
+  /// on a machine that is not virtual.
+  double steal_s = 0;
   long involuntary_switches = 0;
   Usage& operator+=(const Usage& other);
 };
 
-/// Measures the usage of this process since the meter was made (getrusage and
-/// /proc/self/task/*/schedstat). Reading the queues is slow, so it is done outside the region of
-/// the CPU time at both ends.
+/// Measures the usage of this process since the meter was made (getrusage,
+/// /proc/self/task/*/schedstat, and the steal of /proc/stat in ticks of 10 ms). Reading the queues
+/// is slow, so it is done outside the region of the CPU time at both ends.
 class UsageMeter {
 public:
   UsageMeter();
@@ -26,11 +29,12 @@ private:
   Usage start_;
 };
 
-/// True if a timed region is contaminated (DESIGN.md section 6): CPU time / (wall_s x workers) is
-/// below 0.97, or more than 1 % of wall_s x workers was spent waiting for a processor. Regions
-/// shorter than 20 ms are judged by the waiting time only, because the clock of getrusage is too
-/// coarse.
-/// @param workers  threads that compute, see Executor::workers()
+/// True if other work disturbed a timed region (DESIGN.md section 6): workers waited for a
+/// processor, or the hypervisor took it, for more than 1 % of wall_s x workers. A worker that waits
+/// for another worker is no sign, whether it spins or sleeps. A single worker has nobody to wait
+/// for: it is also contaminated if its CPU time is below 0.97 wall_s. (Not below 20 ms, because the
+/// clock of getrusage is too coarse.)
+/// @param workers  threads that compute on all ranks, see Executor::workers()
 bool is_contaminated(const Usage& usage, double wall_s, int workers);
 
 } // namespace dss

@@ -268,6 +268,12 @@ void add_check_options(CLI::App& command, RunRequest& request) {
       ->capture_default_str()
       ->group("Checks");
   command
+      .add_option("--warmup-time", request.warmup_s,
+                  "Least time of the warm-up of several workers [s]; for kernels that leave new "
+                  "threads on one processor at first")
+      ->capture_default_str()
+      ->group("Checks");
+  command
       .add_option("--check-state", request.check_state,
                   "Compare with the oracle's state in this file (made by `experiment`)")
       ->group("Checks");
@@ -288,6 +294,12 @@ void add_check_options(CLI::App& command, RunRequest& request) {
       .add_option(
           "--repeat-for", request.repeat_for,
           "Repeat a shorter run until this time was measured [s]; times are the mean of the runs")
+      ->capture_default_str()
+      ->group("Checks");
+  command
+      .add_option("--samples", request.samples,
+                  "Repeat a run shorter than 1 s so many times from the start; its time is their "
+                  "median")
       ->capture_default_str()
       ->group("Checks");
 }

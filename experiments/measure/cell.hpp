@@ -31,6 +31,7 @@ struct Cell {
   /// Steps of the whole study; `steps` is smaller if the variant is too slow for them.
   long full_steps = 0;
   bool is_twin = false;        ///< second cell of an A/A pair
+  bool is_whole_once = false;  ///< one run of all steps, to check the scaling of a shorter cell
   std::string skipped;         ///< reason why it cannot run here; empty if it can
   bool is_unavailable = false; ///< skipped because a device is missing
   /// Of a weak scaling: the overrides of its cell on 1 rank, "n=100"; else empty.

@@ -7,7 +7,8 @@ namespace dss {
 const Cell* one_rank_cell(const CellStudy& study, const Cell& like, const std::string& variant,
                           int threads, const std::string& set_text) {
   const auto found = std::find_if(study.cells.begin(), study.cells.end(), [&](const Cell& cell) {
-    return cell.ranks == 1 && !cell.is_twin && cell.variant == variant && cell.threads == threads &&
+    return cell.ranks == 1 && !cell.is_twin && !cell.is_whole_once && cell.variant == variant &&
+           cell.threads == threads &&
            (variant != like.variant ||
             (cell.device == like.device && cell.hybrid == like.hybrid)) &&
            cell.scene == like.scene && cell.set_text() == set_text && cell.model == like.model &&

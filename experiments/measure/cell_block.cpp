@@ -7,6 +7,7 @@
 #include "solver/decomposition/decomposition.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
+#include "variants/api/distribution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,10 @@
 
 namespace dss {
 namespace {
+
+/// Number of threads that stands for the word "fill": as many as fill the cores, for the ranks of
+/// the cell.
+constexpr int filling = 0;
 
 /// Reads numbers of threads or ranks, in ascending order and without repeats.
 std::vector<int> read_counts(ObjectNode& block, const char* key, int cores) {
@@ -30,12 +35,15 @@ std::vector<int> read_counts(ObjectNode& block, const char* key, int cores) {
       numbers.push_back(std::max(1, cores - 1));
     else if (item.json() == "1..cores") {
       for (int number = 1; number <= cores; ++number) numbers.push_back(number);
+    } else if (item.json() == "fill" && key == std::string_view("threads")) {
+      numbers.push_back(filling);
     } else if (item.is_number()) {
       numbers.push_back(item.count(1));
     } else {
-      item.fail(fmt::format(
-          "{} is neither a number of {} nor \"cores\", \"rest\" (all but one) nor \"1..cores\"",
-          item.shown(), key));
+      item.fail(fmt::format("{} is neither a number of {} nor \"cores\", \"rest\" (all but one), "
+                            "\"1..cores\"{}",
+                            item.shown(), key,
+                            key == std::string_view("threads") ? " nor \"fill\"" : ""));
     }
   }
   std::sort(numbers.begin(), numbers.end());
@@ -49,7 +57,9 @@ bool is_threaded(const VariantStatus& status) {
 }
 
 /// The oracle's loop computes whole problems only; all other variants can compute a part.
-bool can_distribute(const std::string& variant) { return variant != "reference"; }
+bool can_distribute(const std::string& variant) {
+  return variant != "reference" && variant != "as_published";
+}
 
 /// Problems that grow with the ranks. A parameter is multiplied by ranks^(1 / power). The number of
 /// elements goes with the parameter's power, so each rank keeps its number of elements.
@@ -71,6 +81,9 @@ struct Block {
 
 void read_ranks(ObjectNode& object, int cores, Block& block) {
   block.ranks = read_counts(object, "ranks", cores);
+  if (block.ranks.back() > 1 && std::ranges::find(block.hybrids, "auto") != block.hybrids.end())
+    object.require("ranks").fail(
+        "members on ranks need names, \"avx512:1,opencl@gpu\" for one; \"auto\" is one process");
   block.decompositions = object.known_names_or("decompositions", "decomposition",
                                                names_of("DECOMPOSITION"), {"strips"});
   block.halos = object.known_names_or("halos", "halo strategy", names_of("HALO"), {"auto"});
@@ -97,7 +110,6 @@ void read_hybrid(const Node& hybrid, ObjectNode& object, int cores, Block& block
   block.variants = {known_variant("hybrid", hybrid).name};
   block.hybrids.clear();
   for (const Node& item : hybrid.list()) block.hybrids.push_back(members_text(item, cores));
-  if (const auto ranks = object.find("ranks")) ranks->fail("a hybrid is one process");
   const auto threads = object.find("threads");
   if (threads && block.hybrids != std::vector<std::string>{"auto"})
     threads->fail("the members of a hybrid name their threads: \"avx512:2,opencl@cpu:1\"");
@@ -166,7 +178,21 @@ void multiply(std::vector<Cell>& cells, const std::vector<Value>& values, Value 
   cells = std::move(more);
 }
 
-std::vector<Cell> combined(const Block& block) {
+/// Gives cells that fill the cores their threads. Drops those that another number of threads names
+/// as well.
+std::vector<Cell> filled(const std::vector<Cell>& cells, int cores) {
+  std::set<std::string> named;
+  for (const Cell& cell : cells) named.insert(cell.key());
+  std::vector<Cell> all;
+  for (Cell cell : cells) {
+    const bool is_filling = cell.threads == filling;
+    if (is_filling) cell.threads = std::max(1, cores / cell.ranks);
+    if (!is_filling || !named.contains(cell.key())) all.push_back(cell);
+  }
+  return all;
+}
+
+std::vector<Cell> combined(const Block& block, int cores) {
   std::vector<Cell> cells(1);
   cells[0].scene = block.scene;
   multiply(cells, block.sets, &Cell::set);
@@ -183,7 +209,7 @@ std::vector<Cell> combined(const Block& block) {
     return cell.ranks == 1 &&
            (cell.decomposition != block.decompositions[0] || cell.halo != block.halos[0]);
   });
-  return cells;
+  return filled(cells, cores);
 }
 
 /// Reason why a cell cannot run here, or empty. Missing devices are tested elsewhere, earlier.
@@ -191,6 +217,9 @@ std::string why_skipped(const Cell& cell, const VariantStatus& status) {
   if (!status.is_usable()) return status.unusable;
   if (const std::string why = why_no_members(cell.hybrid); !why.empty()) return why;
   if (cell.ranks == 1) return "";
+  if (const HaloStrategy* halo = find_halo_strategy(cell.halo);
+      halo != nullptr && !halo->is_possible(cell.threads))
+    return fmt::format("halo {} is not possible with several threads", cell.halo);
   const std::string why = why_no_ranks();
   return why.empty() ? why_no_decomposition(cell.decomposition) : why;
 }
@@ -210,15 +239,15 @@ long steps_of_variant(const Scale& scale, const Cell& cell) {
   return steps;
 }
 
-std::vector<Cell> cells_of(ObjectNode& object, const Block& block, const Scale& scale) {
-  std::vector<Cell> cells = combined(block);
+std::vector<Cell> cells_of(ObjectNode& object, const Block& block, const Scale& scale, int cores) {
+  std::vector<Cell> cells = combined(block, cores);
   std::erase_if(cells, [&](const Cell& cell) {
     return cell.threads > 1 && !is_threaded(known_variant(cell.variant, object.node()));
   });
   for (Cell& cell : cells) {
     cell.device = block.device;
     if (!cell.hybrid.empty() && cell.hybrid != "auto")
-      cell.threads = threads_of_members(cell.hybrid);
+      cell.threads = std::max(1, threads_of_members(cell.hybrid) / cell.ranks);
     if (block.weak) {
       cell.weak_base_set = cell.set_text();
       cell.set = grown(cell.set, *block.weak, cell.ranks,
@@ -253,7 +282,7 @@ void add_block(const Node& place, const Sets& scale_sets, const CellRules& rules
                CellStudy& study) {
   ObjectNode object(place);
   const Block block = read_block(object, scale_sets, rules);
-  std::vector<Cell> cells = cells_of(object, block, study.scale);
+  std::vector<Cell> cells = cells_of(object, block, study.scale, rules.cores);
   require_loadable(place, block, cells);
   if (rules.expand) cells = rules.expand(object, cells);
   std::set<std::string> keys;

@@ -32,12 +32,20 @@ Scale read_scale(const StudyFile& file, const CellRules& rules) {
   scale.full_steps = object.whole_or("full_steps", 1, scale.full_steps);
   scale.tail_checks = object.whole_or("tail_checks", 1, scale.tail_checks);
   scale.warmup_steps = object.whole_or("warmup_steps", 0, scale.warmup_steps);
+  scale.warmup_s = object.non_negative_or("warmup_s", scale.warmup_s);
+  scale.samples = object.whole_or("samples", 1, scale.samples);
   scale.retries = object.whole_or("retries", 0, scale.retries);
   scale.half_width = object.positive_or("half_width", scale.half_width);
   scale.budget_s = object.positive_or("budget_s", scale.budget_s);
+  scale.patience_s = object.non_negative_or("patience_s", 0.5 * scale.budget_s);
   scale.time_limit_s = object.positive_or("time_limit_s", scale.time_limit_s);
   scale.steps_by_set = read_steps(object, "steps_by_set");
   scale.steps_for = read_steps(object, "steps_for");
+  scale.whole_once = object.names_or("whole_once", {});
+  if (!scale.whole_once.empty() && scale.steps_for.empty())
+    object.require("whole_once").fail("no variant has fewer steps: there is no \"steps_for\"");
+  for (const std::string& variant : scale.whole_once)
+    known_variant(variant, object.require("whole_once"));
   for (const auto& slow : scale.steps_for)
     known_variant(slow.first.substr(0, slow.first.find(' ')), object.require("steps_for"));
   if (const auto limits = object.find("repetitions")) read_repetitions(*limits, scale);
@@ -76,6 +84,19 @@ void add_twins(const std::string& variant, CellStudy& study) {
   study.cells.insert(study.cells.end(), twins.begin(), twins.end());
 }
 
+/// Adds a cell of all steps for each cell that is scaled and whose variant is in `whole_once`.
+void add_whole_runs(CellStudy& study) {
+  std::vector<Cell> whole;
+  for (const Cell& cell : study.cells)
+    if (std::ranges::find(study.scale.whole_once, cell.variant) != study.scale.whole_once.end() &&
+        cell.steps < cell.full_steps && cell.ranks == 1 && cell.threads == 1) {
+      whole.push_back(cell);
+      whole.back().steps = cell.full_steps;
+      whole.back().is_whole_once = true;
+    }
+  study.cells.insert(study.cells.end(), whole.begin(), whole.end());
+}
+
 } // namespace
 
 void read_cells(const StudyFile& file, const CellRules& rules, CellStudy& study) {
@@ -85,6 +106,7 @@ void read_cells(const StudyFile& file, const CellRules& rules, CellStudy& study)
   const Sets scale_sets = combinations(scale, "set");
   for (const Node& block : root.require("cells").list()) add_block(block, scale_sets, rules, study);
   if (const auto steps = scale.find("steps_by_set")) require_sets(*steps, study);
+  add_whole_runs(study);
   study.bases = root.names_or("base", {});
   for (const std::string& base : study.bases) require_cell_of(base, study, root.require("base"));
   const auto twin = root.find("twin");

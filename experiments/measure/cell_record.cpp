@@ -138,9 +138,12 @@ std::vector<std::string> run_arguments(const CellStudy& study, const Cell& cell,
                                    text(cell.steps),
                                    "--warmup",
                                    text(study.scale.warmup_steps),
+                                   "--warmup-time",
+                                   text(study.scale.warmup_s),
                                    "--json",
                                    "-"};
   line.insert(line.end(), checks.begin(), checks.end());
+  if (study.scale.samples > 1) line.insert(line.end(), {"--samples", text(study.scale.samples)});
   if (cell.dt > 0) line.insert(line.end(), {"--dt", text(cell.dt)});
   if (cell.rtol > 0) line.insert(line.end(), {"--rtol", text(cell.rtol)});
   if (cell.ranks > 1)

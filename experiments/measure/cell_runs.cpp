@@ -3,11 +3,13 @@
 #include "experiments/base/clock.hpp"
 #include "experiments/base/cores.hpp"
 #include "experiments/base/exit_code.hpp"
+#include "experiments/base/quiet.hpp"
 #include "experiments/base/statistics.hpp"
 #include "experiments/measure/cell_bases.hpp"
 #include "experiments/measure/cell_record.hpp"
 #include "experiments/measure/circumstances.hpp"
 #include "experiments/measure/device_ceilings.hpp"
+#include "experiments/measure/patience.hpp"
 #include "experiments/measure/samples.hpp"
 #include "experiments/run/plan/context.hpp"
 #include "solver/error.hpp"
@@ -25,8 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr unsigned order_seed = 20220617;
-constexpr long oversubscribed_repetitions =
-    1; // An oversubscribed time is shown but not compared, so it gets one repetition.
+/// A time that is shown but not compared gets one repetition: with more workers than cores, or of a
+/// run that checks the scaling of a shorter one.
+constexpr long uncompared_repetitions = 1;
 
 /// Progress of one cell.
 struct CellState {
@@ -38,7 +41,7 @@ struct CellState {
   bool is_converged = false;
   bool is_partner =
       false; ///< Other cells are compared with it, so it is repeated as long as any cell is.
-  bool is_oversubscribed = false; ///< its time is shown but not compared
+  bool is_oversubscribed = false;
 };
 
 /// Rounds of repetitions: round r runs repetition r of all cells.
@@ -47,7 +50,8 @@ public:
   CellRuns(const CellStudy& study, const StudyPaths& paths, bool resume, const std::string& program,
            CellChecks& checks, Progress& progress)
       : study_(study), paths_(paths), program_(program), file_(paths_.raw, raw_columns(), resume),
-        start_(Clock::now()), cores_(usable_cores()), progress_(progress), checks_(checks) {
+        start_(Clock::now()), cores_(usable_cores()), progress_(progress), checks_(checks),
+        patience_(study.scale.patience_s, progress, disturbance) {
     for (const Cell& cell : study.cells)
       cells_.push_back(
           {&cell, {}, false, 0, 0, false, is_partner(study, cell), cell.is_oversubscribed(cores_)});
@@ -67,6 +71,10 @@ public:
          ++repetition) {
       if (!round(repetition)) break;
       update_convergence();
+    }
+    if (const std::string report = patience_.report(); !report.empty()) {
+      progress_.note(study_.name + ": " + report);
+      note_patience(paths_.context, report);
     }
     return all_records_;
   }
@@ -130,20 +138,20 @@ private:
                        [&](const CellState& state) { return is_wanted(state); });
   }
   bool is_wanted(const CellState& state) const {
-    const long most = state.is_oversubscribed
-                          ? std::min(oversubscribed_repetitions, study_.scale.max_repetitions)
-                          : study_.scale.max_repetitions;
+    const bool is_compared = !state.is_oversubscribed && !state.cell->is_whole_once;
+    const long most = is_compared ? study_.scale.max_repetitions : uncompared_repetitions;
     return !state.is_broken && !state.is_converged && state.done < most &&
            state.cell->skipped.empty();
   }
   /// Bases and twins continue as long as any cell: speed-ups are ratios within a round.
   bool is_still_partner(const CellState& state) const {
     return state.is_partner && !state.is_broken && !state.is_oversubscribed &&
-           state.cell->skipped.empty();
+           !state.cell->is_whole_once && state.cell->skipped.empty();
   }
 
   /// Runs one repetition of every cell that needs one, in random order. Returns false if the budget
-  /// is spent.
+  /// is spent: it limits the repetitions beyond the least number, without which no speed-up has an
+  /// interval.
   bool round(long repetition) {
     std::vector<CellState*> order;
     for (CellState& state : cells_)
@@ -152,13 +160,38 @@ private:
     std::mt19937_64 generator(order_seed + std::uint64_t(repetition));
     for (std::size_t last = order.size(); last > 1; --last)
       std::swap(order[last - 1], order[generator() % last]);
+    std::vector<CellState*> disturbed;
     for (std::size_t place = 0; place < order.size(); ++place) {
       CellState& state = *order[place];
-      if (repetition > 0 && elapsed_s() + state.process_s > study_.scale.budget_s) return false;
-      repeat(state, repetition);
+      if (repetition >= study_.scale.min_repetitions &&
+          elapsed_s() + state.process_s > study_.scale.budget_s)
+        return false;
+      patience_.wait();
+      if (is_disturbed(state, repetition, 0)) disturbed.push_back(&state);
       show_progress(repetition, double(place + 1) / double(order.size()), state);
     }
+    repeat_disturbed(disturbed, repetition);
     return true;
+  }
+
+  /// Runs disturbed repetitions again at the end of their round, when the machine may be quieter.
+  void repeat_disturbed(std::vector<CellState*> disturbed, long repetition) {
+    for (long attempt = 1; attempt <= study_.scale.retries; ++attempt)
+      std::erase_if(disturbed, [&](CellState* state) {
+        if (!patience_.allows(state->process_s)) return true;
+        patience_.wait();
+        patience_.spend(state->process_s);
+        return !is_disturbed(*state, repetition, attempt);
+      });
+  }
+
+  /// Runs a repetition and records it. True if it was contaminated. (Workers that share cores
+  /// always wait, so such cells do not count.)
+  bool is_disturbed(CellState& state, long repetition, long attempt) {
+    const Record row = measured(state, repetition, attempt);
+    record(state, row);
+    return text_in(row, "contaminated") == "true" && text_in(row, "status") == "ok" &&
+           !state.is_oversubscribed;
   }
 
   void show_progress(long repetition, double share_of_round, const CellState& state) {
@@ -171,20 +204,6 @@ private:
                                  : fmt::format("{:.4g} s", number_in(last, "wall_s"));
     progress_.show(share, 1,
                    fmt::format("repetition {} of {}: {}", repetition + 1, state.cell->key(), wall));
-  }
-
-  /// Runs a repetition, and again if it was contaminated. Retries take at most a quarter of the
-  /// budget.
-  void repeat(CellState& state, long repetition) {
-    for (long attempt = 0; attempt <= study_.scale.retries; ++attempt) {
-      const Record row = measured(state, repetition, attempt);
-      record(state, row);
-      const bool is_dirty =
-          text_in(row, "contaminated") == "true" && text_in(row, "status") == "ok";
-      if (!is_dirty || state.is_oversubscribed) return; // workers that share cores always wait
-      if (retry_s_ + state.process_s > 0.25 * study_.scale.budget_s) return;
-      if (attempt < study_.scale.retries) retry_s_ += state.process_s;
-    }
   }
 
   Record measured(CellState& state, long repetition, long attempt) {
@@ -232,9 +251,9 @@ private:
   DeviceCeilingsHere ceilings_;
   std::vector<CellState> cells_;
   std::vector<Record> all_records_;
-  double retry_s_ = 0;
   Progress& progress_;
   CellChecks& checks_;
+  Patience patience_;
 };
 
 /// Protects records: a short run at a small scale must not replace hours of measurement.

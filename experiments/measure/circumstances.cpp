@@ -19,6 +19,15 @@ nlohmann::json scene_digests(const Circumstances& of) {
   return digests;
 }
 
+/// Appends a text to a list in a file of circumstances.
+void append(const std::string& path, const char* list, const std::string& text) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(read_text(path));
+  json[list].push_back(text);
+  AtomicFile file(path);
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
 } // namespace
 
 std::string scene_digest(const Scene& scene) {
@@ -53,12 +62,10 @@ void write_circumstances(const std::string& path, const nlohmann::json& context,
   file.commit();
 }
 
-void note_resumption(const std::string& path) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(read_text(path));
-  json["resumed_utc"].push_back(measurement_time());
-  AtomicFile file(path);
-  file.write(json.dump(2) + "\n");
-  file.commit();
+void note_resumption(const std::string& path) { append(path, "resumed_utc", measurement_time()); }
+
+void note_patience(const std::string& path, const std::string& report) {
+  append(path, "effort", report);
 }
 
 void make_room_for_records(const std::string& raw, const std::string& context,

@@ -36,6 +36,9 @@ void write_circumstances(const std::string& path, const nlohmann::json& context,
 /// Adds the present time to `resumed_utc` of the file: from now on a resumed study adds records.
 void note_resumption(const std::string& path);
 
+/// Adds to `effort` of the file how often the study waited and repeated.
+void note_patience(const std::string& path, const std::string& report);
+
 /// Prepares the raw file of a study that keeps records of one scale only. With `resumes`, the
 /// existing records must have the same scale and circumstances. Otherwise they must have the same
 /// scale, and the file is renamed to PATH.previous: a run interrupted before its first record can

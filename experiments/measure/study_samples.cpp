@@ -52,7 +52,7 @@ bool StudySamples::is_comparable(const Cell& cell) const {
 std::optional<Estimate> StudySamples::speedup(const Cell& base, const Cell& cell) const {
   if (!is_comparable(base) || !is_comparable(cell)) return {};
   const std::vector<double> ratios = paired_ratios(*of(base), *of(cell));
-  if (ratios.empty()) return {};
+  if (ratios.size() < interval_samples) return {};
   return estimate(ratios);
 }
 

@@ -19,6 +19,7 @@ Orientation<T> Coordinates<T>::write(std::size_t e, const Orientation<T>& q) {
   case Rotation::quaternion:
     break;
   case Rotation::tait_bryan:
+  case Rotation::tait_bryan_every_step:
     bases_[e] = q;
     return {};
   case Rotation::tait_bryan_raw:
@@ -36,6 +37,7 @@ Orientation<T> Coordinates<T>::read(std::size_t e, const Orientation<T>& c) cons
   case Rotation::quaternion:
     break;
   case Rotation::tait_bryan:
+  case Rotation::tait_bryan_every_step:
     return product(orientation_of_angles(c.v), bases_[e]);
   case Rotation::tait_bryan_raw:
     return orientation_of_angles(c.v);
@@ -100,7 +102,9 @@ Orientation<T> Coordinates<T>::midpoint_end(const Orientation<T>& c, const Vecto
 
 template <class T>
 void Coordinates<T>::reframe(std::size_t e, Orientation<T>& c) {
-  if (has_bases() && std::abs(c.v.y()) > T(largest_middle_angle)) c = write(e, read(e, c));
+  if (rotation_ == Rotation::tait_bryan_every_step ||
+      (has_bases() && std::abs(c.v.y()) > T(largest_middle_angle)))
+    c = write(e, read(e, c));
 }
 
 #define DSS_INSTANTIATE(T) template class Coordinates<T>;

@@ -18,10 +18,11 @@ inline constexpr double largest_middle_angle = 0.78539816339744831;
 /// Coordinates of the orientations of all elements. The coordinates of one element are passed as an
 /// Orientation that holds the fields qs .. qz: the quaternion; or, with s = 0, the three angles or
 /// the rotation vector in v.
-///   tait_bryan          A = X(phi) Y(theta) Z(psi) A_base; write sets A_base to the given
-///                       orientation and the angles to 0
-///   tait_bryan_raw      the same, with A_base = I always
-///   linearised, small   rotation vector from the rest orientation, theta' = w
+///   tait_bryan             A = X(phi) Y(theta) Z(psi) A_base; write sets A_base to the given
+///                          orientation and the angles to 0
+///   tait_bryan_every_step  the same; the base restarts after every step
+///   tait_bryan_raw         the same, with A_base = I always
+///   linearised, small      rotation vector from the rest orientation, theta' = w
 template <class T>
 class Coordinates {
 public:
@@ -50,17 +51,19 @@ public:
   Orientation<T> midpoint(const Orientation<T>& c, const Vector<T>& w, T h) const;
   Orientation<T> midpoint_end(const Orientation<T>& c, const Vector<T>& w, T h) const;
 
-  /// Restarts the base of element e if its middle angle is too large. Changes c so that read(e, c)
-  /// stays the same.
+  /// Restarts the base of element e after a step, if its middle angle is too large or the rotation
+  /// restarts after every step. Changes c so that read(e, c) stays the same.
   void reframe(std::size_t e, Orientation<T>& c);
 
+  /// True if elements have bases that can restart.
+  bool has_bases() const {
+    return rotation_ == Rotation::tait_bryan || rotation_ == Rotation::tait_bryan_every_step;
+  }
   std::size_t bytes() const { return bases_.size() * sizeof(Orientation<T>); }
 
 private:
-  bool has_bases() const { return rotation_ == Rotation::tait_bryan; }
-
   Rotation rotation_;
-  std::vector<Orientation<T>> bases_; ///< A_base of tait_bryan
+  std::vector<Orientation<T>> bases_; ///< A_base of each element
 };
 
 } // namespace dss::reference

@@ -245,7 +245,7 @@ void Oracle<T>::finish_leapfrog(std::span<const double> signals) {
 /// a step share the bases.
 template <class T>
 void Oracle<T>::reframe(std::vector<T>& state) {
-  if (dynamics_.coordinates().rotation() != Rotation::tait_bryan) return;
+  if (!dynamics_.coordinates().has_bases()) return;
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
     auto c = reference::orientation_fields(&state[e * field_count]);
     dynamics_.coordinates().reframe(e, c);

@@ -93,6 +93,50 @@ TEST_F(Scaling, NoClaimIsMadeOfMoreRanksThanCoresWhenRunsAreCompared) {
                   .verdict.starts_with("same within "));
 }
 
+TEST_F(Scaling, FewerThanSixPairsGiveNoSpeedUp) {
+  std::erase_if(records, [](const Record& record) { return text_in(record, "repetition") == "5"; });
+  const Record row = derived(deep);
+  EXPECT_NE(text_in(row, "measured_wall_s"), "");
+  for (const char* column : {"speedup_vs_scalar", "speedup_vs_1_rank", "speedup_vs_threads"})
+    EXPECT_EQ(text_in(row, column), "") << column;
+}
+
+/// `auto` that ran as `deep` in 2 s: the cell `deep` takes `seconds`.
+TEST_F(Scaling, AutoIsComparedWithTheStrategyThatItChose) {
+  study.cells.push_back(on_ranks(cell("avx2", 1), 2, "auto"));
+  for (long r = 0; r < 6; ++r) {
+    Record ran = row(study.cells.back(), r, 2 * (1 + 0.1 * double(r)));
+    ran["halo_used"] = "deep";
+    records.push_back(ran);
+  }
+  Table table = derive_table(study, records);
+  EXPECT_DOUBLE_EQ(number_in(table.rows.back(), "auto_vs_chosen"), 1);
+  for (Record& each : table.rows) each["resolution"] = "0.02";
+  EXPECT_EQ(table_text(study, table).find("Inconsistent"), std::string::npos);
+  for (Record& record : records)
+    if (text_in(record, "halo_used") == "deep")
+      record["wall_s"] = number_text(0.9 * number_in(record, "wall_s"));
+  table = derive_table(study, records);
+  for (Record& each : table.rows) each["resolution"] = "0.02";
+  EXPECT_NEAR(number_in(table.rows.back(), "auto_vs_chosen"), 1 / 0.9, 1e-12);
+  EXPECT_NE(table_text(study, table).find("Inconsistent: avx2, 2 ranks x 1 thread, halo auto"),
+            std::string::npos);
+}
+
+TEST_F(Scaling, AScaledTimeIsComparedWithOneRunOfAllSteps) {
+  Cell& short_run = study.cells[scalar];
+  const long steps = short_run.steps;
+  short_run.full_steps = 10 * steps;
+  Cell whole = short_run;
+  whole.steps = whole.full_steps;
+  whole.is_whole_once = true;
+  study.cells.push_back(whole);
+  const double scaled = number(scalar, "extrapolated_wall_s");
+  records.push_back(row(whole, 0, scaled / 1.03));
+  EXPECT_NEAR(number(scalar, "scaling_error"), 0.03, 1e-12);
+  EXPECT_EQ(text_in(derive_table(study, records).rows.back(), "scaling_error"), "");
+}
+
 TEST_F(Scaling, AFailedRankCostsTheCellItsScaling) {
   Record failed = record(deep, 5);
   failed["repetition"] = "6";

@@ -30,10 +30,10 @@ AnalysisResult solved(const RunRequest& run, const std::string& solver, double l
 
 const RunRequest beam = of("cantilever_beam", {{"n", "8"}, {"force", "5"}});
 const RunRequest bracket = of("l_bracket");
-const RunRequest plate = of("plate_paper", {{"n", "10"}});
+const RunRequest small_plate = of("plate_paper", {{"n", "10"}});
 
 TEST(StaticRun, relaxation_ends_in_newtons_state_at_finite_loads) {
-  for (const RunRequest& run : {beam, bracket, plate}) {
+  for (const RunRequest& run : {beam, bracket, small_plate}) {
     const AnalysisResult newton = solved(run, "newton");
     for (const std::string masses : {"scaled", "scene"}) {
       const AnalysisResult relaxed = solved(run, "relaxation", 1, masses);
@@ -46,7 +46,7 @@ TEST(StaticRun, relaxation_ends_in_newtons_state_at_finite_loads) {
 }
 
 TEST(StaticRun, three_solutions_agree_where_loads_are_small) {
-  for (const RunRequest& run : {beam, bracket, plate}) {
+  for (const RunRequest& run : {beam, bracket, small_plate}) {
     const double loads = run.scene == "plate_paper" ? 1e-3 : 1e-9;
     const std::vector<double> newton = solved(run, "newton", loads).state;
     for (const std::string solver : {"direct", "cg", "relaxation"})
@@ -56,7 +56,7 @@ TEST(StaticRun, three_solutions_agree_where_loads_are_small) {
 }
 
 TEST(StaticRun, damped_run_settles_to_newtons_state) {
-  for (const RunRequest& run : {beam, plate}) {
+  for (const RunRequest& run : {beam, small_plate}) {
     const AnalysisResult settled = settle(run, {});
     EXPECT_EQ(settled.status, "ok") << settled.reason;
     EXPECT_LT(displacement_difference(settled.state, solved(run, "newton").state), 1e-8)
@@ -65,7 +65,7 @@ TEST(StaticRun, damped_run_settles_to_newtons_state) {
 }
 
 TEST(StaticRun, relaxation_runs_in_every_model_and_precision) {
-  RunRequest run = plate;
+  RunRequest run = small_plate;
   const std::vector<double> newton = solved(run, "newton").state;
   run.model = "planar";
   EXPECT_LT(displacement_difference(solved(run, "relaxation").state, newton), 1e-8);

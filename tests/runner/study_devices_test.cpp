@@ -81,6 +81,16 @@ TEST_F(StudyOfDevices, AnAutomaticHybridHasThoseOfTheBlock) {
   EXPECT_EQ(found[1].label(), "hybrid auto, 4 threads");
 }
 
+TEST_F(StudyOfDevices, MembersMayBeProcessesOfTheirOwn) {
+  const auto found = cells({{"scene", "plate_paper"},
+                            {"hybrid", {"scalar:2,scalar:2"}},
+                            {"ranks", {2}},
+                            {"halos", {"sendrecv"}}});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].threads, 2);
+  EXPECT_EQ(found[0].label(), "hybrid scalar:2,scalar:2, 2 ranks, halo sendrecv");
+}
+
 TEST_F(StudyOfDevices, WrongKeysAreRefusedWithTheirPlace) {
   const json plate = {{"scene", "plate_paper"}};
   const auto with = [&](json more) {

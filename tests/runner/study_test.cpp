@@ -89,6 +89,27 @@ TEST_F(StudyOfRanks, CoresAreThoseOfTheMachine) {
   EXPECT_EQ(loaded.cells[2].ranks, 3);
 }
 
+TEST_F(StudyOfRanks, FillTakesAsManyThreadsAsFillTheCoresWithTheRanks) {
+  const SpeedupStudy loaded =
+      load({with({{"ranks", {1, 2, 5, 16, 32}}, {"threads", {"fill"}}})}, 16);
+  ASSERT_EQ(loaded.cells.size(), 5u);
+  const int threads[] = {16, 8, 3, 1, 1};
+  for (std::size_t n = 0; n < 5; ++n) EXPECT_EQ(loaded.cells[n].threads, threads[n]);
+  // 8 threads stand twice, once as a number
+  EXPECT_EQ(load({with({{"ranks", {2}}, {"threads", {8, "fill"}}})}, 16).cells.size(), 1u);
+}
+
+TEST_F(StudyOfRanks, SlowVariantsRunOnceWithAllStepsIfAsked) {
+  study["scales"]["smoke"]["steps_for"] = {{variant, 4}};
+  study["scales"]["smoke"]["whole_once"] = {variant};
+  const SpeedupStudy loaded = load({with({{"ranks", {1, 2}}})});
+  ASSERT_EQ(loaded.cells.size(), 3u);
+  EXPECT_EQ(loaded.cells[0].steps, 4);
+  EXPECT_EQ(loaded.cells[2].steps, 10);
+  EXPECT_TRUE(loaded.cells[2].is_whole_once);
+  EXPECT_EQ(loaded.cells[2].ranks, 1);
+}
+
 TEST_F(StudyOfRanks, WrongKeysAreRefusedWithTheirPlace) {
   expect_refused({{"ranks", {1, "two"}}}, {"ranks.json", "/cells/0/ranks/1", "number of ranks"});
   expect_refused({{"ranks", {0}}}, {"/cells/0/ranks/0", "0"});

@@ -79,12 +79,14 @@ struct Plugin {
   /// Has implicit methods and every Rotation too. Other variants have explicit methods and
   /// quaternions.
   bool has_all = false;
+  /// Rotation of a run that asks for none.
+  Rotation rotation = Rotation::quaternion;
   std::size_t layout = plugin_layout;
 };
 
 /// Raise this with every change of Plugin, Executor or a type that they receive (Method, Problem,
 /// Model).
-constexpr int plugin_abi = 11;
+constexpr int plugin_abi = 12;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

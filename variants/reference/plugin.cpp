@@ -1,5 +1,5 @@
-/// The variant `reference`: the oracle behind the interface of variants. Straightforward code, one
-/// thread, no SIMD by hand.
+/// The variants `reference` and `as_published`: the oracle behind the interface of variants.
+/// Straightforward code, one thread, no SIMD by hand. They differ in DSS_ROTATION.
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
 #include "variants/api/tried_steps.hpp"
@@ -7,10 +7,14 @@
 namespace dss {
 namespace {
 
+constexpr Rotation own_rotation = Rotation::DSS_ROTATION;
+
 /// Models with fewer degrees of freedom run the equations of the larger model. Where they suffice,
 /// the other fields stay zero.
 Rotation rotation_of(const Setup& setup) {
-  return setup.rotation != Rotation::quaternion ? setup.rotation : dss::rotation_of(setup.model);
+  if (setup.rotation != Rotation::quaternion) return setup.rotation;
+  const Rotation of_model = dss::rotation_of(setup.model);
+  return of_model == Rotation::quaternion ? own_rotation : of_model;
 }
 
 template <class T>
@@ -65,7 +69,8 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .create = create,
                            .kernels = nullptr,
                            .is_compensated = false,
-                           .has_all = true};
+                           .has_all = true,
+                           .rotation = own_rotation};
 
 } // namespace
 } // namespace dss

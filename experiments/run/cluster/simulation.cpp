@@ -95,7 +95,7 @@ NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposi
 }
 
 SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition,
-                         const NodeSpeed& speed, const std::string& halo, int steps) {
+                         const NodeSpeed& speed, const std::string& halo, int steps, int threads) {
   SimulationPlan plan{steps, halo, {}};
   for (const bool is_every_stage : {true, false}) {
     std::vector<PartSize> sizes;
@@ -103,7 +103,7 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
       sizes.push_back(
           part_size(what.problem, decomposition, p, is_every_stage ? 1 : what.method.stages));
     for (const HaloStrategy& strategy : halo_strategies()) {
-      if (strategy.is_every_stage != is_every_stage ||
+      if (strategy.is_every_stage != is_every_stage || !strategy.is_possible(threads) ||
           strategy.transport == HaloStrategy::Transport::shared)
         continue;
       PlannedStrategy planned{

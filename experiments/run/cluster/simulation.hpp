@@ -43,8 +43,10 @@ NodeSpeed given_speed(const std::string& name, double element_steps_per_s, const
 /// Plans what each strategy computes and exchanges. Strategies through shared memory are left out,
 /// because every rank is a node of its own.
 /// @param halo  strategy to run, or "auto"
+/// @param threads  threads of each node: some strategies are not possible with several
 SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition,
-                         const NodeSpeed& speed, const std::string& halo, int steps);
+                         const NodeSpeed& speed, const std::string& halo, int steps,
+                         int threads = 1);
 
 /// Name of the platform that describes this machine, with message costs measured by ping-pong
 /// between two ranks.

@@ -100,6 +100,8 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (plan.steps < 1) refuse(fmt::format("--steps {}: give at least 1", plan.steps));
   if (request.warmup_steps < 0)
     refuse(fmt::format("--warmup {}: give 0 or more", request.warmup_steps));
+  if (!(request.warmup_s >= 0) || !std::isfinite(request.warmup_s))
+    refuse(fmt::format("--warmup-time {:g}: give 0 s or more", request.warmup_s));
   if (request.check_tail < 0)
     refuse(fmt::format("--check-tail {}: give 0 or more", request.check_tail));
   if (request.stability_limit && !(*request.stability_limit > 0))
@@ -107,6 +109,9 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
                        *request.stability_limit));
   if (!(request.repeat_for >= 0) || !std::isfinite(request.repeat_for))
     refuse(fmt::format("--repeat-for {:g}: give 0 s or more", request.repeat_for));
+  if (request.samples < 1) refuse(fmt::format("--samples {}: give 1 or more", request.samples));
+  if (request.samples > 1 && request.repeat_for > 0)
+    refuse("--samples: the time is their median, with --repeat-for a mean; give one of the two");
   if (request.repeat_for > 0 && request.ranks > 1)
     refuse("--repeat-for: only a run on 1 rank starts again");
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
@@ -223,6 +228,9 @@ std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const 
                                Rotation rotation) {
   if (precision == Precision::f32c && !plugin.is_compensated)
     return Lack{"--precision f32c", "has f64 and f32 alone"};
+  if (plugin.rotation != Rotation::quaternion && rotation != plugin.rotation)
+    return Lack{fmt::format("--rotation {}", name(rotation)),
+                fmt::format("has {} alone", name(plugin.rotation))};
   if (plugin.has_all) return {};
   if (method.is_implicit())
     return Lack{fmt::format("--integrator {}", method.name), "has the explicit methods alone"};
@@ -278,7 +286,8 @@ RunPlan plan_run(const RunRequest& request) {
                        request.shares == "measured"};
   plan.precision = require_precision_name(request.precision.value_or("f64"));
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
-  plan.rotation = chosen_rotation(request.rotation.value_or("quaternion"));
+  plan.rotation =
+      chosen_rotation(request.rotation.value_or(std::string(name(plan.plugin->rotation))));
   plan.dt = request.dt.value_or(problem.dt);
   plan.steps = request.steps.value_or(problem.steps);
   if (plan.dt > 0 && std::isfinite(plan.dt)) {

@@ -32,6 +32,7 @@ struct RunRequest {
   bool is_forced = false;                ///< run above the stability limit
   std::optional<double> stability_limit; ///< limit [s] if already known; it is then not predicted
   long warmup_steps = 0;                 ///< steps before the clock starts; the state is then reset
+  double warmup_s = 0;                   ///< least time of the warm-up of several workers [s]
   std::string output;                    ///< .vtu file, or empty
   int frames = 0;                        ///< files of a series besides the final one
   std::string state_csv;                 ///< file, or empty
@@ -44,6 +45,9 @@ struct RunRequest {
   /// Shortest total time [s]. A shorter run is repeated from the start until this time was
   /// measured.
   double repeat_for = 0;
+  /// Number of further runs from the start whose median is the time; 1: the time of the run itself.
+  /// Runs longer than a second are not repeated.
+  long samples = 1;
 };
 
 } // namespace dss

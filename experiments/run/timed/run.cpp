@@ -68,7 +68,7 @@ RunResult run_scene(const RunRequest& request) {
   flush_denormals();
   RunResult result = described(plan, request);
   TimedRun timed(plan, request, result);
-  timed.run(request.warmup_steps);
+  timed.run();
   result.model = name(timed.model());
   if (result.status != "ok") return result;
   const Rotation rotation = timed.equations();
@@ -86,7 +86,7 @@ RunResult run_scene(const RunRequest& request) {
   }
   result.wall_s += result.model_report.look_s;
   judge(result.check, result);
-  if (result.status == "ok") timed.repeat(request.repeat_for);
+  if (result.status == "ok") timed.repeat(request.repeat_for, request.samples);
   return result;
 }
 

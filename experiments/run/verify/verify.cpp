@@ -120,7 +120,7 @@ private:
 
   std::string why_skipped(const Plugin& plugin) const {
     try {
-      if (const auto lack = what_lacks(plugin, precision_, methods().front(), Rotation::quaternion))
+      if (const auto lack = what_lacks(plugin, precision_, methods().front(), plugin.rotation))
         return lack->what;
       if (precision_ == Precision::f32c && plugin.devices != nullptr)
         return "left to tests/equivalence: programs of their own for every scene take minutes to "

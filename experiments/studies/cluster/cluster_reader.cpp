@@ -84,6 +84,12 @@ SimulationBlock read_block(const Node& node) {
   read_problems(object, block);
   read_choices(object, block);
   read_published(object, block);
+  block.node_cores = int(object.whole_or("node_cores", 1, block.node_cores));
+  for (const std::string& halo : block.halos)
+    if (const HaloStrategy* strategy = find_halo_strategy(halo);
+        strategy != nullptr && !strategy->is_possible(block.node_cores))
+      object.require("halos").fail(
+          fmt::format("\"{}\" is not possible on nodes of several cores", halo));
   object.finish();
   return block;
 }

@@ -45,6 +45,7 @@ const std::vector<std::string>& simulated_columns() {
                                                  "simulated_own_node_efficiency",
                                                  "simulated_own_node_communication_s",
                                                  "simulated_own_node_over_best",
+                                                 "own_node_cores",
                                                  "own_node_element_steps_per_s",
                                                  "messages_per_step",
                                                  "bytes_per_step",
@@ -78,10 +79,10 @@ public:
                 int ranks, const std::string& decomposition, NodeSpeed base)
       : block_(block), set_(set), scene_(scene), ranks_(ranks),
         decomposition_(decompose(scene_.problem, decomposition, ranks)), base_(std::move(base)),
-        own_(ranks == 1 ? base_ : own_speed(what(), decomposition_)) {}
+        own_(ranks == 1 ? base_ : of_node(own_speed(what(), decomposition_), block.node_cores)) {}
 
-  static NodeSpeed speed_of_one(const Scene& scene) {
-    return own_speed(what(scene), decompose(scene.problem, "strips", 1));
+  static NodeSpeed speed_of_one(const Scene& scene, int node_cores) {
+    return of_node(own_speed(what(scene), decompose(scene.problem, "strips", 1)), node_cores);
   }
 
   /// Rows of all strategies, network by network. Nothing is timed here, because the speeds of this
@@ -108,6 +109,13 @@ private:
     SimulationPlan own;
   };
 
+  /// Speed of a node whose cores share nothing: an upper limit.
+  static NodeSpeed of_node(NodeSpeed core, int cores) {
+    core.stage_by_stage *= cores;
+    core.at_once *= cores;
+    return core;
+  }
+
   static SimulatedProblem what(const Scene& scene) {
     return {scene.problem, require_method(scene.problem.integrator),
             find_model(scene.model).value(), Precision::f64};
@@ -118,7 +126,7 @@ private:
   /// One plan serves all networks and strategies; only the name of the strategy changes.
   Plans make_plans() const {
     const auto plan = [&](const NodeSpeed& speed) {
-      return make_plan(what(), decomposition_, speed, "auto", simulated_steps);
+      return make_plan(what(), decomposition_, speed, "auto", simulated_steps, block_.node_cores);
     };
     Plans plans{{}, plan(own_)};
     if (block_.published) plans.paper = plan(*published_speed());
@@ -144,6 +152,7 @@ private:
         {"network", network},
         {"decomposition", decomposition_.method},
         {"halo", halo},
+        {"own_node_cores", fmt::format("{}", block_.node_cores)},
         {"own_node_element_steps_per_s", number_text(own_.at_once / what().method.stages)},
         {"status", "ok"}};
     if (const auto paper = block_.paper_wall_s.find(ranks_); paper != block_.paper_wall_s.end()) {
@@ -234,7 +243,8 @@ Table simulate_study(const std::string& study, const std::vector<SimulationBlock
     const std::vector<std::vector<Override>> no_sets(1);
     for (const auto& own_set : is_weak ? no_sets : block.sets) {
       const NodeSpeed base = SimulatedCase::speed_of_one(
-          scenes.with(is_weak ? block.set_of_ranks.at(block.ranks.front()) : own_set));
+          scenes.with(is_weak ? block.set_of_ranks.at(block.ranks.front()) : own_set),
+          block.node_cores);
       for (const int ranks : block.ranks) {
         const auto& set = is_weak ? block.set_of_ranks.at(ranks) : own_set;
         for (const std::string& decomposition :

@@ -18,7 +18,7 @@ struct PublishedNode {
 };
 
 /// A block of simulations. Every combination is simulated twice: with the published node, and with
-/// one core of this machine.
+/// a node of cores like one of this machine.
 struct SimulationBlock {
   std::string label, scene;
   std::vector<std::vector<Override>> sets;           ///< or, for weak scaling, set_of_ranks
@@ -28,6 +28,7 @@ struct SimulationBlock {
   long steps = 0;                         ///< steps of the problem; times are given for this many
   std::optional<PublishedNode> published; ///< absent: only our node
   std::map<int, double> paper_wall_s;     ///< published times [s], by ranks
+  int node_cores = 1; ///< cores of our node: so many times as fast as one core of this machine
 };
 
 /// Reads the key "simulation", one block or a list. A scale may limit `most_ranks` and

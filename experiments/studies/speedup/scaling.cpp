@@ -21,6 +21,20 @@ void put_weak_efficiency(const StudySamples& samples, const Cell& base, const Ce
   put_interval(row, "weak_efficiency", *efficiency);
 }
 
+/// Time of the strategy that `auto` chose over the time of `auto`: both ran the same. Only where it
+/// chose the same one in every repetition.
+void put_against_chosen(const CellStudy& study, const StudySamples& samples, const Cell& cell,
+                        Record& row) {
+  if (cell.halo != "auto") return;
+  Cell chosen = cell;
+  chosen.halo = row["halo_used"];
+  const auto found = std::ranges::find_if(study.cells, [&](const Cell& other) {
+    return !other.is_twin && other.key() == chosen.key();
+  });
+  if (found == study.cells.end()) return;
+  if (const auto ratio = samples.speedup(*found, cell)) put_interval(row, "auto_vs_chosen", *ratio);
+}
+
 } // namespace
 
 double karp_flatt(double speedup, int ranks) {
@@ -37,6 +51,9 @@ const std::vector<std::string>& scaling_columns() {
                                                    "speedup_vs_threads",
                                                    "speedup_vs_threads_low",
                                                    "speedup_vs_threads_high",
+                                                   "auto_vs_chosen",
+                                                   "auto_vs_chosen_low",
+                                                   "auto_vs_chosen_high",
                                                    "weak_base_set",
                                                    "weak_efficiency",
                                                    "weak_efficiency_low",
@@ -56,6 +73,7 @@ void put_scaling(const CellStudy& study, const StudySamples& samples, const Cell
   if (const Cell* base = threaded_base(study, cell))
     if (const auto speedup = samples.speedup(*base, cell))
       put_interval(row, "speedup_vs_threads", *speedup);
+  put_against_chosen(study, samples, cell, row);
   if (const Cell* base = weak_base(study, cell)) put_weak_efficiency(samples, *base, cell, row);
 }
 

@@ -17,10 +17,10 @@ namespace {
 
 std::vector<std::string> table_columns(const SpeedupStudy& study) {
   std::vector<std::string> columns = identity_columns();
-  columns.insert(columns.end(),
-                 {"repetitions", "contaminated", "short", "outliers", "measured_wall_s",
-                  "measured_wall_low_s", "measured_wall_high_s", "half_width", "converged",
-                  "extrapolated_wall_s", "extrapolated_to_steps", "element_steps_per_s"});
+  columns.insert(columns.end(), {"repetitions", "contaminated", "short", "outliers",
+                                 "measured_wall_s", "measured_wall_low_s", "measured_wall_high_s",
+                                 "half_width", "converged", "extrapolated_wall_s",
+                                 "extrapolated_to_steps", "scaling_error", "element_steps_per_s"});
   for (const std::string& base : study.bases)
     for (const char* form :
          {"speedup_vs_{}", "speedup_vs_{}_low", "speedup_vs_{}_high", "extrapolated_speedup_vs_{}",
@@ -46,6 +46,22 @@ void put_speedups(const SpeedupStudy& study, const StudySamples& samples, const 
   }
 }
 
+/// Error of scaling a time to all steps, from one run of all steps.
+void put_scaling_error(const SpeedupStudy& study, const StudySamples& samples, const Cell& cell,
+                       Record& row) {
+  if (cell.is_whole_once || cell.is_twin || cell.steps == cell.full_steps) return;
+  Cell whole = cell;
+  whole.steps = cell.full_steps;
+  const auto run = std::ranges::find_if(study.cells, [&](const Cell& other) {
+    return other.is_whole_once && other.key() == whole.key();
+  });
+  if (run == study.cells.end()) return;
+  const CellSample* sample = samples.of(*run);
+  if (sample == nullptr || sample->is_empty()) return;
+  row["scaling_error"] =
+      number_text(number_in(row, "extrapolated_wall_s") / number_in(sample->last, "wall_s") - 1);
+}
+
 Record measured_row(const SpeedupStudy& study, const StudySamples& samples, const Cell& cell) {
   const CellSample* sample = samples.of(cell);
   Record row;
@@ -62,6 +78,7 @@ Record measured_row(const SpeedupStudy& study, const StudySamples& samples, cons
         "its bits are not those of the other variants with FMA, threads, ranks or repetitions";
   }
   if (row["status"] == "ok" && sample->is_oversubscribed()) row["status"] = "oversubscribed";
+  put_scaling_error(study, samples, cell, row);
   put_speedups(study, samples, cell, row);
   put_scaling(study, samples, cell, row);
   put_devices(study, samples, cell, row);

@@ -44,6 +44,23 @@ std::string shown_status(const Record& row) {
               : "");
 }
 
+/// Cells with `auto` whose time is not that of the strategy that it chose, although both ran the
+/// same: the difference is noise that the A/A pair did not show. Empty if there are none.
+std::string inconsistency_text(const Table& table) {
+  std::string text;
+  for (const Record& row : table.rows) {
+    const double low = number_in(row, "auto_vs_chosen_low"),
+                 high = number_in(row, "auto_vs_chosen_high"),
+                 resolution = number_in(row, "resolution");
+    if (low > 1 + resolution || high < 1 - resolution)
+      text +=
+          fmt::format("Inconsistent: {} {} ran as {}, and that alone takes {} times its time.\n",
+                      text_in(row, "label"), shown_set(row), text_in(row, "halo_used"),
+                      shown_interval(row, "auto_vs_chosen"));
+  }
+  return text;
+}
+
 /// What the cells on several ranks cost and gain; empty if there are none.
 std::string scaling_text(const Table& table) {
   std::vector<std::vector<std::string>> rows;
@@ -136,7 +153,7 @@ std::string table_text(const SpeedupStudy& study, const Table& table) {
           "[95 % interval]; ~ scaled from fewer steps.\n";
   if (!resolution.empty())
     text += fmt::format("Resolution by the A/A pair: {}. No claim below it.\n", resolution);
-  text += scaling_text(table) + device_text(table);
+  text += inconsistency_text(table) + scaling_text(table) + device_text(table);
   if (!paper.empty())
     text += fmt::format("\nPublished ({}):\n{}", study.paper_source,
                         text_table({"configuration", "set", "wall [s]", "speed-up"}, paper));
