@@ -41,14 +41,20 @@ test-aarch64: build
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.
 UNTIMED_STUDIES := error_budget failures continuum
-STUDIES := chain kernels table1_host table1 table2 table3 work_precision advise stability \
-  model_ladder statics balance cluster
+PAPER_STUDIES := table1 table2 table3 paper_table1 paper_table2 paper_table3
+STUDIES := chain chain_block chain_bending kernels table1_host $(PAPER_STUDIES) work_precision \
+  advise stability model_ladder statics balance cluster
+# Five minutes of measuring: the paper's tables and the chain alone.
+ifeq (quick,$(SCALE))
+UNTIMED_STUDIES :=
+STUDIES := chain $(PAPER_STUDIES)
+endif
 SIDE_BY_SIDE := --no-print-directory -j 2 --output-sync=target
 
 reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(MAKE) $(SIDE_BY_SIDE) verify-cpu verify-devices
-	@$(MAKE) $(SIDE_BY_SIDE) $(addprefix study-,$(UNTIMED_STUDIES))
+	@$(if $(UNTIMED_STUDIES),$(MAKE) $(SIDE_BY_SIDE) $(addprefix study-,$(UNTIMED_STUDIES)))
 	@for study in $(STUDIES); do $(MAKE) --no-print-directory study-$$study || exit 1; done
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 \
@@ -79,7 +85,7 @@ reproduce-gpu: build
 gpu-studies:
 	@$(BUILD)/dssbench list devices --measure
 	@$(BUILD)/dssbench verify --quiet --variant opencl,opencl-rhs --device gpu
-	@for study in table3 table3_gpu; do $(MAKE) --no-print-directory study-$$study || exit 1; done
+	@for study in table3 table3_gpu paper_table3; do $(MAKE) --no-print-directory study-$$study || exit 1; done
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 

@@ -296,12 +296,6 @@ void add_check_options(CLI::App& command, RunRequest& request) {
           "Repeat a shorter run until this time was measured [s]; times are the mean of the runs")
       ->capture_default_str()
       ->group("Checks");
-  command
-      .add_option("--samples", request.samples,
-                  "Repeat a run shorter than 1 s so many times from the start; its time is their "
-                  "median")
-      ->capture_default_str()
-      ->group("Checks");
 }
 
 } // namespace

@@ -244,6 +244,8 @@ std::vector<Cell> cells_of(ObjectNode& object, const Block& block, const Scale& 
   std::erase_if(cells, [&](const Cell& cell) {
     return cell.threads > 1 && !is_threaded(known_variant(cell.variant, object.node()));
   });
+  // A larger problem on more workers than cores takes long and shows nothing.
+  if (block.weak) std::erase_if(cells, [&](const Cell& c) { return c.is_oversubscribed(cores); });
   for (Cell& cell : cells) {
     cell.device = block.device;
     if (!cell.hybrid.empty() && cell.hybrid != "auto")

@@ -33,11 +33,11 @@ Scale read_scale(const StudyFile& file, const CellRules& rules) {
   scale.tail_checks = object.whole_or("tail_checks", 1, scale.tail_checks);
   scale.warmup_steps = object.whole_or("warmup_steps", 0, scale.warmup_steps);
   scale.warmup_s = object.non_negative_or("warmup_s", scale.warmup_s);
-  scale.samples = object.whole_or("samples", 1, scale.samples);
   scale.retries = object.whole_or("retries", 0, scale.retries);
   scale.half_width = object.positive_or("half_width", scale.half_width);
   scale.budget_s = object.positive_or("budget_s", scale.budget_s);
-  scale.patience_s = object.non_negative_or("patience_s", 0.5 * scale.budget_s);
+  scale.patience_s =
+      object.non_negative_or("patience_s", scale.retries > 0 ? 0.5 * scale.budget_s : 0);
   scale.time_limit_s = object.positive_or("time_limit_s", scale.time_limit_s);
   scale.steps_by_set = read_steps(object, "steps_by_set");
   scale.steps_for = read_steps(object, "steps_for");

@@ -143,7 +143,6 @@ std::vector<std::string> run_arguments(const CellStudy& study, const Cell& cell,
                                    "--json",
                                    "-"};
   line.insert(line.end(), checks.begin(), checks.end());
-  if (study.scale.samples > 1) line.insert(line.end(), {"--samples", text(study.scale.samples)});
   if (cell.dt > 0) line.insert(line.end(), {"--dt", text(cell.dt)});
   if (cell.rtol > 0) line.insert(line.end(), {"--rtol", text(cell.rtol)});
   if (cell.ranks > 1)

@@ -28,8 +28,6 @@ struct Scale {
   /// Number of repetitions whose final states the oracle checks; the others must have the same
   /// bits. 0: all.
   long tail_checks = 0;
-  /// Runs of a repetition, whose median is its time; those longer than a second run once.
-  long samples = 1;
   long min_repetitions = 6, max_repetitions = 30;
   long retries = 3;        ///< largest number of times that a contaminated repetition is repeated
   double patience_s = 120; ///< for waiting for a quiet machine and for these repetitions [s]

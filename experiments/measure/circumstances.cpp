@@ -1,4 +1,5 @@
 #include "experiments/measure/circumstances.hpp"
+#include "experiments/base/build_info.hpp"
 #include "experiments/run/plan/context.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
@@ -17,6 +18,24 @@ nlohmann::json scene_digests(const Circumstances& of) {
         digest.is_null())
       digest = scene_digest(load_scene(scene, set));
   return digests;
+}
+
+/// FNV-1a, 64 bits: the report computes it as well.
+std::string fnv1a(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3;
+  return fmt::format("{:016x}", hash);
+}
+
+/// Digests of what the records depend on besides their scenes: the code that measures, the code of
+/// the kind of study, whose folder has the study's JSON, and this file.
+nlohmann::json source_digests(const std::string& study_path) {
+  const std::map<std::string, std::string>& built = build_info().sources;
+  nlohmann::json sources{{"core", built.at("core")}, {"json", fnv1a(read_text(study_path))}};
+  const std::string kind =
+      "studies/" + std::filesystem::path(study_path).parent_path().filename().string();
+  if (const auto digest = built.find(kind); digest != built.end()) sources[kind] = digest->second;
+  return sources;
 }
 
 /// Appends a text to a list in a file of circumstances.
@@ -44,7 +63,7 @@ std::string scene_key(const Cell& cell, const Scene& scene) {
 }
 
 Circumstances circumstances_of(const CellStudy& study) {
-  Circumstances of{study.name, study.title, study.scale.name, {}};
+  Circumstances of{study.name, study.title, study.scale.name, study.path, {}};
   for (const Cell& cell : study.cells) of.scenes.emplace_back(cell.scene, cell.set);
   return of;
 }
@@ -57,6 +76,7 @@ void write_circumstances(const std::string& path, const nlohmann::json& context,
   json["title"] = of.title;
   json["scale"] = of.scale;
   json["scenes"] = scene_digests(of);
+  if (!of.path.empty()) json["sources"] = source_digests(of.path);
   AtomicFile file(path);
   file.write(json.dump(2) + "\n");
   file.commit();

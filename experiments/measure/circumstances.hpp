@@ -13,7 +13,7 @@ namespace dss {
 
 /// The study and the scenes that its records depend on.
 struct Circumstances {
-  std::string experiment, title, scale;
+  std::string experiment, title, scale, path; ///< path: of the study's JSON
   /// scenes with their overrides
   std::vector<std::pair<std::string, std::vector<Override>>> scenes;
 };
@@ -28,8 +28,8 @@ std::string scene_digest(const Scene& scene);
 /// 0123456789abcdef".
 std::string scene_key(const Cell& cell, const Scene& scene);
 
-/// Writes the study's name and scale, the digests of its scenes, and the context that a measured
-/// process reported.
+/// Writes the study's name and scale, the digests of its scenes and of the sources that its records
+/// depend on, and the context that a measured process reported.
 void write_circumstances(const std::string& path, const nlohmann::json& context,
                          const Circumstances& of);
 

@@ -84,7 +84,7 @@ int run_study_file(const std::string& name_or_path, const StudyOptions& options)
       std::ranges::any_of(studies, [](const auto& study) { return study->keeps_records(); });
   if (!options.is_dry && !has_records)
     write_circumstances(study_paths(options.directory, file.name).context, measurement_context(),
-                        {file.name, file.title, options.scale, {}});
+                        {file.name, file.title, options.scale, file.path, {}});
   return code;
 }
 

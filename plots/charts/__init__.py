@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Callable
 
 from . import (advice, balance, cells, chain, cluster, continuum, error_budget, failures, kernels,
-               ladder, stability, statics, work_precision)
+               ladder, paper, stability, statics, work_precision)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,18 +24,30 @@ class Entry:
 
 
 CHARTS = [Entry(*words) for words in (
+    ("paper-1", "The paper's Table 1", "paper_table1", paper.paper_table("paper_table1"),
+     "paper_table1"),
+    ("paper-2", "The paper's Table 2", "paper_table2", paper.paper_table("paper_table2"),
+     "paper_table2"),
+    ("paper-3", "The paper's Table 3", "paper_table3", paper.paper_table("paper_table3"),
+     "paper_table3"),
+    ("figure-9", "The paper's figure 9", "paper_figure9", paper.figure9, "paper_figure9"),
     ("speedups-1-host", "Speed-ups, Table 1 on one process", "table1_host",
      cells.speedups("table1_host"), "table1_host"),
     ("speedups-1", "Speed-ups, Table 1", "table1", cells.speedups("table1"), "table1"),
     ("speedups-2", "Speed-ups, Table 2", "table2", cells.speedups("table2"), "table2"),
     ("speedups-3", "Speed-ups, Table 3", "table3", cells.speedups("table3"), "table3"),
-    ("figure-9", "The paper's figure 9", "table3", cells.figure9("table3"), "table3_figure9"),
+    ("sizes-3", "Time over the size of the plate", "table3", cells.figure9("table3"),
+     "table3_figure9"),
     ("work-precision-time", "Error against time", "work_precision", work_precision.against_time,
      "work_precision"),
     ("work-precision-evaluations", "Error against force evaluations", "work_precision",
      work_precision.against_evaluations, "work_precision"),
     ("pareto", "Pareto front", "work_precision", work_precision.pareto, "pareto"),
-    ("chain", "Chain of factors", "chain", chain.chain, "chain"),
+    ("chain", "Chain of factors", "chain", chain.chain("chain"), "chain"),
+    ("chain-block", "The same chain on a thick body", "chain_block", chain.chain("chain_block"),
+     "chain_block"),
+    ("chain-bending", "The same chain on a strongly bent plate", "chain_bending",
+     chain.chain("chain_bending"), "chain_bending"),
     ("roofline", "Roofline", "kernels", kernels.roofline, "roofline"),
     ("attribution", "Where the time of a step goes", "attribution", kernels.attribution,
      "attribution"),

@@ -4,7 +4,7 @@ import dataclasses
 from tables.results import NotMeasured
 from tables.words import is_missing, shown, with_interval
 
-NETWORKS = {"gigabit": "1 GbE", "ten_gigabit": "10 GbE", "fdr": "FDR"}
+WAYS = ("as the paper did", "our best")
 
 
 @dataclasses.dataclass
@@ -82,105 +82,65 @@ def speedup(row, base, before=""):
     return with_interval(row.get(column), row.get(f"{column}_low"), row.get(f"{column}_high"))
 
 
-def simulated_rows(results, table):
-    """Simulated rows with the paper's cluster and its exchange; none if nothing was simulated."""
-    try:
-        frame = results.table(f"{table}_simulated", "label", "ranks", "network", "halo",
-                              "simulated_paper_node_wall_s")
-    except NotMeasured:
-        return None
-    is_papers = frame["label"].str.startswith("the paper's cluster", na=False)
-    return frame[is_papers & (frame["halo"] == "sendrecv")]
-
-
-def own_rows(measured, variant):
-    """Rows of strong scaling on one thread a rank: weak scaling has plates of other sizes."""
-    is_pair = measured["label"].str.contains("A/A", regex=False)
-    own = measured[(measured["variant"] == variant) & (measured["threads"] == 1) & ~is_pair]
-    return own if own.empty else own[own["set"] == own["set"].iloc[0]]
-
-
-def counterpart(published, measured, own):
-    """The measured row that is beside a published one, or none."""
-    if published["is_base"]:
-        return first(measured[(measured["variant"] == "scalar") & (measured["threads"] == 1)])
-    own = own[own["ranks"] == published["processes"]]
-    is_auto = own["halo"] == "auto"
-    return first(own[is_auto] if is_auto.any() else own)
-
-
-def measured_cells(row, table):
-    """Cells of a measured row; empty ones if there is none."""
+def figure_of(row, table):
+    """The cells of one way: the figure with its interval, what ran, and its row."""
     if row is None:
-        return cells_of([""] * 5)
-    texts = [row["label"], wall(row), speedup(row, "scalar"), row["status"]]
-    return [*cells_of(texts), reference(f"tables/{table}", row)]
+        return cells_of([""] * 3)
+    measured = with_interval(row.get("measured"), row.get("measured_low"), row.get("measured_high"))
+    scaled = "~ " if measured and row.get("scaled") == "yes" else ""
+    ran = "" if is_missing(row.get("ran")) else row["ran"]
+    status = "" if row["status"] == "ok" else row["status"]
+    return [*cells_of([scaled + measured, "; ".join(filter(None, [ran, status]))]),
+            reference(f"tables/{table}", row)]
 
 
-def simulated_cells(published, simulated, table):
-    """Cells of the simulated times on each network; empty ones if there are none."""
-    if simulated is None or published["is_base"]:
-        return cells_of([""] * (len(NETWORKS) + 1))
-    alike = simulated[simulated["ranks"] == published["processes"]]
-    rows = [first(alike[alike["network"] == network]) for network in NETWORKS]
-    texts = ["" if row is None else shown(row["simulated_paper_node_wall_s"], 4) for row in rows]
-    known = [row for row in rows if row is not None]
-    return [*cells_of(texts), reference(f"tables/{table}_simulated", *known)]
-
-
-def notes_of_processes(table, paper, measured, has_simulation):
-    """Where the values of Table 1 or 2 are from, and what may be compared."""
-    notes = []
-    if "paper_source" in paper and not paper.empty:
-        notes.append(f"Paper: {first(paper)['paper_source']}.")
-    one = first(measured)
-    notes.append(
-        "Nothing was measured here." if one is None else
-        f"Measured here: {one['scene']} {one['set']}, at least {shown(one['steps'])} steps. "
-        "Speed-ups are against scalar on one thread, by interleaved pairs, with 95 % intervals. "
-        "Problem and machine differ from the paper's: compare speed-ups, not seconds. A row with "
-        "more workers than cores is oversubscribed and has no speed-up.")
-    notes.append(
-        "Simulated: the paper's problem and its exchange, on nodes as fast as the paper's, on "
-        "three networks." if has_simulation else
-        f"Not simulated: run `dssbench experiment {table}`.")
-    return notes
-
-
-def table_of_processes(results, name, table, title, variant):
-    """Table 1 or 2: a row for each published number of processes."""
-    measured = measured_rows(results, table, "ranks", "threads", "halo", "variant")
-    paper = paper_rows(results, table)
-    if paper.empty and measured.empty:
-        raise NotMeasured(f"tables/{table}.csv has no rows")
-    simulated, own = simulated_rows(results, table), own_rows(measured, variant)
-    rows = []
-    for _, published in paper.iterrows():
-        texts = [published["label"], shown(published["paper_wall_s"], 6),
-                 shown(published["paper_speedup"], 4)]
-        rows.append([*cells_of(texts), reference(f"tables/{table}", published),
-                     *measured_cells(counterpart(published, measured, own), table),
-                     *simulated_cells(published, simulated, table)])
-    networks = [f"{word} [s]" for word in NETWORKS.values()]
-    groups = [("", "", ["configuration"]),
-              ("paper", "paper (published, other machines)", ["time [s]", "speed-up", "row"]),
-              ("measured", "measured (here)",
-               ["cell", "median time [s]", "speed-up", "status", "row"]),
-              ("simulated", "simulated (the paper's node)", [*networks, "rows"])]
-    return Grid(name, title, [table, f"{table}_simulated"], groups, rows,
-                notes_of_processes(table, paper, measured, simulated is not None))
+def paper_grid(results, name, table, title):
+    """A table of the paper: a line for each of its figures, in its order."""
+    frame = results.table(table, "row", "column", "way", "unit", "paper", "status", optional=[
+        "base", "measured", "measured_low", "measured_high", "ran", "machine", "set", "steps",
+        "scaled", "simulated_paper_node", "simulated_own_node"])
+    frame = frame.assign(base=frame["base"].fillna(""))
+    rows, resources = [], []
+    for (resource, column, base), group in frame.groupby(["row", "column", "base"], sort=False):
+        ways = [first(group[group["way"] == way]) for way in WAYS]
+        if (group["way"] == "the base").any():
+            ways[0] = first(group)
+        one = first(group)
+        simulated = [shown(row[node], 4) if row is not None else ""
+                     for node in ("simulated_paper_node", "simulated_own_node") for row in ways]
+        unit = "" if one["unit"] == "ratio" else " [s]"
+        rows.append([*cells_of([resource, f"{column}{unit}", base, shown(one["paper"], 6)]),
+                     *figure_of(ways[0], table), *figure_of(ways[1], table),
+                     *cells_of(simulated)])
+        resources.append(resource)
+    groups = [("", "", ["row", "figure", "base"]), ("paper", "paper (published)", ["figure"]),
+              ("measured", "measured: as the paper did, or the base", ["figure", "ran", "csv"]),
+              ("measured", "measured: our best", ["figure", "ran", "csv"]),
+              ("simulated", "simulated: nodes as fast as the paper's", ["its way", "our best"]),
+              ("simulated", "simulated: nodes with its cores, each as fast as here",
+               ["its way", "our best"])]
+    machines = "; ".join(dict.fromkeys(frame["machine"].dropna()))
+    notes = ["Rows and columns are the paper's, in its order. A speed-up has a line for each base, "
+             "the plain code that it refers to. Medians with 95 % intervals; ~ scaled to the "
+             "paper's steps from fewer. A figure without an interval is left out.",
+             f"Measured on: {machines}." if machines else "Nothing was measured here."]
+    filters = {"Row": resources} if len(set(resources)) > 1 else {}
+    return Grid(name, title, [table], groups, rows, notes, filters)
 
 
 def table1(results):
     """Table 1."""
-    return table_of_processes(results, "table-1", "table1", "Table 1: processes with AVX2-FMA",
-                              "avx2")
+    return paper_grid(results, "table-1", "paper_table1", "Table 1: processes with AVX2-FMA")
 
 
 def table2(results):
     """Table 2."""
-    return table_of_processes(results, "table-2", "table2", "Table 2: processes with AVX-512",
-                              "avx512")
+    return paper_grid(results, "table-2", "paper_table2", "Table 2: processes with AVX-512")
+
+
+def table3(results):
+    """Table 3."""
+    return paper_grid(results, "table-3", "paper_table3", "Table 3: CPU, GPU, and both")
 
 
 HOST_GROUPS = [
@@ -238,7 +198,7 @@ TABLE3_GROUPS = [
 TABLE3_NOTES = [
     "A scaled time is the median of fewer steps times the ratio of the steps. It is no "
     "measurement. A device that is not there is unavailable; nothing else stands in for it.",
-    "Table 3 has no simulation; tables/balance.csv has a model of a CPU beside a device."]
+    "tables/balance.csv has a model of a CPU beside a device."]
 
 
 def table3_texts(row):
@@ -250,8 +210,9 @@ def table3_texts(row):
             speedup(row, "scalar", "extrapolated_")]
 
 
-def table3(results, name="table-3", title="Table 3: devices and hybrids", path="tables/table3"):
-    """Table 3: executors by the size of the plate. path: of the table, without .csv"""
+def executors(results, name="table-3-executors", title="Executors by size of the plate",
+              path="tables/table3"):
+    """Every executor of the study table3. path: of the table, without .csv"""
     frame = results.table("table3", "source", "label", "set", "steps", "status", optional=[
         "measured_wall_s", "extrapolated_wall_s", "paper_wall_s"])
     size = frame["set"].str.extract(r"(\d+)", expand=False).astype(float)
@@ -268,11 +229,12 @@ def table3(results, name="table-3", title="Table 3: devices and hybrids", path="
 def other_table3(other):
     """Table 3 of another machine, from a folder of the results."""
     folder = other.directory.name
-    return table3(other, f"table-3-{folder}", f"Table 3 on another machine: {folder}",
+    return executors(other, f"table-3-{folder}", f"Table 3 on another machine: {folder}",
                   f"{folder}/tables/table3")
 
 
-TABLES = [("table-1", "Table 1: processes with AVX2-FMA", "table1", table1),
-          ("table-1-host", "Table 1 on one process, with threads", "table1_host", table1_host),
-          ("table-2", "Table 2: processes with AVX-512", "table2", table2),
-          ("table-3", "Table 3: devices and hybrids", "table3", table3)]
+TABLES = [("table-1", "Table 1: processes with AVX2-FMA", "paper_table1", table1),
+          ("table-2", "Table 2: processes with AVX-512", "paper_table2", table2),
+          ("table-3", "Table 3: CPU, GPU, and both", "paper_table3", table3),
+          ("table-1-host", "One process, with threads", "table1_host", table1_host),
+          ("table-3-executors", "Executors by size of the plate", "table3", executors)]

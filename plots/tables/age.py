@@ -1,7 +1,9 @@
 """What made the records, when, and which of them are old.
 
 raw/NAME.json says which program measured, and each row of raw/NAME.csv says when. A record is old
-if it differs from the newest record in its commit, its machine or its compiler, or if it is of an
+if a source that it depends on has changed since (sources.py), or if it was measured on another
+machine or with another compiler than the newest record. Records of earlier programs do not name
+their sources; they are old if their commit is not that of the newest record, or if they are of an
 earlier session. The age of a table without a record is unknown: the time of a file is only when
 the file was checked out or copied.
 """
@@ -11,6 +13,7 @@ import json
 import pandas
 
 from .results import study_of
+from .sources import changed
 
 # The studies of a session follow each other. A study that records only its end takes up to an hour.
 SESSION_GAP = datetime.timedelta(hours=2)
@@ -30,7 +33,7 @@ class Record:
     def __init__(self, path):
         text = json.loads(path.read_text(encoding="utf-8"))
         self.name, self.context = path.stem, text["context"]
-        self.scale = text.get("scale", "")
+        self.scale, self.sources = text.get("scale", ""), text.get("sources", {})
         self.commit = str(self.context.get("git_commit", ""))
         self.is_dirty = bool(self.context.get("git_dirty"))
         self.reasons = []  # why all of it is old; Ages compares records
@@ -122,13 +125,19 @@ class Ages:
     def _reasons(self, record):
         """Why all of a record is old."""
         newest, reasons = self.newest, []
-        if record.commit != newest.commit:
+        if record.sources:
+            since = changed(record.sources, record.name)
+            if since:
+                reasons.append(f"made by commit {record.commit[:9]}; changed since: "
+                               f"{', '.join(since)}")
+        elif record.commit != newest.commit:
             reasons.append(f"made by commit {record.commit[:9]}, the newest ({newest.name}) by "
                            f"{newest.commit[:9]}")
         for key, word in (("cpu_model", "machine"), ("compiler", "compiler")):
             if record.context.get(key) != newest.context.get(key):
                 reasons.append(f"another {word}: {record.context.get(key)}")
-        if not reasons and record.last < self.session_start - SESSION_GAP:
+        if not reasons and not record.sources \
+                and record.last < self.session_start - SESSION_GAP:
             reasons.append(f"of an earlier session than the newest ({newest.name}, "
                            f"{day(newest.last)})")
         return reasons

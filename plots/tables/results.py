@@ -88,5 +88,6 @@ def studies():
 def study_of(table):
     """The study that writes a table: the longest study name that the table name begins with."""
     known = [name for name in studies() if table == name or table.startswith(f"{name}_")]
-    special = {"cluster_simulated": "cluster", "ceilings": "kernels", "attribution": "kernels"}
+    special = {"cluster_simulated": "cluster", "ceilings": "kernels", "attribution": "kernels",
+               "paper_figure9": "paper_table3"}
     return special.get(table) or max(known, key=len, default=table)

@@ -44,8 +44,12 @@ class ExperimentsOnRanks(TinyStudyTest):
         self.study_on_ranks(weak={"parameter": "n", "power": 2})
         result = self.experiment()
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        on_ranks = [row for row in self.rows("raw") if row["ranks"] == "2"]
-        self.assertEqual(len(on_ranks), 2 * 2)
+        rows = self.rows("raw")
+        on_ranks, cores = [row for row in rows if row["ranks"] == "2"], int(rows[0]["cores"])
+        if cores == 1:  # a weak scaling has no cell with more workers than cores
+            self.assertEqual(on_ranks, [])
+            return
+        self.assertEqual(len(on_ranks), 2 * 6)
         for row in on_ranks:
             self.assertEqual(
                 (row["check"], row["status"], row["decomposition"], row["set"], row["elements"]),
@@ -57,10 +61,9 @@ class ExperimentsOnRanks(TinyStudyTest):
             self.assertEqual(row["workers"], "2")
         self.assertEqual({row["halo_used"] for row in on_ranks if row["halo"] == "deep"}, {"deep"})
         self.assertNotIn("auto", {row["halo_used"] for row in on_ranks})
-        cores = int(on_ranks[0]["cores"])
         deep = self.measured()["scalar, 2 ranks x 1 thread, halo deep"]
-        self.assertEqual(deep["status"], "ok" if cores > 1 else "oversubscribed")
-        self.assertEqual(deep["weak_efficiency"] != "", cores > 1)
+        self.assertEqual(deep["status"], "ok")
+        self.assertNotEqual(deep["weak_efficiency"], "")
         self.assertIn("Over ranks", result.stdout)
 
     @unittest.skipIf(WHY_NO_RANKS, WHY_NO_RANKS)
@@ -86,7 +89,7 @@ class ExperimentsOnRanks(TinyStudyTest):
         table = self.measured()
         self.assertEqual(
             (table["scalar, 1 thread"]["status"], table["scalar, 1 thread"]["repetitions"]),
-            ("ok", "2"))
+            ("ok", "6"))
         for halo in ("deep", "auto"):
             row = table[f"scalar, 2 ranks x 1 thread, halo {halo}"]
             self.assertEqual(

@@ -18,7 +18,7 @@ class Experiments(TinyStudyTest):
         result = self.experiment()
         self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
         raw = self.rows("raw")
-        self.assertEqual(len(raw), 6)
+        self.assertEqual(len(raw), 3 * 6)
         for row in raw:
             self.assertEqual((row["check"], row["status"]), ("passed", "ok"))
             self.assertGreater(float(row["check_error"]), 0)
@@ -40,7 +40,7 @@ class Experiments(TinyStudyTest):
         self.assertEqual(self.experiment("--resume").returncode, 0)
         resumed = self.read("out/raw/tiny.csv").splitlines(keepends=True)
         self.assertEqual(resumed[:4], kept)
-        self.assertEqual(len(resumed), 7)
+        self.assertEqual(len(resumed), 1 + 3 * 6)
         self.assertEqual(self.experiment("--resume").returncode, 0)
         self.assertEqual(self.read("out/raw/tiny.csv").splitlines(keepends=True), resumed)
 

@@ -130,8 +130,11 @@ inline State oracle_derivative(const Problem& problem, const Method& method, con
   return restricted_rates(std::move(rates), model);
 }
 inline State oracle_after(const Problem& problem, const Method& method, const State& state,
-                          long steps, Model model = Model::spatial) {
-  Oracle<long double> oracle(problem, method, problem.dt, rotation_of(model));
+                          long steps, Model model = Model::spatial,
+                          Rotation finite = Rotation::quaternion) {
+  const Rotation rotation = rotation_of(model);
+  Oracle<long double> oracle(problem, method, problem.dt,
+                             rotation == Rotation::quaternion ? finite : rotation);
   oracle.write(state);
   oracle.advance(steps);
   State result = poisoned(problem);

@@ -136,7 +136,7 @@ TEST_P(EveryVariant, agrees_with_the_oracle_after_one_evaluation_of_a_random_sta
 /// One test for all variants, because the oracle's runs take longest.
 TEST(Variants, agree_with_the_oracle_after_a_run_from_a_moderate_state) {
   for (const Case& c : cases()) {
-    std::map<std::tuple<Model, std::string_view, Precision>, State> expected;
+    std::map<std::tuple<Model, std::string_view, Precision, Rotation>, State> expected;
     for (const std::string& variant : usable_variants()) {
       const TestedVariant tested{load_variant(variant)};
       for (const Model model : tested.tested_models(c))
@@ -146,8 +146,10 @@ TEST(Variants, agree_with_the_oracle_after_a_run_from_a_moderate_state) {
               precision);
           const State end =
               VariantRun{tested.plugin, c.problem, method, model, precision}.after(state, 60);
-          State& of_oracle = expected[{model, method.name, precision}];
-          if (of_oracle.empty()) of_oracle = oracle_after(c.problem, method, state, 60, model);
+          const Rotation finite = tested.plugin.rotation;
+          State& of_oracle = expected[{model, method.name, precision, finite}];
+          if (of_oracle.empty())
+            of_oracle = oracle_after(c.problem, method, state, 60, model, finite);
           const bool is_whole = tested.plugin.has_all && !is_common(model);
           EXPECT_LE(relative_error(is_whole ? restricted(end, model) : end, of_oracle),
                     precision == Precision::f64 ? 1e-10 : 2e-3)

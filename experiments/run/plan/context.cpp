@@ -118,6 +118,7 @@ nlohmann::ordered_json measurement_context() {
   context["compiler_flags"] = build.flags;
   context["build_type"] = build.build_type;
   context["libraries"] = library_versions();
+  context["packages"] = build.packages;
   context["affinity"] = affinity();
   context["omp_proc_bind"] = omp_binding == nullptr ? "" : omp_binding;
   context["denormals_flushed"] = are_denormals_flushed();

@@ -109,9 +109,6 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
                        *request.stability_limit));
   if (!(request.repeat_for >= 0) || !std::isfinite(request.repeat_for))
     refuse(fmt::format("--repeat-for {:g}: give 0 s or more", request.repeat_for));
-  if (request.samples < 1) refuse(fmt::format("--samples {}: give 1 or more", request.samples));
-  if (request.samples > 1 && request.repeat_for > 0)
-    refuse("--samples: the time is their median, with --repeat-for a mean; give one of the two");
   if (request.repeat_for > 0 && request.ranks > 1)
     refuse("--repeat-for: only a run on 1 rank starts again");
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));

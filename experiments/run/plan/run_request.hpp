@@ -45,9 +45,6 @@ struct RunRequest {
   /// Shortest total time [s]. A shorter run is repeated from the start until this time was
   /// measured.
   double repeat_for = 0;
-  /// Number of further runs from the start whose median is the time; 1: the time of the run itself.
-  /// Runs longer than a second are not repeated.
-  long samples = 1;
 };
 
 } // namespace dss

@@ -86,7 +86,7 @@ RunResult run_scene(const RunRequest& request) {
   }
   result.wall_s += result.model_report.look_s;
   judge(result.check, result);
-  if (result.status == "ok") timed.repeat(request.repeat_for, request.samples);
+  if (result.status == "ok") timed.repeat(request.repeat_for);
   return result;
 }
 

@@ -1,6 +1,5 @@
 #include "experiments/run/timed/timed_run.hpp"
 #include "experiments/base/clock.hpp"
-#include "experiments/base/statistics.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/breakdown.hpp"
 #include "solver/numerics/signal_rows.hpp"
@@ -14,8 +13,6 @@ namespace dss {
 namespace {
 
 constexpr long signal_steps = 256; ///< signals are computed for this many steps at once
-/// A longer run [s] averages over short disturbances by itself, and is not repeated for a median.
-constexpr double longest_repeated_s = 1;
 
 DeviceUse since(const DeviceUse& before, DeviceUse now) {
   now.launches -= before.launches;
@@ -81,38 +78,25 @@ void TimedRun::warm_up() {
   }
 }
 
-void TimedRun::repeat(double least_s, long samples) {
-  const double first_s = gather(*executor_, result_.wall_s).front(); // all ranks decide alike
-  const bool has_samples = samples > 1 && first_s < longest_repeated_s;
-  const bool is_short = result_.wall_s < least_s;
-  if ((!has_samples && !is_short) || !result_.model_report.promotions.empty()) return;
-  std::vector<double> times;
-  Usage usage;
-  double measured_s = 0;
-  while (has_samples ? long(times.size()) < samples : measured_s < least_s) {
-    times.push_back(time_again(usage));
-    measured_s += times.back();
+void TimedRun::repeat(double least_s) {
+  if (result_.wall_s >= least_s || !result_.model_report.promotions.empty()) return;
+  RunResult again;
+  long runs = 0;
+  for (; again.wall_s < least_s; ++runs) {
+    write_initial_state(*executor_, problem_);
+    if (plan_.adaptive)
+      again.wall_s += adapt_again(again.usage);
+    else
+      advance_to(0, plan_.steps, again);
   }
-  sum_over_ranks(usage);
-  result_.runs = long(times.size());
-  result_.measured_s = measured_s;
   // checks of the model were timed only in the first run
-  result_.wall_s = (has_samples ? median(times) : measured_s / double(times.size())) +
-                   result_.model_report.look_s;
-  result_.usage = usage;
+  result_.wall_s = again.wall_s / double(runs) + result_.model_report.look_s;
+  result_.usage = again.usage;
+  result_.runs = runs;
   if (state_digest(*executor_, problem_.lattice.element_count, plan_.precision) == result_.digest)
     return;
   result_.status = "wrong";
   result_.reason = "the bits of a second run from the same state are not those of the first";
-}
-
-double TimedRun::time_again(Usage& usage) {
-  write_initial_state(*executor_, problem_);
-  if (plan_.adaptive) return adapt_again(usage);
-  RunResult again;
-  advance_to(0, plan_.steps, again);
-  usage += again.usage;
-  return again.wall_s;
 }
 
 std::unique_ptr<Executor> TimedRun::created(Model model) {
@@ -193,23 +177,19 @@ void TimedRun::report_breakdown(long step, const Outcome& outcome, RunResult& re
                   plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
 }
 
-double TimedRun::sum(double value) {
-  double total = 0;
-  for (const double of_rank : gather(*executor_, value)) total += of_rank;
-  return total;
-}
-
 void TimedRun::sum_over_ranks(const Traffic& before) {
+  const auto sum = [&](double value) {
+    double total = 0;
+    for (const double of_rank : gather(*executor_, value)) total += of_rank;
+    return total;
+  };
   const Traffic now = traffic(*executor_);
   const double steps = double(result_.steps);
   result_.messages_per_step = sum(now.messages - before.messages) / steps;
   result_.bytes_per_step = sum(now.bytes - before.bytes) / steps;
   result_.communication_share =
       sum(now.wait_s - before.wait_s) / (result_.wall_s * result_.ranks.ranks);
-  sum_over_ranks(result_.usage);
-}
-
-void TimedRun::sum_over_ranks(Usage& usage) {
+  Usage& usage = result_.usage;
   usage.cpu_s = sum(usage.cpu_s);
   usage.wait_s = sum(usage.wait_s);
   usage.involuntary_switches = long(sum(double(usage.involuntary_switches)));

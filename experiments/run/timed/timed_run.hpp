@@ -37,11 +37,10 @@ public:
   TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result);
 
   void run();
-  /// Repeats a short run and replaces its time: by the median of `samples` further runs, if these
-  /// are several; else by the mean of as many as take `least_s` seconds. Repeated runs pause
-  /// nowhere if their steps are equal. The first run, which paused for inspections, serves as
-  /// warm-up.
-  void repeat(double least_s, long samples);
+  /// Repeats a short run until `least_s` seconds were measured, and replaces its time. Repeated
+  /// runs pause nowhere if their steps are equal. The first run, which paused for inspections,
+  /// serves as warm-up.
+  void repeat(double least_s);
 
   /// The model that computed last, and the rotations with which the oracle has the same equations.
   Model model() const { return model_; }
@@ -68,15 +67,11 @@ private:
   /// that overflow in the last step before a pause.
   bool is_finite_after(long step);
   void report_breakdown(long step, const Outcome& outcome, RunResult& result) const;
-  double sum(double value); ///< over all ranks
   void sum_over_ranks(const Traffic& before);
-  void sum_over_ranks(Usage& usage);
 
   AdaptiveSteps adaptive_steps();
   /// Advances by adaptive steps to the time that `stop` equal steps would reach.
   bool adapt_to(long stop);
-  /// Runs from the initial state to the end without pauses. @return its time [s]
-  double time_again(Usage& usage);
   /// Repeats the whole adaptive run with the same pauses, because pauses cut steps. @return its
   /// time [s]
   double adapt_again(Usage& usage);

@@ -8,11 +8,11 @@
 namespace dss {
 namespace {
 
-constexpr int stages = 4, element_bytes = 104; // RK4; 13 numbers in double precision
+constexpr int rk4_stages = 4, element_bytes = 104; // RK4; 13 numbers in double precision
 
 Record modelled_row(const BalanceStudy& study, double ratio, int rows, const ModelledLink& link,
                     bool is_overlapped) {
-  ModelledPlate plate{rows, stages, ratio * study.slow_speed, study.slow_speed, link.network};
+  ModelledPlate plate{rows, rk4_stages, ratio * study.slow_speed, study.slow_speed, link.network};
   plate.is_overlapped = is_overlapped;
   plate.element_bytes = element_bytes;
   const ModelledBalance model = modelled_balance(plate);

@@ -1,8 +1,10 @@
 #include "experiments/base/cores.hpp"
 #include "experiments/measure/study_names.hpp"
 #include "experiments/studies/chain/chain_study.hpp"
-#include "solver/numerics/method.hpp"
 #include "variants/loading/loader.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
 
 namespace dss {
 namespace {
@@ -24,15 +26,50 @@ void read_stage(const Node& node, ChainStage& stage) {
   stage.steps_an_interval = object.whole_or("steps_an_interval", 1, stage.steps_an_interval);
   if (const auto threads = object.find("threads"))
     stage.threads = threads->json() == "cores" ? usable_cores() : threads->count(1);
+  if (const auto smoothing = object.find("smoothing")) {
+    const Method* method = find_method(stage.integrator);
+    if (!method->is_staggered()) smoothing->fail("is of a leapfrog; this stage has another method");
+    stage.smoothing = smoothing->non_negative();
+  }
+  object.allow({"of"});
   object.finish();
 }
 
+/// A neighbour has the values of its stage, except those that it names.
+ChainNeighbour read_neighbour(const Node& node, const std::vector<ChainStage>& chain) {
+  ObjectNode object(node);
+  const std::string of = object.require("of").name();
+  const auto stage = std::ranges::find(chain, of, &ChainStage::label);
+  if (stage == chain.end())
+    object.require("of").fail(fmt::format("no stage has the label \"{}\"", of));
+  ChainNeighbour neighbour{std::size_t(stage - chain.begin()), *stage};
+  neighbour.stage.steps_an_interval = 0;
+  read_stage(node, neighbour.stage);
+  return neighbour;
+}
+
 } // namespace
+
+std::vector<ChainStage> ChainStudy::timed() const {
+  std::vector<ChainStage> all = stages;
+  for (const ChainNeighbour& neighbour : neighbours) all.push_back(neighbour.stage);
+  return all;
+}
+
+Method method_of(const ChainStage& stage) {
+  Method method = *find_method(stage.integrator);
+  if (stage.smoothing) {
+    method.smoothing = *stage.smoothing;
+    method.real_limit = 1 + *stage.smoothing;
+  }
+  return method;
+}
 
 ChainStudy read_chain(const StudyFile& file) {
   ObjectNode scale(file.scale), object(file.part("chain"));
   ChainStudy chain;
   chain.name = file.name, chain.title = file.title, chain.scale = file.scale_name;
+  chain.path = file.path;
   chain.scene = scene_beside(file.path, object.require("scene").name());
   chain.set = one_set(object, "set");
   if (scale.has("set")) chain.set = one_set(scale, "set");
@@ -42,11 +79,15 @@ ChainStudy read_chain(const StudyFile& file) {
   chain.bar = object.require("bar").positive();
   chain.repetitions = scale.require("repetitions").count(1);
   chain.sample_s = scale.require("sample_s").positive();
+  chain.error_s = scale.positive_or("error_s", chain.error_s);
   scale.finish();
-  ChainStage stage{
-      "", load_variant("auto").name, "rk4", Model::spatial, Precision::f64, usable_cores(), 0};
+  ChainStage stage;
+  stage.variant = load_variant("auto").name;
+  stage.integrator = "rk4";
+  stage.threads = usable_cores();
   chain.solution = stage;
   const Node solution = object.require("solution"), stages = object.require("stages");
+  const auto neighbours = object.find("neighbours");
   object.finish();
   read_stage(solution, chain.solution);
   if (chain.solution.steps_an_interval < 2) solution.fail("names fewer than two steps_an_interval");
@@ -56,6 +97,9 @@ ChainStudy read_chain(const StudyFile& file) {
   }
   if (chain.stages[0].steps_an_interval == 0)
     stages.fail("the first stage names no steps_an_interval");
+  if (neighbours)
+    for (const Node& item : neighbours->items(1))
+      chain.neighbours.push_back(read_neighbour(item, chain.stages));
   return chain;
 }
 

@@ -8,7 +8,8 @@ namespace dss {
 std::string chain_cell(std::size_t n, const ChainStage& stage);
 
 /// One row for each stage. A wrong stage keeps its time and gets no factor.
-Table chain_table(const ChainStudy& study, const std::vector<Record>& records, ChainErrors& errors);
+Table chain_table(const ChainStudy& study, const std::vector<Record>& records,
+                  const ChainErrors& errors);
 
 /// The table as text.
 std::string chain_text(const ChainStudy& study, const Table& table);

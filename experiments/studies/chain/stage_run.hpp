@@ -7,7 +7,6 @@
 #include "variants/api/api.hpp"
 
 #include <functional>
-#include <map>
 #include <memory>
 
 namespace dss {
@@ -27,7 +26,7 @@ public:
 
 private:
   const Scene& scene_;
-  const Method& method_;
+  const Method method_;
   double dt_, wall_s_ = 0;
   Usage usage_;
   long done_ = 0;
@@ -38,27 +37,35 @@ private:
 
 using States = std::vector<std::vector<double>>; ///< fields at the saved times
 
-/// Model, precision, method and steps: everything that the error depends on.
+/// Model, precision, method and steps.
 std::string numerics_of(const ChainStage& stage);
 
-/// Errors of whole runs against the solution, by numerics_of. The fastest variant computes each
-/// once.
+/// Steps an interval of the longest stable step of a stage.
+long stable_steps(const ChainStudy& study, const Problem& problem, const ChainStage& stage);
+
+/// Error of a stage, and the last saved time [s] at which it was taken.
+struct StageError {
+  double largest = 0, until_s = 0;
+};
+
+/// Errors of runs against the solution, by the variant and the threads that are timed.
 class ChainErrors {
 public:
   ChainErrors(const ChainStudy& study, const Scene& scene,
               std::function<void(const std::string&)> note);
   double of_solution() const { return solution_error_; }
-  /// Largest difference of a displacement component at any saved time, relative to the largest
-  /// component at any.
-  double of(const ChainStage& stage);
+  /// Difference of the solution's run from the oracle in long double, after some of its steps.
+  double of_oracle() const { return oracle_error_; }
+  /// Largest difference of a displacement component at any saved time that the stage reaches in
+  /// ChainStudy::error_s, relative to the largest component at any.
+  StageError of(const ChainStage& stage) const;
 
 private:
   const ChainStudy& study_;
   const Scene& scene_;
   std::function<void(const std::string&)> note_;
   const States solution_;
-  double solution_error_ = 0;
-  std::map<std::string, double> errors_;
+  double solution_error_ = 0, oracle_error_ = 0;
 };
 
 } // namespace dss

@@ -51,7 +51,8 @@ void time_stages(const ChainStudy& study, const Scene& scene, RecordFile& record
   std::vector<std::unique_ptr<StageRun>> runs;
   std::vector<long> steps;
   std::vector<double> differences;
-  for (const ChainStage& stage : study.stages) {
+  const std::vector<ChainStage> stages = study.timed();
+  for (const ChainStage& stage : stages) {
     differences.push_back(state_difference(study, scene, stage));
     runs.push_back(std::make_unique<StageRun>(study, scene, stage));
     long count = 1;
@@ -64,7 +65,7 @@ void time_stages(const ChainStudy& study, const Scene& scene, RecordFile& record
   double done = 0;
   for (int repetition = 0; repetition < study.repetitions; ++repetition)
     for (std::size_t n = 0; n < runs.size(); ++n) {
-      const ChainStage& stage = study.stages[n];
+      const ChainStage& stage = stages[n];
       progress.show(done++, double(study.repetitions) * double(runs.size()), stage.label);
       if (present.contains({chain_cell(n, stage), fmt::format("{}", repetition)})) continue;
       runs[n]->advance(steps[n]);
@@ -106,7 +107,7 @@ public:
 
   std::string plan(const StudyPaths&) const override {
     std::string text;
-    for (const ChainStage& stage : study_.stages)
+    for (const ChainStage& stage : study_.timed())
       text +=
           fmt::format("{}: {}: {} t{} {} {} {}\n", study_.name, stage.label, stage.variant,
                       stage.threads, name(stage.model), name(stage.precision), stage.integrator);
@@ -115,10 +116,14 @@ public:
 
   StudyResult run(const StudyRun& how) override {
     const StudyPaths& paths = how.paths;
-    const Circumstances of{study_.name, study_.title, study_.scale, {{study_.scene, study_.set}}};
+    const Circumstances of{
+        study_.name, study_.title, study_.scale, study_.path, {{study_.scene, study_.set}}};
     make_room_for_records(paths.raw, paths.context, of, how.resumes);
     flush_denormals();
     const Scene scene = load_scene(study_.scene, study_.set);
+    for (ChainNeighbour& neighbour : study_.neighbours)
+      if (neighbour.stage.steps_an_interval == 0)
+        neighbour.stage.steps_an_interval = stable_steps(study_, scene.problem, neighbour.stage);
     RecordFile records(paths.raw, raw_chain_columns(), how.resumes);
     if (records.present().empty())
       write_circumstances(paths.context, measurement_context(), of);
@@ -129,14 +134,15 @@ public:
     const Table table = chain_table(study_, read_csv(paths.raw).rows, errors);
     const bool is_right = std::ranges::all_of(
         table.rows, [](const Record& row) { return text_in(row, "status") == "ok"; });
+    const Record& last = table.rows[study_.stages.size() - 1];
     return {{{study_.name, table}},
             chain_text(study_, table),
-            is_right && number_in(table.rows.back(), "error_max") <= study_.bar};
+            is_right && number_in(last, "error_max") <= study_.bar};
   }
   bool keeps_records() const override { return true; }
 
 private:
-  const ChainStudy study_;
+  ChainStudy study_;
 };
 
 } // namespace

@@ -58,6 +58,7 @@ MicroStudy read_micro_study(const StudyFile& file) {
   ObjectNode scale(file.scale), object(file.part("microbenchmarks"));
   MicroStudy micro;
   micro.name = file.name, micro.title = file.title, micro.scale = file.scale_name;
+  micro.path = file.path;
   micro.rules = {scale.require("repetitions").count(1), scale.require("sample_s").positive()};
   micro.attribution_rounds = scale.require("attribution_rounds").count(1);
   micro.attribution_sample_s = scale.require("attribution_sample_s").positive();

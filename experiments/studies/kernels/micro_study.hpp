@@ -11,7 +11,7 @@
 namespace dss {
 
 struct MicroStudy {
-  std::string name, title, scale;
+  std::string name, title, scale, path;
   std::vector<MicroSet> sets;
   std::vector<AttributionCase> attribution;
   MicroRules rules;

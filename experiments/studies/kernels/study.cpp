@@ -92,7 +92,9 @@ public:
   bool keeps_records() const override { return true; }
 
 private:
-  Circumstances circumstances() const { return {study_.name, study_.title, study_.scale, {}}; }
+  Circumstances circumstances() const {
+    return {study_.name, study_.title, study_.scale, study_.path, {}};
+  }
 
   void write_context(const StudyPaths& paths, const RecordFile& records) const {
     if (!records.present().empty()) return note_resumption(paths.context);

@@ -1,0 +1,153 @@
+"""Figures that pages quote: they come from the tables of results, never from a keyboard.
+
+A page marks a quotation with its name in quotes.toml, and a table with its name in TABLES:
+
+    It is <!--chain_end-->1751<!--/--> times as fast.
+
+    <!--table chain-->
+    | ... |
+    <!--/table-->
+
+fill_pages.py writes what stands between the marks.
+"""
+import re
+import tomllib
+
+from tables.results import ROOT, NotMeasured, Results
+from tables.words import is_missing, shown, with_interval
+
+MARK = re.compile(r"<!--(?!table |/)([a-z0-9_]+)-->(.*?)<!--/-->", re.DOTALL)
+TABLE = re.compile(r"(<!--table ([a-z0-9_]+)-->\n)(.*?)(<!--/table-->)", re.DOTALL)
+
+
+class Unknown(Exception):
+    """A page quotes something that is not there; the message says what."""
+
+
+def ends_of(frame, column):
+    """The columns with the ends of a value's interval: x_low, or x_low_s of x_s."""
+    for name in (f"{column}_{{}}", re.sub(r"_s$", "", column) + "_{}_s"):
+        if name.format("low") in frame:
+            return name.format("low"), name.format("high")
+    raise Unknown(f"the column {column} has no interval")
+
+
+def values_of(rows, what, count):
+    """The values that a quotation shows. what: a column, or a word and a column.
+
+    count: 3 asks for a value with the ends of its interval
+    """
+    word, _, column = what.rpartition(" ")
+    if what == "count":
+        return [len(rows)]
+    if column not in rows:
+        raise Unknown(f"no column {column}")
+    if word == "range":
+        return [rows[column].min(), rows[column].max()]
+    if word:
+        return [getattr(rows[column], word)()]
+    if len(rows) != 1:
+        raise Unknown(f"{len(rows)} rows fit; a quotation is of one")
+    columns = [column, *ends_of(rows, column)] if count == 3 else [column]
+    return [rows.iloc[0][name] for name in columns]
+
+
+def quoted(results, line):
+    """The text of a quotation. line: "TABLE | CONDITION | VALUE | FORMAT" of quotes.toml."""
+    table, condition, what, form = (part.strip() for part in line.split("|"))
+    folder, _, name = table.rpartition("/")
+    frame = (Results(results.directory / folder) if folder else results).table(name)
+    rows = frame.query(condition, engine="python") if condition else frame
+    values = values_of(rows, what, form.count("{"))
+    if any(map(is_missing, values)):
+        raise Unknown(f"tables/{table}.csv has no value of {what} where {condition}")
+    return form.format(*values).replace("%", " %")
+
+
+def chain_table(results):
+    """The chain of factors, a line for each stage."""
+    frame = results.table("chain", "stage", "label", "variant", "threads", "model", "precision",
+                          "integrator", "dt_s", "error_max", "contaminated", "repetitions",
+                          optional=["factor_of_stage", "factor_of_stage_low",
+                                    "factor_of_stage_high", "factor_vs_base", "factor_vs_base_low",
+                                    "factor_vs_base_high"])
+    keys = ["variant", "threads", "model", "precision", "integrator", "dt_s"]
+    lines, before = [], None
+    for _, row in frame.iterrows():
+        new = [key for key in keys if before is None or row[key] != before[key]]
+        run = ", ".join({"threads": f"{row['threads']} threads", "dt_s": f"{row['dt_s']:.3g} s"}
+                        .get(key, f"`{row[key]}`") for key in new)
+        factor = with_interval(row["factor_of_stage"], row["factor_of_stage_low"],
+                               row["factor_of_stage_high"])
+        in_all = with_interval(row["factor_vs_base"], row["factor_vs_base_low"],
+                               row["factor_vs_base_high"])
+        lines.append([row["label"], run, factor, in_all,
+                      f"{row['contaminated']} of {row['repetitions']}", f"{row['error_max']:.1e}"])
+        before = row
+    return ["stage of the chain", "run", "factor", "in all", "contaminated", "error"], lines
+
+
+def first_table(results):
+    """Table 1 of the paper on this machine: one process."""
+    frame = results.table("table1", "source", "label", "variant", "threads", "ranks", "status",
+                          "contaminated", "repetitions")
+    frame = frame[(frame["source"] == "measured") & (frame["ranks"] == 1)
+                  & ~frame["label"].str.contains("A/A") & (frame["status"] == "ok")]
+    bases = ("as_published", "reference", "scalar")
+
+    def speedup(row, base):
+        for form in ("", "extrapolated_"):
+            found = with_interval(*(row.get(f"{form}speedup_vs_{base}{end}")
+                                    for end in ("", "_low", "_high")))
+            if found:
+                return found
+        return ""
+
+    lines = [[row["label"], *(speedup(row, base) for base in bases),
+              f"{row['contaminated']} of {row['repetitions']}"] for _, row in frame.iterrows()]
+    return ["variant", *(f"over `{base}`" for base in bases), "contaminated"], lines
+
+
+TABLES = {"chain": chain_table, "first": first_table}
+
+
+def markdown(head, lines):
+    """A table in Markdown."""
+    rows = [head, ["---"] * len(head), *lines]
+    return "".join(f"| {' | '.join(map(shown, row))} |\n" for row in rows)
+
+
+def filled(text, results, quotes):
+    """(text of a page with present figures, what could not be filled)."""
+    faults = []
+
+    def attempt(name, old, make):
+        try:
+            return make()
+        except (Unknown, NotMeasured) as fault:
+            faults.append(f"{name}: {fault}")
+            return old
+
+    def quotation(match):
+        name, old = match.groups()
+        line = quotes.get(name)
+        new = old
+        if line is None:
+            faults.append(f"{name}: is not in plots/quotes.toml")
+        else:
+            new = attempt(name, old, lambda: quoted(results, line))
+        return f"<!--{name}-->{new}<!--/-->"
+
+    def table(match):
+        begin, name, old, end = match.groups()
+        if name not in TABLES:
+            faults.append(f"table {name}: is not in plots/quotes.py")
+            return match.group(0)
+        return begin + attempt(name, old, lambda: markdown(*TABLES[name](results))) + end
+
+    return TABLE.sub(table, MARK.sub(quotation, text)), faults
+
+
+def read_quotes(path=ROOT / "plots" / "quotes.toml"):
+    """Quotations by name."""
+    return tomllib.loads(path.read_text(encoding="utf-8"))
