@@ -10,8 +10,11 @@ A page marks a quotation with its name in quotes.toml, and a table with its name
 
 fill_pages.py writes what stands between the marks.
 """
+import math
 import re
 import tomllib
+
+import pandas
 
 from tables.results import ROOT, NotMeasured, Results
 from tables.words import is_missing, shown, with_interval
@@ -44,6 +47,8 @@ def values_of(rows, what, count):
         raise Unknown(f"no column {column}")
     if word == "range":
         return [rows[column].min(), rows[column].max()]
+    if word == "inverse_range":  # of a speed-up: how many times slower
+        return [1 / rows[column].max(), 1 / rows[column].min()]
     if word:
         return [getattr(rows[column], word)()]
     if len(rows) != 1:
@@ -108,7 +113,87 @@ def first_table(results):
     return ["variant", *(f"over `{base}`" for base in bases), "contaminated"], lines
 
 
-TABLES = {"chain": chain_table, "first": first_table}
+def paired_ratio(records, above, below):
+    """Ratio of the times per step of two cells, by pairs of the same repetition.
+
+    @return the median and the ends of its 95 % interval; the ends are missing below six pairs
+    """
+    steps = [records[records["cell"] == cell].drop_duplicates("repetition", keep="last")
+             .set_index("repetition") for cell in (above, below)]
+    ratios = sorted((steps[0]["wall_s"] / steps[0]["steps"]
+                     / (steps[1]["wall_s"] / steps[1]["steps"])).dropna())
+    count = len(ratios)
+    if count < 6:
+        return [None] * 3
+    # The largest rank whose order statistics enclose the median with 95 % (binomial distribution).
+    outside, rank = 0.0, 0
+    while 2 * (outside + math.comb(count, rank) / 2**count) <= 0.05:
+        outside += math.comb(count, rank) / 2**count
+        rank += 1
+    return [pandas.Series(ratios).median(), ratios[rank - 1], ratios[count - rank]]
+
+
+def gpu_table(results):
+    """The paper's CPU over its GPU, and all cores of a CPU over an H100."""
+    there = Results(results.directory / "h100")
+    frame = there.table("table3", "source", "label", "set", "measured_wall_s", "steps", "threads",
+                        "variant", optional=["extrapolated_wall_s", "paper_wall_s"])
+    records = pandas.read_csv(there.directory / "raw" / "table3.csv")
+    lines = []
+    for plate in ("n=50", "n=100", "n=200"):
+        rows = frame[frame["set"] == plate]
+        paper = {label: rows[rows["label"] == label]["paper_wall_s"].iloc[0]
+                 for label in ("two CPU processes", "P100 alone")}
+        cpu = rows[(rows["variant"] == "avx512") & (rows["label"] != "hybrid")]
+        cpu = cpu.loc[cpu["threads"].idxmax()]
+        gpu = rows[rows["label"] == "opencl on gpu, 1 thread"].iloc[0]
+        times = [row["measured_wall_s"] / row["steps"] * 10000 for row in (cpu, gpu)]
+        cells = [records[(records["set"] == plate) & (records["variant"] == variant)
+                         & (records["threads"] == threads) & wanted]["cell"].iloc[0]
+                 for variant, threads, wanted in (
+                     ("avx512", cpu["threads"], records["twin"].astype(str).str.lower() != "true"),
+                     ("opencl", 1, records["device"] == "gpu"))]
+        lines.append([plate, *(f"{value:.2f}" for value in paper.values()),
+                      f"{paper['two CPU processes'] / paper['P100 alone']:.0f}",
+                      *(f"{value:.2f}" for value in times),
+                      with_interval(*paired_ratio(records, *cells))])
+    return ["plate", "paper: two CPU processes", "P100", "ratio", "`avx512`, 16 threads", "H100",
+            "ratio"], lines
+
+
+def network_table(results):
+    """The paper's times beside simulated ones with the speed of its own nodes."""
+    lines = []
+    for table in ("table1", "table2"):
+        frame = results.table(f"{table}_simulated", "label", "ranks", "network", "halo",
+                              "paper_wall_s", "simulated_paper_node_wall_s")
+        frame = frame[frame["label"].str.startswith("the paper's cluster")
+                      & (frame["halo"] == "sendrecv") & (frame["ranks"] > 1)]
+        for ranks, rows in frame.groupby("ranks"):
+            paper = rows["paper_wall_s"].iloc[0]
+            times = rows.set_index("network")["simulated_paper_node_wall_s"]
+            lines.append([f"Table {table[-1]}, {ranks} processes", f"{paper:g}",
+                          *(f"{times[name]:.1f} ({100 * (times[name] / paper - 1):+.0f} %)"
+                            for name in ("gigabit", "ten_gigabit", "fdr"))])
+    return ["", "published", "1 GbE", "10 GbE", "FDR"], lines
+
+
+def sizes_table(results):
+    """Efficiency of six simulated nodes over the size of the plate."""
+    frame = results.table("cluster_simulated", "label", "set", "network", "halo",
+                          "simulated_own_node_efficiency")
+    frame = frame[(frame["label"] == "sizes") & (frame["halo"] == "auto")]
+    sizes = list(dict.fromkeys(frame["set"]))
+    lines = []
+    for network, name in (("gigabit", "1 GbE"), ("ten_gigabit", "10 GbE"), ("fdr", "FDR")):
+        rows = frame[frame["network"] == network].set_index("set")
+        lines.append([name, *(f"{rows.loc[size, 'simulated_own_node_efficiency']:.2f}"
+                              for size in sizes)])
+    return ["elements a side", *(size.removeprefix("n=") for size in sizes)], lines
+
+
+TABLES = {"chain": chain_table, "first": first_table, "gpu": gpu_table, "networks": network_table,
+          "sizes": sizes_table}
 
 
 def markdown(head, lines):

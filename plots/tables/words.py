@@ -23,8 +23,8 @@ def shown(value, digits=3):
         return "yes" if value else "no"
     if math.isinf(value):
         return "inf"
-    if float(value).is_integer() and abs(value) < 1e7:
-        return str(int(value))
+    if abs(value) < 1e7 and (float(value).is_integer() or abs(value) >= 1000):
+        return f"{value:.0f}"
     return f"{value:.{digits}g}"
 
 

@@ -1,0 +1,96 @@
+"""Figures that pages quote are those of the tables (plots/fill_pages.py)."""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "plots"))
+import quotes  # noqa: E402
+from tables.results import Results  # noqa: E402
+
+FILL = ROOT / "plots" / "fill_pages.py"
+
+
+def fill(*arguments):
+    """Runs the command."""
+    return subprocess.run([sys.executable, FILL, *map(str, arguments)], capture_output=True,
+                          text=True, check=False)
+
+
+class Quotes(unittest.TestCase):
+    def setUp(self):
+        self.directory = pathlib.Path(tempfile.mkdtemp(prefix="dssbench-quotes-"))
+        self.addCleanup(shutil.rmtree, self.directory)
+        (self.directory / "tables").mkdir()
+        (self.directory / "tables" / "speeds.csv").write_text(
+            "who,speed_s,speed_low_s,speed_high_s,share\na,2,1.5,2.5,0.126\nb,3,,,0.5\n",
+            encoding="utf-8")
+
+    def text_of(self, line):
+        """A quotation of the table of this test."""
+        return quotes.quoted(Results(self.directory), line)
+
+    def page(self, text, name="page.md"):
+        """A page in the directory of this test."""
+        path = self.directory / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def test_pages_of_this_tree_quote_what_the_tables_say(self):
+        result = fill("--check")
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(result.returncode, 0)
+
+    def test_a_planted_figure_in_readme_is_found(self):
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        found = quotes.MARK.search(text)
+        self.assertTrue(found, "README.md quotes no figure")
+        planted = text.replace(found.group(0), found.group(0).replace(found.group(2), "123456"))
+        self.assertNotEqual(planted, text)
+        path = self.page(planted, "README.md")
+        result = fill("--check", path)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("123456", result.stderr)
+        self.assertEqual(path.read_text(encoding="utf-8"), planted, "--check wrote the page")
+        self.assertEqual(fill(path).returncode, 0)
+        self.assertEqual(path.read_text(encoding="utf-8"), text)
+
+    def test_a_planted_row_of_a_table_is_found(self):
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        found = quotes.TABLE.search(text)
+        planted = text.replace(found.group(3), found.group(3) + "| planted |\n")
+        self.assertEqual(fill("--check", self.page(planted)).returncode, 1)
+
+    def test_a_quotation_is_a_value_an_interval_a_number_of_rows_or_over_all_rows(self):
+        for line, expected in (("speeds | who == 'a' | speed_s | {:.1f} s", "2.0 s"),
+                               ("speeds | who == 'a' | speed_s | {:.1f} [{:.1f}, {:.1f}]",
+                                "2.0 [1.5, 2.5]"),
+                               ("speeds | who == 'a' | share | {:.1%}", "12.6 %"),
+                               ("speeds | | count | {}", "2"),
+                               ("speeds | | max speed_s | {}", "3"),
+                               ("speeds | | range speed_s | {} to {}", "2 to 3")):
+            self.assertEqual(self.text_of(line), expected)
+
+    def test_what_is_not_there_is_said(self):
+        for line, words in (("speeds | | speed_s | {}", "2 rows fit"),
+                            ("speeds | who == 'a' | weight | {}", "no column weight"),
+                            ("speeds | who == 'b' | speed_s | {} [{}, {}]", "no value of speed_s"),
+                            ("speeds | who == 'a' | share | {} [{}, {}]", "no interval")):
+            with self.assertRaisesRegex(quotes.Unknown, words):
+                self.text_of(line)
+        result = fill("--check", self.page("It is <!--no_such_name-->7<!--/--> times."))
+        self.assertIn("no_such_name: is not in plots/quotes.toml", result.stderr)
+        self.assertEqual(result.returncode, 1)
+
+    def test_every_quotation_of_the_list_is_used(self):
+        pages = "".join(path.read_text(encoding="utf-8") for path in ROOT.rglob("*.md")
+                        if "build" not in path.relative_to(ROOT).parts)
+        for name in quotes.read_quotes():
+            self.assertIn(f"<!--{name}-->", pages)
+
+
+if __name__ == "__main__":
+    unittest.main()
