@@ -69,25 +69,32 @@ def quoted(results, line):
     return form.format(*values).replace("%", " %")
 
 
+def disturbed(row):
+    """How many repetitions other programs disturbed."""
+    return f"{int(row['contaminated'])} of {int(row['repetitions'])}"
+
+
 def chain_table(results):
     """The chain of factors, a line for each stage."""
-    frame = results.table("chain", "stage", "label", "variant", "threads", "model", "precision",
-                          "integrator", "dt_s", "error_max", "contaminated", "repetitions",
-                          optional=["factor_of_stage", "factor_of_stage_low",
-                                    "factor_of_stage_high", "factor_vs_base", "factor_vs_base_low",
-                                    "factor_vs_base_high"])
+    ratios = [f"{name}{end}" for name in ("factor_of_stage", "factor_vs_base")
+              for end in ("", "_low", "_high")]
+    frame = results.table("chain", "stage", "role", "label", "variant", "threads", "model",
+                          "precision", "integrator", "dt_s", "error_max", "contaminated",
+                          "repetitions", optional=ratios)
     keys = ["variant", "threads", "model", "precision", "integrator", "dt_s"]
     lines, before = [], None
     for _, row in frame.iterrows():
         new = [key for key in keys if before is None or row[key] != before[key]]
-        run = ", ".join({"threads": f"{row['threads']} threads", "dt_s": f"{row['dt_s']:.3g} s"}
+        threads = f"{row['threads']} thread{'s' if row['threads'] > 1 else ''}"
+        run = ", ".join({"threads": threads, "dt_s": f"{row['dt_s']:.3g} s"}
                         .get(key, f"`{row[key]}`") for key in new)
         factor = with_interval(row["factor_of_stage"], row["factor_of_stage_low"],
                                row["factor_of_stage_high"])
         in_all = with_interval(row["factor_vs_base"], row["factor_vs_base_low"],
                                row["factor_vs_base_high"])
-        lines.append([row["label"], run, factor, in_all,
-                      f"{row['contaminated']} of {row['repetitions']}", f"{row['error_max']:.1e}"])
+        beside = "*beside:* " if row["role"] == "neighbour" else ""
+        lines.append([beside + row["label"], run, factor, in_all, disturbed(row),
+                      f"{row['error_max']:.1e}"])
         before = row
     return ["stage of the chain", "run", "factor", "in all", "contaminated", "error"], lines
 
@@ -109,7 +116,7 @@ def first_table(results):
         return ""
 
     lines = [[row["label"], *(speedup(row, base) for base in bases),
-              f"{row['contaminated']} of {row['repetitions']}"] for _, row in frame.iterrows()]
+              disturbed(row)] for _, row in frame.iterrows()]
     return ["variant", *(f"over `{base}`" for base in bases), "contaminated"], lines
 
 

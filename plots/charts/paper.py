@@ -15,11 +15,15 @@ PAPER, SIMULATED = Look("ink", "line-ns", size=14), Look("#009E73", "triangle-up
 BASE = "as_published"
 
 
+def short(row):
+    """A row of the paper in few words."""
+    return row.replace("Xeon E5-2650v3", "CPU").replace("NVIDIA ", "")
+
+
 def of_kind(frame, name, look, value, **interval):
     """A series of the rows that have a value; none if there are none."""
-    rows = frame[frame[value].notna()].assign(kind=name) if value in frame else frame.iloc[:0]
-    return [Series(name, rows, "place", value, look, keys_of(rows, "kind"), **interval)] \
-        if len(rows) else []
+    rows = frame[frame[value].notna()]
+    return [Series(name, rows, "place", value, look, **interval)] if len(rows) else []
 
 
 def series_of(frame):
@@ -50,7 +54,7 @@ def paper_table(name):
         if frame["measured"].notna().sum() == 0:
             raise NotMeasured(f"tables/{name}.csv has no measured figure with an interval")
         is_one_row = frame["row"].nunique() == 1
-        frame["place"] = [column if is_one_row else f"{row}, {column}"
+        frame["place"] = [column if is_one_row else f"{short(row)}, {column}"
                           for row, column in zip(frame["row"], frame["column"])]
         shown = frame[frame["base"].isna() | (frame["base"] == BASE)]
         panels = (panel_of(shown[shown["unit"] == "s"], "time [s]")
@@ -63,7 +67,7 @@ def paper_table(name):
         missing = sorted(set(frame[frame["measured"].isna()]["column"]) - {"T1"})
         findings = f"Not measured here: {', '.join(missing)}." if missing else ""
         return Chart(name, frame, COLUMNS, panels, heading, findings,
-                     [Filter("kind", "Figures")], height=420, size=(7, 3.4))
+                     height=420, size=(max(7, 0.75 * frame["place"].nunique()), 3.4))
     return make
 
 
@@ -75,16 +79,16 @@ def figure9(results):
     colours = dict(zip(dict.fromkeys(frame["curve"]), ["#0072B2", "#E69F00", "#009E73", "#CC79A7"]))
     series = []
     for curve, rows in frame.groupby("curve", sort=False):
-        paper = rows.drop_duplicates("n").assign(source="paper")
+        paper = rows.drop_duplicates("n")
         series.append(Series(f"{curve} (paper)", paper, "n", "paper_s",
                              Look(colours[curve], "circle", "dash", is_hollow=True),
-                             keys_of(paper, "curve", "source")))
+                             keys_of(paper, "curve")))
         for way, mark in (("as the paper did", "square"), ("our best", "diamond")):
-            own = rows[(rows["way"] == way) & rows["measured_s"].notna()].assign(source=way)
+            own = rows[(rows["way"] == way) & rows["measured_s"].notna()]
             if len(own):
                 series.append(Series(f"{curve}: {way}", own, "n", "measured_s",
                                      Look(colours[curve], mark, "solid"),
-                                     keys_of(own, "curve", "source"),
+                                     keys_of(own, "curve"),
                                      low="measured_low_s", high="measured_high_s"))
     columns = {"curve": "curve", "set": "plate", "way": "way", "paper_s": "paper [s]",
                "measured_s": "measured [s]", "ran": "what ran", "machine": "where",
@@ -95,5 +99,5 @@ def figure9(results):
     return Chart("paper_figure9", frame, columns,
                  [Panel(Axis("elements a side, n", "log", ticks=ticks),
                         Axis("time of 10,000 steps [s]", "log"), series)],
-                 heading, "", [Filter("curve", "Curve"), Filter("source", "Source")],
+                 heading, "", [Filter("curve", "Curve")],
                  size=(7, 5), height=540)
