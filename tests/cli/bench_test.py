@@ -122,20 +122,45 @@ class Bench(ProgramTest):
         self.assertFalse(os.path.exists(self.path("out/raw/kernels.csv")))
 
 
+CHAIN = os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                     "../../experiments/studies/chain/chain.json")
+
+
 class Chain(ProgramTest):
-    def test_each_stage_has_a_factor_and_an_error(self):
-        result = dssbench("experiment", "chain", "--scale", "smoke", "--out", self.path("out"))
+    def rows_of_chain(self, repetitions):
+        """The chain of the paper's plate at the scale smoke."""
+        with open(CHAIN, encoding="utf-8") as file:
+            study = json.load(file)
+        study["scales"]["smoke"]["repetitions"] = repetitions
+        study["chain"]["neighbours"] = study["chain"]["neighbours"][:1]
+        path = self.write("chain.json", json.dumps(study))
+        result = dssbench("experiment", path, "--scale", "smoke", "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.path("out/tables/chain.csv"), encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual([row["integrator"] for row in rows],
-                         7 * ["rk4"] + ["velocity_verlet"] + 2 * ["smoothed_verlet"], result.stderr)
-        self.assertEqual([row["model"] for row in rows],
-                         4 * ["spatial"] + 5 * ["planar"] + ["membrane"])
-        for row in rows:
-            self.assertEqual(row["status"], "ok", row)
+            return list(csv.DictReader(file))
+
+    def test_each_stage_has_a_factor_and_an_error(self):
+        rows = self.rows_of_chain(6)
+        stages = [row for row in rows if row["role"] == "stage"]
+        self.assertEqual([row["integrator"] for row in stages],
+                         8 * ["rk4"] + ["velocity_verlet"] + 2 * ["smoothed_verlet"])
+        self.assertEqual([row["model"] for row in stages],
+                         5 * ["spatial"] + 5 * ["planar"] + ["membrane"])
+        for row in stages:
+            self.assertEqual((row["status"], row["base"]), ("ok", "as_published"))
             self.assertLess(float(row["error_max"]), 1e-3)
-        self.assertEqual(float(rows[0]["factor_vs_reference"]), 1)
-        self.assertGreater(float(rows[2]["factor_vs_reference"]), 3)
+            self.assertLessEqual(float(row["factor_vs_base_low"]), float(row["factor_vs_base"]))
+        self.assertEqual(float(stages[0]["factor_vs_base"]), 1)
+        self.assertGreater(float(stages[2]["factor_vs_base"]), 3)
+        self.assertLess(float(stages[0]["oracle_error"]), 1e-12)
+        neighbour = rows[-1]
+        self.assertEqual((neighbour["role"], neighbour["smoothing"]), ("neighbour", "0.5"))
+        # It takes the longest stable step, its stage one that is a hundredth of that.
+        self.assertGreater(float(neighbour["error_max"]), float(stages[-1]["error_max"]))
+
+    def test_a_smoke_run_does_not_look_like_a_result(self):
+        for row in self.rows_of_chain(2):
+            self.assertEqual([name for name in row if name.startswith("factor")], [])
 
     def test_a_chain_with_an_unknown_model_is_refused(self):
         study = {
