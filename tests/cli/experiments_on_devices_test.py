@@ -3,7 +3,7 @@ import json
 import unittest
 
 from program import dssbench
-from tiny_study import TinyStudyTest
+from tiny_study import SIX, TinyStudyTest
 
 
 class ExperimentsOnDevices(TinyStudyTest):
@@ -11,7 +11,7 @@ class ExperimentsOnDevices(TinyStudyTest):
         self.study(cells=[{"scene": "plate_paper", "set": {"n": [10]}, "variants": ["scalar"]},
                           *more],
                    base=["scalar"],
-                   twin="scalar")
+                   twin="scalar", scales={"smoke": SIX})
 
     def test_without_its_device_a_cell_is_unavailable_and_the_study_succeeds(self):
         plate = {"scene": "plate_paper", "set": {"n": [10]}}

@@ -78,6 +78,9 @@ struct TestedVariant {
   std::vector<Model> tested_models(const Case& c) const {
     const bool is_row = c.name.starts_with("row_of");
     if (is_composed(plugin) && ((is_row && !is_row_for_all(c)) || !is_for_joined(c))) return {};
+    // Another description of finite rotations: the rest is the code of the same oracle.
+    if (plugin.rotation != Rotation::quaternion)
+      return is_row || !c.has(Model::spatial) ? std::vector<Model>{} : std::vector{Model::spatial};
     std::vector<Model> tested;
     for (const Model model : models)
       if (c.has(model) && (is_common(model) || !(is_composed(plugin) || is_row)))
