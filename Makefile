@@ -85,7 +85,8 @@ reproduce-gpu: build
 gpu-studies:
 	@$(BUILD)/dssbench list devices --measure
 	@$(BUILD)/dssbench verify --quiet --variant opencl,opencl-rhs --device gpu
-	@for study in table3 table3_gpu paper_table3; do $(MAKE) --no-print-directory study-$$study || exit 1; done
+	@for study in table3 table3_gpu paper_table3; do \
+	  $(MAKE) --no-print-directory study-$$study || exit 1; done
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 

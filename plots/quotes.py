@@ -10,14 +10,11 @@ A page marks a quotation with its name in quotes.toml, and a table with its name
 
 fill_pages.py writes what stands between the marks.
 """
-import math
 import re
 import tomllib
 
-import pandas
-
 from tables.results import ROOT, NotMeasured, Results
-from tables.words import is_missing, shown, with_interval
+from tables.words import is_missing, shown, speedup_over, with_interval
 
 MARK = re.compile(r"<!--(?!table |/)([a-z0-9_]+)-->(.*?)<!--/-->", re.DOTALL)
 TABLE = re.compile(r"(<!--table ([a-z0-9_]+)-->\n)(.*?)(<!--/table-->)", re.DOTALL)
@@ -107,65 +104,27 @@ def first_table(results):
                   & ~frame["label"].str.contains("A/A") & (frame["status"] == "ok")]
     bases = ("as_published", "reference", "scalar")
 
-    def speedup(row, base):
-        for form in ("", "extrapolated_"):
-            found = with_interval(*(row.get(f"{form}speedup_vs_{base}{end}")
-                                    for end in ("", "_low", "_high")))
-            if found:
-                return found
-        return ""
-
-    lines = [[row["label"], *(speedup(row, base) for base in bases),
+    lines = [[row["label"], *(speedup_over(row, base) for base in bases),
               disturbed(row)] for _, row in frame.iterrows()]
     return ["variant", *(f"over `{base}`" for base in bases), "contaminated"], lines
 
 
-def paired_ratio(records, above, below):
-    """Ratio of the times per step of two cells, by pairs of the same repetition.
-
-    @return the median and the ends of its 95 % interval; the ends are missing below six pairs
-    """
-    steps = [records[records["cell"] == cell].drop_duplicates("repetition", keep="last")
-             .set_index("repetition") for cell in (above, below)]
-    ratios = sorted((steps[0]["wall_s"] / steps[0]["steps"]
-                     / (steps[1]["wall_s"] / steps[1]["steps"])).dropna())
-    count = len(ratios)
-    if count < 6:
-        return [None] * 3
-    # The largest rank whose order statistics enclose the median with 95 % (binomial distribution).
-    outside, rank = 0.0, 0
-    while 2 * (outside + math.comb(count, rank) / 2**count) <= 0.05:
-        outside += math.comb(count, rank) / 2**count
-        rank += 1
-    return [pandas.Series(ratios).median(), ratios[rank - 1], ratios[count - rank]]
-
-
 def gpu_table(results):
-    """The paper's CPU over its GPU, and all cores of a CPU over an H100."""
-    there = Results(results.directory / "h100")
-    frame = there.table("table3", "source", "label", "set", "measured_wall_s", "steps", "threads",
-                        "variant", optional=["extrapolated_wall_s", "paper_wall_s"])
-    records = pandas.read_csv(there.directory / "raw" / "table3.csv")
+    """The paper's CPU and its GPU, all cores of a CPU and an H100: seconds of 10,000 steps."""
+    frame = Results(results.directory / "h100").table(
+        "table3", "label", "set", "measured_wall_s", "measured_wall_low_s", "measured_wall_high_s",
+        "steps", "threads", "variant", optional=["paper_wall_s"])
     lines = []
     for plate in ("n=50", "n=100", "n=200"):
         rows = frame[frame["set"] == plate]
-        paper = {label: rows[rows["label"] == label]["paper_wall_s"].iloc[0]
-                 for label in ("two CPU processes", "P100 alone")}
-        cpu = rows[(rows["variant"] == "avx512") & (rows["label"] != "hybrid")]
-        cpu = cpu.loc[cpu["threads"].idxmax()]
+        paper = rows.set_index("label")["paper_wall_s"]
+        cpu = rows[rows["variant"] == "avx512"].nlargest(1, "threads").iloc[0]
         gpu = rows[rows["label"] == "opencl on gpu, 1 thread"].iloc[0]
-        times = [row["measured_wall_s"] / row["steps"] * 10000 for row in (cpu, gpu)]
-        cells = [records[(records["set"] == plate) & (records["variant"] == variant)
-                         & (records["threads"] == threads) & wanted]["cell"].iloc[0]
-                 for variant, threads, wanted in (
-                     ("avx512", cpu["threads"], records["twin"].astype(str).str.lower() != "true"),
-                     ("opencl", 1, records["device"] == "gpu"))]
-        lines.append([plate, *(f"{value:.2f}" for value in paper.values()),
-                      f"{paper['two CPU processes'] / paper['P100 alone']:.0f}",
-                      *(f"{value:.2f}" for value in times),
-                      with_interval(*paired_ratio(records, *cells))])
-    return ["plate", "paper: two CPU processes", "P100", "ratio", "`avx512`, 16 threads", "H100",
-            "ratio"], lines
+        times = [with_interval(*(row[f"measured_wall{end}_s"] / row["steps"] * 10000
+                                 for end in ("", "_low", "_high"))) for row in (cpu, gpu)]
+        lines.append([plate, f"{paper['two CPU processes']:.2f}", f"{paper['P100 alone']:.2f}",
+                      *times])
+    return ["plate", "paper: two CPU processes", "P100", "`avx512`, 16 threads", "H100"], lines
 
 
 def network_table(results):

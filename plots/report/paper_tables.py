@@ -230,7 +230,7 @@ def other_table3(other):
     """Table 3 of another machine, from a folder of the results."""
     folder = other.directory.name
     return executors(other, f"table-3-{folder}", f"Table 3 on another machine: {folder}",
-                  f"{folder}/tables/table3")
+                     f"{folder}/tables/table3")
 
 
 TABLES = [("table-1", "Table 1: processes with AVX2-FMA", "paper_table1", table1),

@@ -1,7 +1,7 @@
 """The summary: three sentences with values from the tables."""
 from charts.chain import best_stage
 from tables.results import FAULTS, NotMeasured
-from tables.words import shown, with_interval
+from tables.words import shown, speedup_over
 
 
 BASES = {"as_published": "the paper's algorithm in plain code (`as_published`)",
@@ -24,16 +24,8 @@ def of_speed(results):
         return "No cell of tables/table1.csv has a speed-up."
     best = frame.loc[against.idxmax()]
 
-    def interval(base):
-        for form in ("", "extrapolated_"):
-            column = f"{form}speedup_vs_{base}"
-            found = with_interval(best[column], best[f"{column}_low"], best[f"{column}_high"])
-            if found:
-                return found
-        return ""
-
-    factors = [f"{interval(base)} times as fast as {words}" for base, words in BASES.items()
-               if interval(base)]
+    factors = [f"{speedup_over(best, base)} times as fast as {words}"
+               for base, words in BASES.items() if speedup_over(best, base)]
     passed = (frame["check"] == "passed").sum()
     return (f"The fastest configuration of Table 1 on this machine is {best['label']} "
             f"({best['scene']} {best['set']}): {', '.join(factors)}, each on one thread, per step; "

@@ -35,6 +35,16 @@ def with_interval(value, low, high):
     return f"{shown(value)} [{shown(low)}, {shown(high)}]"
 
 
+def speedup_over(row, base):
+    """The speed-up of a row of cells over `base`, measured or scaled, with its interval."""
+    for form in ("", "extrapolated_"):
+        found = with_interval(*(row.get(f"{form}speedup_vs_{base}{end}")
+                                for end in ("", "_low", "_high")))
+        if found:
+            return found
+    return ""
+
+
 def problem(scene, overrides, *more):
     """A scene with its overridden values; constants have short names."""
     parts = [str(scene), *("" if is_missing(overrides) else str(overrides)).split(), *more]

@@ -1,13 +1,18 @@
 """`experiment`: records, resuming, and failures that stay in their cell."""
 import json
 import os
+import pathlib
 import resource
 import subprocess
+import sys
 import time
 import unittest
 
 from program import PROGRAM, dssbench
 from tiny_study import SIX, STUDY, TinyStudyTest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "plots"))
+from tables import sources  # noqa: E402
 
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../experiments/scenes")
 
@@ -30,6 +35,13 @@ class Experiments(TinyStudyTest):
         self.assertEqual((table[3]["paper_wall_s"], table[3]["measured_wall_s"]), ("12.5", ""))
         self.assertTrue(json.loads(self.read("out/raw/tiny.json"))["context"]["denormals_flushed"])
         self.assertIn(self.path("out/tables/tiny.csv"), result.stdout)
+
+    def test_records_name_the_sources_as_the_report_computes_them(self):
+        self.study()
+        self.experiment()
+        named = json.loads(self.read("out/raw/tiny.json"))["sources"]
+        self.assertEqual(named["core"], sources.digest(*sources.CORE))
+        self.assertEqual(named["json"], sources.fnv1a(pathlib.Path(self.path("tiny.json"))))
 
     def test_resume_measures_only_what_is_missing(self):
         self.study()
