@@ -60,6 +60,23 @@ void print_model(const RunResult& result) {
                promotion.resumed_step);
 }
 
+void print_balance(const RunResult& result) {
+  if (result.balance && result.balance->is_resolved) {
+    const EnergyShares& shares = *result.balance;
+    fmt::print("energy balance: {:.4g} J at the start, {:+.4g} J by loads, {}; {}\n", shares.start,
+               shares.work,
+               shares.is_complete ? fmt::format("{:.4g} J to dampers", shares.dissipated)
+                                  : "an unknown part to dampers",
+               shares.is_complete ? fmt::format("error {:.2g} of the energy", shares.error)
+                                  : fmt::format("gained at most {:.2g} of the energy",
+                                                std::max(0.0, shares.error)));
+  }
+  if (const auto& limit = result.stability_limit_end_s; limit && result.dt_s > *limit)
+    fmt::print("the step is above the stability limit of the final state, {:.6g} s; a longer run "
+               "may grow\n",
+               *limit);
+}
+
 void print_summary(const RunResult& result) {
   fmt::print("{}: {} elements, {} links, {} steps of {}{:g} s ({}, {}, {})\n", result.scene,
              result.elements, result.links, result.steps, result.adaptive ? "first " : "",
@@ -98,6 +115,7 @@ void print_summary(const RunResult& result) {
                result.reference->times.count, result.reference->accuracy.final,
                result.reference->accuracy.l2, result.reference->accuracy.max,
                result.reference->error);
+  print_balance(result);
   if (result.energy_drift) fmt::print("energy drift {:.3g}\n", *result.energy_drift);
   if (result.ranks.ranks > 1)
     fmt::print("{:.4g} messages and {:.4g} bytes a step, {:.1f} % of the time in exchanges, "

@@ -2,10 +2,19 @@
 /// Energy of a state, for audits.
 #include "solver/model/problem.hpp"
 #include "solver/model/rotation.hpp"
+#include "solver/reference/dynamics.hpp"
 
 #include <span>
+#include <vector>
 
 namespace dss {
+
+/// The oracle's terms for the energies of a run. Descriptions of finite rotations share them.
+reference::Dynamics<double> energy_terms(const Problem& problem, Rotation rotation);
+/// A state in the coordinates of energy_terms. Orientations get the length 1: a method changes it
+/// by its error, and what it describes is q / |q|.
+/// @param state  field_count numbers an element, with quaternions
+std::vector<double> placed(reference::Dynamics<double>& terms, std::span<const double> state);
 
 /// Kinetic energy, elastic energy of all links and energy of the stabilizing springs [J]. Loads and
 /// the frame's acceleration do work and are not included. The potentials are in
@@ -16,6 +25,9 @@ namespace dss {
 /// @throws InputError if the state has another size
 double total_energy(const Problem& problem, std::span<const double> state,
                     Rotation rotation = Rotation::quaternion);
+
+/// True if a link or the stabilization is damped.
+bool has_dampers(const Problem& problem);
 
 /// True if total_energy is constant in time: no link or tie is damped, and nothing loads or
 /// accelerates the bodies.

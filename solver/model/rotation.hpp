@@ -43,6 +43,11 @@ constexpr std::optional<Rotation> find_rotation(std::string_view text) {
   return std::nullopt;
 }
 
+/// True if orientations are vectors from the rest orientation that add up.
+constexpr bool has_vectors(Rotation rotation) {
+  return rotation == Rotation::linearised || rotation == Rotation::small;
+}
+
 /// The description whose oracle has the equations of a model. A model with fewer degrees of freedom
 /// has the same equations where its degrees of freedom suffice.
 constexpr Rotation rotation_of(Model model) {

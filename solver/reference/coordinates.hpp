@@ -29,9 +29,7 @@ public:
   Coordinates(Rotation rotation, std::size_t elements);
 
   Rotation rotation() const { return rotation_; }
-  bool has_vectors() const {
-    return rotation_ == Rotation::linearised || rotation_ == Rotation::small;
-  }
+  bool has_vectors() const { return dss::has_vectors(rotation_); }
 
   /// Coordinates of element e for the orientation q.
   Orientation<T> write(std::size_t e, const Orientation<T>& q);

@@ -211,15 +211,29 @@ void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signal
 }
 
 template <class T>
+T Dynamics<T>::kinetic_energy_of(std::size_t e) const {
+  const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
+  const Motion<T>& m = motions_[e];
+  const Vector<T> body_spin = body_axes(m).transpose() * m.w;
+  return body.mass * m.v.squaredNorm() / T(2) + body.inertia.dot(body_spin.cwiseAbs2()) / T(2);
+}
+
+template <class T>
+T Dynamics<T>::kinetic_energy(std::span<const T> state) {
+  place(state);
+  T energy = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e) energy += kinetic_energy_of(e);
+  return energy;
+}
+
+template <class T>
 T Dynamics<T>::energy(std::span<const T> state) {
   place(state);
   const T k = T(stabilization_.k), k_rot = T(stabilization_.k_rot);
   T energy = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
     const Motion<T>& m = motions_[e];
-    const Vector<T> body_spin = body_axes(m).transpose() * m.w;
-    energy += body.mass * m.v.squaredNorm() / T(2) + body.inertia.dot(body_spin.cwiseAbs2()) / T(2);
+    energy += kinetic_energy_of(e);
     // The stabilization's moment -2 k_rot v derives from -4 k_rot s, because ds/dt = -w.v/2. With
     // |q| = 1, s is a sum of squares.
     energy += k * m.u.squaredNorm() / T(2) + T(2) * k_rot * (m.q.s * m.q.s + m.q.v.squaredNorm());
@@ -231,6 +245,42 @@ T Dynamics<T>::energy(std::span<const T> state) {
         is_linearised() ? linearised_energy(i, j, properties) : elastic_energy(i, j, properties);
   }
   return energy;
+}
+
+template <class T>
+T Dynamics<T>::supplied_power(std::span<const T> state, std::span<const double> signals) {
+  place(state);
+  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
+  add_loads(signals);
+  const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
+  T power = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const Vector<T> force =
+        wrenches_[e].force + bodies_[std::size_t(elements_[e].body)].mass * frame;
+    power += force.dot(motions_[e].v) + wrenches_[e].moment.dot(motions_[e].w);
+  }
+  return power;
+}
+
+/// Both laws are linear in the velocities, so the dampers' part is what changes if the elements
+/// stand still.
+template <class T>
+T Dynamics<T>::dissipated_power(std::span<const T> state) {
+  place(state);
+  const T d = T(stabilization_.d), d_rot = T(stabilization_.d_rot);
+  const auto power_of = [](const Reaction<T>& r, const Motion<T>& i, const Motion<T>& j) {
+    return r.force.dot(j.v - i.v) - r.moment_i.dot(i.w) - r.moment_j.dot(j.w);
+  };
+  T power = 0;
+  for (const Motion<T>& m : motions_) power += d * m.v.squaredNorm() + d_rot * m.w.squaredNorm();
+  for (const Link& link : links_) {
+    const Motion<T>&i = motions_[link.i], &j = motions_[link.j];
+    Motion<T> still_i = i, still_j = j;
+    still_i.v.setZero(), still_i.w.setZero(), still_j.v.setZero(), still_j.w.setZero();
+    power += power_of(link_reaction(i, j, link), i, j) -
+             power_of(link_reaction(still_i, still_j, link), i, j);
+  }
+  return power;
 }
 
 template <class T>

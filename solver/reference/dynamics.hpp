@@ -63,6 +63,11 @@ public:
 
   /// Kinetic energy, elastic energy of all links and energy of the stabilizing springs [J].
   T energy(std::span<const T> state);
+  T kinetic_energy(std::span<const T> state);
+  /// Power of the loads and of the frame's acceleration [W]. @param signals as in rates()
+  T supplied_power(std::span<const T> state, std::span<const double> signals);
+  /// Power that the dampers of links and of the stabilization take [W].
+  T dissipated_power(std::span<const T> state);
 
   /// Memory of tables and scratch space [B].
   std::size_t bytes() const;
@@ -87,6 +92,7 @@ private:
   void add_link_reactions();
   void add_loads(std::span<const double> signals);
   void add_stabilization();
+  T kinetic_energy_of(std::size_t e) const;
   bool is_linearised() const { return coordinates_.rotation() == Rotation::linearised; }
   bool has_vectors() const { return coordinates_.has_vectors(); }
   Matrix<T> body_axes(const Motion<T>& motion) const;

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 namespace dss::reference {
 
 template <class T>
@@ -59,6 +61,14 @@ template <class T>
 T relative_versine(const Orientation<T>& i, const Orientation<T>& j) {
   const T ds = j.s - i.s;
   return (ds * ds + (j.v - i.v).squaredNorm()) / T(2);
+}
+
+/// q / |q|, without cancellation near rest.
+template <class T>
+Orientation<T> of_unit_length(const Orientation<T>& q) {
+  const T excess = q.s * (T(2) + q.s) + q.v.squaredNorm(); // |q|^2 - 1
+  const T length = std::sqrt(T(1) + excess);
+  return {(q.s - excess / (T(1) + length)) / length, q.v / length};
 }
 
 /// dq/dt = 1/2 w (x) q for the angular velocity w [rad/s] in the global frame.

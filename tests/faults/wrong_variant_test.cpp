@@ -18,15 +18,22 @@ enum class Fault {
   lost_step,
   threads,
   not_a_number,
-  unwritten
+  unwritten,
+  weak_links
 };
 Fault fault = Fault::none;
 
 /// The correct executor with the fault added.
 class WrongExecutor final : public Executor {
 public:
-  explicit WrongExecutor(const Setup& setup)
-      : setup_(setup), right_(load_variant("avx2").create(setup)) {}
+  explicit WrongExecutor(const Setup& setup) : setup_(setup), problem_(setup.problem) {
+    if (fault == Fault::weak_links)
+      for (Body& body : problem_.bodies)
+        for (AxisConstants& constants : body.axis)
+          constants.k_normal *= 0.999, constants.k_shear *= 0.999;
+    right_ = load_variant("avx2").create({problem_, setup.method, setup.model, setup.precision,
+                                          setup.dt, setup.threads});
+  }
   void write(std::size_t first, std::span<const double> fields) override {
     right_->write(first, fields);
   }
@@ -60,6 +67,7 @@ public:
 
 private:
   Setup setup_;
+  Problem problem_;
   std::unique_ptr<Executor> right_;
 };
 
@@ -96,7 +104,7 @@ TEST(Verify,
        {std::pair(Fault::rate, "evaluation"), std::pair(Fault::last_element, "run rk4"),
         std::pair(Fault::last_bit, "bits rk4"), std::pair(Fault::lost_step, "run rk4"),
         std::pair(Fault::threads, "threads rk4"), std::pair(Fault::not_a_number, "run rk4"),
-        std::pair(Fault::unwritten, "run rk4")}) {
+        std::pair(Fault::unwritten, "run rk4"), std::pair(Fault::weak_links, "run rk4")}) {
     const std::vector<std::string> failed = failed_checks(injected);
     EXPECT_NE(std::find(failed.begin(), failed.end(), check), failed.end())
         << "fault " << int(injected);

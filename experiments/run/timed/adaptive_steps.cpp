@@ -31,9 +31,10 @@ std::optional<std::string> AdaptiveSteps::advance_to(double stop) {
   while (time_ < stop) {
     const double dt = control_.step_within(stop - time_);
     const bool is_last = dt == stop - time_;
-    if (step(dt))
+    if (step(dt)) {
       time_ = is_last ? stop : time_ + dt;
-    else if (control_.dt() < least_share * end_)
+      if (visit_accepted_) visit_accepted_(time_);
+    } else if (control_.dt() < least_share * end_)
       return why_no_step(dt);
   }
   return std::nullopt;

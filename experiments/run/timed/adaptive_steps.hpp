@@ -4,6 +4,7 @@
 #include "solver/numerics/step_control.hpp"
 #include "variants/api/api.hpp"
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -30,6 +31,8 @@ public:
   /// Advances to exactly `stop` [s].
   /// @return one line if the run cannot continue, else empty
   std::optional<std::string> advance_to(double stop);
+  /// Calls `visit` with the time [s] after each accepted step from now on.
+  void visit_accepted(std::function<void(double)> visit) { visit_accepted_ = std::move(visit); }
   const AdaptiveCounts& counts() const { return counts_; }
 
 private:
@@ -44,6 +47,7 @@ private:
   StepControl control_;
   double time_ = 0;
   AdaptiveCounts counts_;
+  std::function<void(double)> visit_accepted_;
 };
 
 } // namespace dss

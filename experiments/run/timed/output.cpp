@@ -1,14 +1,39 @@
 #include "experiments/run/timed/output.hpp"
+#include "solver/error.hpp"
 #include "solver/model/stress.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
 namespace dss {
+namespace {
+
+bool is_finite(const ElementStress& stress) {
+  return std::ranges::all_of(stress, [](double value) { return std::isfinite(value); });
+}
+
+/// @throws UnstableError if a stress is beyond the range of numbers; InputError if that holds from
+/// the start
+std::vector<ElementStress> finite_stress(const Problem& problem, const std::vector<double>& state,
+                                         Rotation equations) {
+  std::vector<ElementStress> stress = element_stress(problem, state, equations);
+  const auto wrong = std::ranges::find_if_not(stress, is_finite);
+  if (wrong == stress.end()) return stress;
+  const std::string what =
+      fmt::format("{}: the stress of element {} is beyond the range of numbers", problem.name,
+                  wrong - stress.begin());
+  if (std::ranges::all_of(element_stress(problem, initial_state(problem), equations), is_finite))
+    throw UnstableError(what + "; take a smaller --dt");
+  throw InputError(what + "; give lengths and constants in SI units");
+}
+
+} // namespace
 
 void write_state(const std::string& path, const Problem& problem, const std::vector<double>& state,
                  Rotation equations) {
-  write_state_csv(path, problem, state, element_stress(problem, state, equations));
+  write_state_csv(path, problem, state, finite_stress(problem, state, equations));
 }
 
 void FrameSeries::add(const Problem& problem, const std::vector<double>& state, Rotation equations,
@@ -17,7 +42,12 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
   std::filesystem::path path(output_);
   if (is_series_)
     path.replace_filename(fmt::format("{}_{:04}.vtu", path.stem().string(), frames_.size()));
-  write_vtu(path.string(), problem, state, element_stress(problem, state, equations));
+  try {
+    write_vtu(path.string(), problem, state, finite_stress(problem, state, equations));
+  } catch (...) {
+    discard();
+    throw;
+  }
   frames_.push_back({path.filename().string(), time});
 }
 

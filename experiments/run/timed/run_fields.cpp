@@ -112,6 +112,10 @@ bool is_run_contaminated(R r) {
   return !is_elsewhere && is_contaminated(r.usage, r.sample_s(), r.workers);
 }
 
+Json of_balance(R r, double EnergyShares::*share) {
+  return r.balance ? Json((*r.balance).*share) : Json();
+}
+
 std::string verdict(const CheckResult& check) {
   return !check.is_done ? "none" : check.is_passed() ? "passed" : "failed";
 }
@@ -181,6 +185,9 @@ const RunField fields[] = {
      [](R r) { return or_null(r.evaluations); }},
     {"stability_limit_s", "", "s", "predicted largest stable step",
      [](R r) { return Json(r.stability_limit_s); }},
+    {"stability_limit_end_s", "", "s",
+     "the same in the final state, estimated; of scenes of at most 2000 elements",
+     [](R r) { return or_null(r.stability_limit_end_s); }},
     {"wall_s", "wall_s", "s", "time inside the executor's advance(), a run",
      [](R r) { return Json(r.wall_s); }},
     {"stages", "stages", "", "force evaluations a step", [](R r) { return Json(r.stages); }},
@@ -213,6 +220,20 @@ const RunField fields[] = {
     {"energy_drift", "energy_drift", "",
      "relative change of energy over the run, where nothing damps or loads",
      [](R r) { return or_null(r.energy_drift); }},
+    {"energy_start_j", "", "J", "the same energy of the state from which its balance is followed",
+     [](R r) { return of_balance(r, &EnergyShares::start); }},
+    {"work_j", "", "J", "work of loads and of the frame's acceleration",
+     [](R r) { return of_balance(r, &EnergyShares::work); }},
+    {"dissipated_j", "", "J",
+     "what dampers took; empty where it was not followed: runs of more than 1.2e6 element-steps",
+     [](R r) {
+       return r.balance && r.balance->is_complete ? Json(r.balance->dissipated) : Json();
+     }},
+    {"energy_error", "", "",
+     "energy without a source, over the energy at the end, which counts as at least 0.1 times the "
+     "largest of the run; what dampers have taken of it since does not count; without dissipated_j "
+     "what the run gained at most, and judged on that side alone; above 0.1 the run is wrong",
+     [](R r) { return r.balance && r.balance->is_resolved ? Json(r.balance->error) : Json(); }},
     {"max_displacement_m", "max_displacement_m", "m",
      "largest displacement of an element at the end",
      [](R r) { return of_state(r, r.max_displacement_m); }},

@@ -4,6 +4,7 @@
 #include "experiments/run/model/model_monitor.hpp"
 #include "experiments/run/state/accuracy.hpp"
 #include "experiments/run/state/saved_times.hpp"
+#include "solver/model/energy_balance.hpp"
 #include "solver/numerics/step_control.hpp"
 #include "variants/api/device.hpp"
 #include "variants/api/distribution.hpp"
@@ -62,6 +63,9 @@ struct RunResult {
   std::optional<double> energy_j; ///< absent if the state is too large to hold twice
   /// Relative change over the whole run; only if energy is conserved and not zero.
   std::optional<double> energy_drift;
+  std::optional<EnergyShares> balance; ///< absent if the state is too large to follow
+  /// Predicted as stability_limit_s, at the final state; absent for large scenes.
+  std::optional<double> stability_limit_end_s;
   double max_displacement_m = 0;
   std::uint64_t digest = 0;
   ModelChoice model_choice;

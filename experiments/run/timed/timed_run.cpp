@@ -12,8 +12,6 @@
 namespace dss {
 namespace {
 
-constexpr long signal_steps = 256; ///< signals are computed for this many steps at once
-
 DeviceUse since(const DeviceUse& before, DeviceUse now) {
   now.launches -= before.launches;
   now.to_device_bytes -= before.to_device_bytes;
@@ -44,6 +42,7 @@ void TimedRun::run() {
   }
   warm_up();
   write_initial_state(*executor_, problem_);
+  begin_balance(initial_state(problem_), 0);
   if (plan_.adaptive) adaptive_.emplace(adaptive_steps());
   const Traffic before = traffic(*executor_);
   const DeviceUse used_before = device_use(*executor_);
@@ -53,7 +52,7 @@ void TimedRun::run() {
     result_.reference = {plan_.reference->times, plan_.reference->error, meter_->result()};
   sum_over_ranks(before);
   result_.hybrid = hybrid_info(*executor_);
-  result_.device_use = since(used_before, device_use(*executor_));
+  result_.device_use = since(used_by_looks_, since(used_before, device_use(*executor_)));
   if (const std::string written = series_.finish(); !written.empty())
     result_.files.push_back(written);
 }
@@ -133,6 +132,8 @@ std::vector<long> TimedRun::stops() const {
   if (has_tail()) steps.push_back(tail_start());
   for (long k = 1; meter_ && k <= plan_.reference->times.count; ++k)
     steps.push_back(k * plan_.steps_between);
+  if (const long between = balance_interval(); between > 0)
+    for (long step = between; step < plan_.steps; step += between) steps.push_back(step);
   steps.push_back(plan_.steps);
   std::sort(steps.begin(), steps.end());
   steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
@@ -240,6 +241,11 @@ void TimedRun::look(long step) {
     const std::vector<double> state = whole_state(*executor_, count);
     const WorkAlone alone(*executor_, is_root_);
     if (is_root_) check.error = state_error(problem_, plan_.expected->state, state);
+  }
+  if (const long between = balance_interval(); between > 0 && step > 0 && step % between == 0) {
+    const DeviceUse before = device_use(*executor_);
+    look_at_energy(*balance_, double(step) * plan_.dt);
+    used_by_looks_ += since(before, device_use(*executor_));
   }
   if (meter_ && step > 0 && step % plan_.steps_between == 0)
     meter_->add(std::size_t(step / plan_.steps_between - 1), whole_state(*executor_, count));

@@ -13,6 +13,9 @@
 
 namespace dss {
 
+/// Signals are computed for this many steps at once, so steps are advanced in such chunks.
+constexpr long signal_steps = 256;
+
 /// Scope in which only the root rank works and the other ranks wait.
 class WorkAlone {
 public:
@@ -41,6 +44,11 @@ public:
   /// runs pause nowhere if their steps are equal. The first run, which paused for inspections,
   /// serves as warm-up.
   void repeat(double least_s);
+
+  /// The energy balance of the run, after run(). Short runs of small scenes are computed once more,
+  /// with a look at each step; otherwise looks were taken on the way. Empty if the scene is too
+  /// large.
+  std::optional<EnergyShares> energy_balance();
 
   /// The model that computed last, and the rotations with which the oracle has the same equations.
   Model model() const { return model_; }
@@ -83,6 +91,18 @@ private:
   long tail_start() const;
   void check_tail();
 
+  // The following functions follow the energy (timed_run_energy.cpp).
+
+  /// Follows the energy from a state after `step` steps on.
+  void begin_balance(std::vector<double> state, long step);
+  /// True if every step of the run is looked at.
+  bool is_balanced_by_steps() const;
+  /// Steps between looks on the way; 0: none.
+  long balance_interval() const;
+  /// Looks at the state after `step` steps.
+  void look_at_energy(EnergyBalance& balance, double time);
+  EnergyShares balance_by_steps();
+
   // The following functions watch a model of small rotations that --model auto chose
   // (timed_run_model.cpp).
 
@@ -120,6 +140,14 @@ private:
     double tolerance;
   };
   std::optional<LeftOut> left_out_;
+  /// State after `step` steps from which the present model computes.
+  struct BalanceStart {
+    std::vector<double> state;
+    long step = 0;
+  };
+  std::optional<BalanceStart> balance_start_;
+  std::optional<EnergyBalance> balance_; ///< if it is followed on the way
+  DeviceUse used_by_looks_;
   std::vector<double> tail_state_;
   std::optional<AccuracyMeter> meter_;
   /// set if --model auto chose a model of small rotations

@@ -1,17 +1,19 @@
 #include "experiments/run/verify/verify.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/state/state_access.hpp"
-#include "solver/decomposition/decomposition.hpp"
+#include "experiments/run/verify/verified_methods.hpp"
 #include "solver/error.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/signal_rows.hpp"
-#include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <tuple>
+#include <utility>
 
 namespace dss {
 namespace {
@@ -24,19 +26,6 @@ bool is_outside(const Plugin& plugin) {
 
 constexpr unsigned seed = 20220617;
 using Verdict = VerifyRow::Verdict;
-
-/// True for the methods of brief checks: the paper's method, and the leapfrog method whose
-/// prediction has all its terms.
-bool is_brief(const Method& method) {
-  return method.name == "rk4" || method.name == "smoothed_verlet";
-}
-
-/// The scene's step, or a shorter one if the method needs it. A method without a stable step grows
-/// too slowly to matter here.
-double verified_step(const Problem& problem, const Method& method) {
-  const double limit = 0.9 * stable_step(problem, method).dt;
-  return limit > 0 ? std::min(problem.dt, limit) : problem.dt / 2;
-}
 
 /// State that the oracle computes for a run, and its step [s].
 struct ExpectedRun {
@@ -99,13 +88,14 @@ private:
 
   /// Computed once for all models with the same equations. With finite rotations, they are those of
   /// the variant's own description: another one has another error of a step.
-  const ExpectedRun& expected_run(const Method& method, Rotation own) {
+  /// @param halvings  how often the step is halved; the number of steps stays
+  const ExpectedRun& expected_run(const Method& method, Rotation own, int halvings = 0) {
     const Rotation of_model = rotation_of(model_);
     const Rotation equations = of_model == Rotation::quaternion ? own : of_model;
-    const auto [place, is_new] = expected_runs_.try_emplace({&method, equations});
+    const auto [place, is_new] = expected_runs_.try_emplace({&method, equations, halvings});
     ExpectedRun& run = place->second;
     if (!is_new) return run;
-    run.dt = steps_of_.at(&method);
+    run.dt = std::ldexp(steps_of_.at(&method), -halvings);
     run.state = initial_state(problem_);
     Oracle<long double> oracle(problem_, method, run.dt, equations);
     oracle.write(run.state);
@@ -188,12 +178,53 @@ private:
     judge_bits(plugin, "evaluation", digest.value());
   }
 
+  double run_error(const Outcome& outcome, Executor& executor, const ExpectedRun& expected) const {
+    if (!outcome.is_finite) return std::numeric_limits<double>::infinity();
+    return state_error(problem_, expected.state,
+                       whole_state(executor, problem_.lattice.element_count));
+  }
+
+  /// Error after as many steps that are halved some times.
+  double error_of_halved(const Plugin& plugin, const Method& method, int halvings) {
+    const ExpectedRun& expected = expected_run(method, plugin.rotation, halvings);
+    const auto executor = plugin.create(setup_of(plugin, method, expected.dt, 1));
+    write_initial_state(*executor, problem_);
+    const Outcome outcome =
+        executor->advance(steps_, signal_rows(problem_, method, expected.dt, 0, steps_));
+    return run_error(outcome, *executor, expected);
+  }
+
+  /// Kernels and oracle have equal equations for |q| = 1 alone, and a method keeps that length to
+  /// its order. So a difference that falls by this order, as the step is halved, is the method's
+  /// own: with a wrong force it would fall by 2.
+  void judge_run(const Plugin& plugin, const Method& method, double error) {
+    constexpr int most_halvings = 10;
+    const std::string check = fmt::format("run {}", method.name);
+    const std::vector<double>& expected = expected_run(method, plugin.rotation).state;
+    if (!std::isfinite(error) &&
+        !std::ranges::all_of(expected, [](double value) { return std::isfinite(value); }))
+      return add(plugin, check, Verdict::skipped, "the motion leaves the range of numbers");
+    double now = error;
+    for (int halvings = 1; method.order >= 2 && now > tolerance().run && halvings <= most_halvings;
+         ++halvings) {
+      const double before = std::exchange(now, error_of_halved(plugin, method, halvings));
+      if (!(now * std::pow(2, method.order - 0.5) <= before)) break;
+      if (now <= tolerance().run)
+        return add(plugin, check, Verdict::passed,
+                   fmt::format("{:.3g} at steps of {:.3g} s, and falls by the method's order",
+                               error, steps_of_.at(&method)),
+                   now, tolerance().run);
+    }
+    judge_error(plugin, check, error, tolerance().run);
+  }
+
   void run(const Plugin& plugin, const Method& method) {
     const ExpectedRun& expected = expected_run(method, plugin.rotation);
     const std::vector<double> signals = signal_rows(problem_, method, expected.dt, 0, steps_);
     const std::string run_name(method.name);
     std::optional<std::uint64_t> digest;
     std::string unequal;
+    bool is_finite = true;
     for (const int threads : verified_threads) {
       if (threads > 1 && !plugin.is_threaded) continue;
       if (threads > 1 && !is_brief(method)) continue;
@@ -202,16 +233,12 @@ private:
       const auto executor = plugin.create(setup_of(plugin, method, expected.dt, threads));
       write_initial_state(*executor, problem_);
       const Outcome outcome = executor->advance(steps_, signals);
-      if (threads == 1)
-        judge_error(plugin, "run " + run_name,
-                    outcome.is_finite
-                        ? state_error(problem_, expected.state,
-                                      whole_state(*executor, problem_.lattice.element_count))
-                        : std::numeric_limits<double>::infinity(),
-                    tolerance().run);
+      if (threads == 1) judge_run(plugin, method, run_error(outcome, *executor, expected));
       const std::uint64_t bits =
           state_digest(*executor, problem_.lattice.element_count, precision_);
       if (!digest) digest = bits;
+      is_finite = is_finite && outcome.is_finite;
+      if (!is_finite) continue; // a run stops where it first meets such a state
       if (bits != *digest) unequal += fmt::format("{}{}", unequal.empty() ? "" : ", ", threads);
     }
     if (plugin.is_threaded && is_brief(method))
@@ -219,7 +246,7 @@ private:
           unequal.empty() ? fmt::format("equal bits on {} threads",
                                         plugin.devices == nullptr ? "1, 2, 3, 4, 7" : "1, 2, 3")
                           : fmt::format("other bits than on 1 thread on {} threads", unequal));
-    judge_bits(plugin, run_name, *digest);
+    if (is_finite) judge_bits(plugin, run_name, *digest);
   }
 
   const Scene& scene_;
@@ -229,67 +256,12 @@ private:
   Model model_ = Model::spatial;
   Precision precision_ = Precision::f64;
   std::map<const Method*, double> steps_of_;
-  std::map<std::pair<const Method*, Rotation>, ExpectedRun> expected_runs_;
+  std::map<std::tuple<const Method*, Rotation, int>, ExpectedRun> expected_runs_;
   std::vector<double> random_, expected_rates_;
   std::map<std::string, std::pair<std::string, std::uint64_t>> first_bits_;
 };
 
 } // namespace
-
-std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin& distributed,
-                                    const Plugin& part, int ranks, const std::string& device) {
-  const Problem& problem = scene.problem;
-  std::vector<VerifyRow> rows;
-  for (const Model model : models) {
-    if (!why_not(model, problem).empty()) continue;
-    for (const Precision precision : precisions)
-      for (const Method& method : methods()) {
-        // what ranks exchange does not depend on the method's coefficients
-        if (!is_brief(method)) continue;
-        if (precision != Precision::f64 && (precision == Precision::f32) != (method.name == "rk4"))
-          continue;
-        const double dt = verified_step(problem, method);
-        const auto digest_of = [&](const Plugin& plugin, const Distribution* distribution) {
-          const auto executor = plugin.create(
-              {problem, method, model, precision, dt, 1, nullptr, distribution, device});
-          write_initial_state(*executor, problem);
-          executor->advance(steps, signal_rows(problem, method, dt, 0, steps));
-          return state_digest(*executor, problem.lattice.element_count, precision);
-        };
-        const std::uint64_t alone = digest_of(part, nullptr);
-        for (const std::string_view decomposition : decomposition_methods())
-          for (const HaloStrategy& halo : halo_strategies()) {
-            VerifyRow row{
-                scene.name,
-                std::string(name(model)),
-                std::string(name(precision)),
-                fmt::format("{}:{}", distributed.name, part.name),
-                fmt::format("{} ranks {} {} {}", ranks, decomposition, halo.name, method.name),
-                {},
-                {},
-                Verdict::passed,
-                fmt::format("equal to one process of {}", part.name)};
-            const Distribution distribution{ranks, part.name, std::string(decomposition),
-                                            std::string(halo.name)};
-            try {
-              if (const std::string why = why_no_decomposition(decomposition); !why.empty())
-                row.verdict = Verdict::skipped, row.reason = why;
-              else if (digest_of(distributed, &distribution) != alone)
-                row.verdict = Verdict::failed,
-                row.reason = fmt::format("other bits than one process of {}", part.name);
-              // such as more parts than rows; the same on every rank
-            } catch (const InputError& error) {
-              row.verdict = Verdict::skipped;
-              row.reason = error.what();
-            }
-            rows.push_back(std::move(row));
-            // the other strategies would be skipped too
-            if (rows.back().verdict == Verdict::skipped) break;
-          }
-      }
-  }
-  return rows;
-}
 
 std::vector<VerifyRow> verify_scene(const Scene& scene, long steps,
                                     const std::vector<const Plugin*>& plugins,

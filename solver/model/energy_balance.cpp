@@ -1,0 +1,113 @@
+#include "solver/model/energy_balance.hpp"
+
+#include "solver/numerics/signal_rows.hpp"
+#include "solver/reference/rotation_vector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dss {
+namespace {
+
+/// The energy at the end counts as at least this share of the largest during the run: motions may
+/// end at rest.
+constexpr double least_share = 0.1;
+constexpr double resolved_share = 0.03;
+
+using Vector = reference::Vector<double>;
+using Orientation = reference::Orientation<double>;
+
+Orientation conjugate(const Orientation& q) { return {q.s, -q.v}; }
+
+double simpson(double first, double middle, double last, double h) {
+  return h / 6 * (first + 4 * middle + last);
+}
+
+} // namespace
+
+EnergyBalance::EnergyBalance(const Problem& problem, Rotation rotation,
+                             std::span<const double> state, double time, bool follows_dampers)
+    : problem_(problem), dynamics_(energy_terms(problem, rotation)),
+      follows_dampers_(follows_dampers), is_damped_(has_dampers(problem)),
+      state_(placed(dynamics_, state)), time_(time),
+      supplied_power_(dynamics_.supplied_power(state_, signals_at(time))),
+      start_(dynamics_.energy(state_)), largest_(start_), energy_(start_) {
+  if (!is_damped_ || !follows_dampers_) return;
+  dissipated_power_ = dynamics_.dissipated_power(state_);
+  kinetic_ = dynamics_.kinetic_energy(state_);
+}
+
+std::vector<double> EnergyBalance::signals_at(double time) const {
+  std::vector<double> values;
+  for (const Signal& signal : problem_.frame_acceleration) values.push_back(signal(time));
+  for (const Load& load : problem_.loads) values.push_back(load.signal(time));
+  return values;
+}
+
+std::vector<double> EnergyBalance::middle(std::span<const double> next, double h) const {
+  const bool are_vectors = dynamics_.coordinates().has_vectors();
+  std::vector<double> middle(state_.size());
+  for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
+    const double *a = &state_[e * field_count], *b = &next[e * field_count];
+    double* m = &middle[e * field_count];
+    const Orientation q = reference::orientation_fields(a), r = reference::orientation_fields(b);
+    const Vector turned =
+        are_vectors ? Vector(r.v - q.v)
+                    : reference::vector_of_orientation(reference::product(r, conjugate(q)));
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto of_middle = [&](double change, double before, double after) {
+        return 1.5 * change / h - (before + after) / 4;
+      };
+      m[ux + axis] = (a[ux + axis] + b[ux + axis]) / 2 + h / 8 * (a[vx + axis] - b[vx + axis]);
+      m[vx + axis] = of_middle(b[ux + axis] - a[ux + axis], a[vx + axis], b[vx + axis]);
+      m[wx + axis] = of_middle(turned[axis], a[wx + axis], b[wx + axis]);
+    }
+    const Orientation half{(q.s + r.s) / 2, (q.v + r.v) / 2};
+    reference::set_orientation_fields(m, are_vectors ? half : reference::of_unit_length(half));
+  }
+  return middle;
+}
+
+void EnergyBalance::follow_dampers(std::span<const double> half, std::span<const double> next,
+                                   double h, double work) {
+  const double power = dynamics_.dissipated_power(next), kinetic = dynamics_.kinetic_energy(next);
+  const double taken = simpson(dissipated_power_, dynamics_.dissipated_power(half), power, h);
+  const double mean = simpson(kinetic_, dynamics_.kinetic_energy(half), kinetic, 1);
+  const double energy = dynamics_.energy(next);
+  if (mean > 0) error_ *= std::exp(-taken / (2 * mean));
+  error_ += energy - energy_ - work + taken;
+  dissipated_ += taken;
+  dissipated_power_ = power, kinetic_ = kinetic, energy_ = energy;
+}
+
+void EnergyBalance::look(std::span<const double> state, double time) {
+  const double h = time - time_;
+  if (h <= 0) return;
+  const std::vector<double> next = placed(dynamics_, state), half = middle(next, h);
+  const std::vector<double> before = signals_at(time_), after = signals_at(time);
+  std::vector<double> straight = before; // signals half-way if they are straight lines
+  for (std::size_t n = 0; n < straight.size(); ++n) straight[n] = (before[n] + after[n]) / 2;
+  const double supplied = dynamics_.supplied_power(next, after);
+  const double of_middle = dynamics_.supplied_power(half, signals_at(time_ + h / 2));
+  const double work = simpson(supplied_power_, of_middle, supplied, h);
+  work_ += work;
+  unresolved_ += 2 * h / 3 * std::abs(of_middle - dynamics_.supplied_power(half, straight));
+  if (is_damped_ && follows_dampers_) follow_dampers(half, next, h, work);
+  supplied_power_ = supplied;
+  state_ = next;
+  time_ = time;
+  largest_ = std::max(largest_, start_ + work_ - dissipated_);
+}
+
+EnergyShares EnergyBalance::shares() {
+  EnergyShares shares{start_, dynamics_.energy(state_), work_, dissipated_};
+  shares.is_complete = follows_dampers_ || !is_damped_;
+  const double expected = start_ + work_ - dissipated_;
+  const double error = is_damped_ && follows_dampers_ ? error_ : shares.end - expected;
+  const double scale = std::max({shares.end, shares.end - error, least_share * largest_});
+  shares.error = error == 0 ? 0 : error / scale;
+  shares.is_resolved = unresolved_ <= resolved_share * scale;
+  return shares;
+}
+
+} // namespace dss
