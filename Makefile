@@ -42,8 +42,8 @@ test-aarch64: build
 # one core each, so two run side by side.
 UNTIMED_STUDIES := error_budget failures continuum
 PAPER_STUDIES := table1 table2 table3 paper_table1 paper_table2 paper_table3
-STUDIES := chain chain_block chain_bending kernels table1_host $(PAPER_STUDIES) work_precision \
-  advise stability model_ladder statics balance cluster
+STUDIES := chain chain_block chain_bending kernels $(PAPER_STUDIES) work_precision \
+  advise stability model_ladder statics balance cluster mixed_nodes
 # Five minutes of measuring: the paper's tables and the chain alone.
 ifeq (quick,$(SCALE))
 UNTIMED_STUDIES :=

@@ -68,10 +68,11 @@ Usage UsageMeter::read() const {
           now.involuntary_switches - start_.involuntary_switches};
 }
 
-bool is_contaminated(const Usage& usage, double wall_s, int workers) {
+bool is_contaminated(const Usage& usage, double wall_s, int workers, bool waits) {
   const double available_s = wall_s * workers;
   if (available_s <= 0) return false;
-  const bool is_starved = workers == 1 && wall_s >= 0.02 && usage.cpu_s / available_s < 0.97;
+  const bool is_starved =
+      !waits && workers == 1 && wall_s >= 0.02 && usage.cpu_s / available_s < 0.97;
   const double wait_s = std::isnan(usage.wait_s) ? 0 : usage.wait_s;
   return is_starved || wait_s + usage.steal_s > 0.01 * available_s;
 }

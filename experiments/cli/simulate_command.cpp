@@ -17,46 +17,121 @@ namespace {
 
 struct SimulateArguments {
   std::string scene, platform = "ten_gigabit", halo = "auto", decomposition = "strips",
-                     precision = "f64", json;
+                     precision = "f64", shares = "equal", json;
   std::string integrator;
   std::vector<std::string> set;
   int ranks = 0, steps = 20;
-  double node_speed = 0; ///< element-steps/s; 0: measured here
+  std::vector<double> node_speeds; ///< element-steps/s of all or of each; empty: measured here
 };
+
+/// Speeds of the nodes: one of all, or one of each.
+std::vector<NodeSpeed> given_speeds(const SimulateArguments& arguments, const Method& method) {
+  std::vector<NodeSpeed> speeds;
+  for (const double speed : arguments.node_speeds)
+    speeds.push_back(given_speed("given", speed, method));
+  if (speeds.size() > 1 && speeds.size() != std::size_t(arguments.ranks))
+    throw InputError(fmt::format("--node-speed: {} speeds of {} nodes; give one, or one for each",
+                                 speeds.size(), arguments.ranks));
+  return speeds;
+}
+
+/// Parts in proportion to the speeds of their nodes, or equal.
+Weights weights_of(const SimulateArguments& arguments) {
+  if (arguments.shares != "equal" && arguments.shares != "measured")
+    throw InputError(fmt::format("--shares {}: unknown; {}", arguments.shares,
+                                 nearest_name(arguments.shares, names_of("SHARES"))));
+  if (arguments.shares == "equal" || arguments.node_speeds.size() < 2) return {};
+  return {arguments.node_speeds, {}};
+}
+
+void require_strategy(const std::string& halo) {
+  if (halo != "auto" && find_halo_strategy(halo) == nullptr)
+    throw InputError(
+        fmt::format("--halo {}: unknown strategy; {}", halo, nearest_name(halo, names_of("HALO"))));
+  if (halo == "shared")
+    throw InputError("--halo shared: every simulated rank is a node of its own; give deep");
+}
+
+/// A simulated scene, and the speeds of its nodes.
+struct Simulated {
+  std::vector<NodeSpeed> speeds; ///< of each node, or one of all
+  std::string decomposition;
+  /// A step [s] if nobody waits and nothing is exchanged, at the speeds that nodes have with the
+  /// whole problem.
+  double ideal_s = 0;
+  SimulatedRun run;
+};
+
+Simulated simulated(const SimulateArguments& arguments, const SimulatedProblem& what) {
+  const Platform platform(arguments.platform);
+  Simulated result;
+  result.speeds = given_speeds(arguments, what.method);
+  const Decomposition decomposition =
+      decompose(what.problem, arguments.decomposition, arguments.ranks, weights_of(arguments));
+  result.decomposition = decomposition.method;
+  std::vector<NodeSpeed> alone = result.speeds;
+  if (result.speeds.empty()) {
+    result.speeds.push_back(own_speed(what, decomposition));
+    alone.push_back(arguments.ranks == 1 ? result.speeds.front()
+                                         : own_speed(what, decompose(what.problem, "strips", 1)));
+  }
+  if (alone.size() == 1) alone.resize(std::size_t(arguments.ranks), alone.front());
+  result.ideal_s = ideal_step_s(what, alone);
+  result.run =
+      simulate(make_plan(what, decomposition, result.speeds, arguments.halo, arguments.steps),
+               platform.path());
+  return result;
+}
+
+void print_simulated(const SimulateArguments& arguments, const SimulatedProblem& what,
+                     const Simulated& simulated) {
+  const SimulatedRun& run = simulated.run;
+  const NodeSpeed& speed = simulated.speeds.front();
+  const double elements = double(what.problem.lattice.element_count);
+  fmt::print("{} on {} simulated nodes of {} ({:.3g} us, {:.4g} MB/s), {}, halo {}\n",
+             what.problem.name, arguments.ranks, arguments.platform, 1e6 * run.latency_s,
+             1e-6 / run.seconds_a_byte, simulated.decomposition, run.halo);
+  if (simulated.speeds.size() > 1)
+    fmt::print("nodes: {:.4g} million element-steps/s together, parts {}\n",
+               1e-6 * elements / simulated.ideal_s,
+               arguments.shares == "equal" ? "equal" : "in proportion to their speeds");
+  else
+    fmt::print("node: {:.4g} million element-steps/s at once, {:.4g} stage by stage ({})\n",
+               1e-6 * speed.at_once / what.method.stages,
+               1e-6 * speed.stage_by_stage / what.method.stages, speed.name);
+  fmt::print("simulated: {:.6g} us a step, {:.4g} million element-steps/s, efficiency {:.3f}; "
+             "{:.4g} us in exchanges\n",
+             1e6 * run.step_s, 1e-6 * elements / run.step_s, simulated.ideal_s / run.step_s,
+             1e6 * run.communication_s_per_step);
+  fmt::print("{:.4g} messages and {:.4g} bytes a step\n", run.messages_per_step,
+             run.bytes_per_step);
+}
 
 int simulate_scene(const SimulateArguments& arguments) {
   const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
   const Precision precision = require_precision_name(arguments.precision);
   const Method& method = require_method(arguments.integrator.empty() ? scene.problem.integrator
                                                                      : arguments.integrator);
-  if (arguments.halo != "auto" && find_halo_strategy(arguments.halo) == nullptr)
-    throw InputError(fmt::format("--halo {}: unknown strategy; {}", arguments.halo,
-                                 nearest_name(arguments.halo, names_of("HALO"))));
-  if (arguments.halo == "shared")
-    throw InputError("--halo shared: every simulated rank is a node of its own; give deep");
-  const Platform platform(arguments.platform);
+  require_strategy(arguments.halo);
   const SimulatedProblem what{scene.problem, method, find_model(scene.model).value(), precision};
-  const Decomposition decomposition =
-      decompose(scene.problem, arguments.decomposition, arguments.ranks);
-  const NodeSpeed speed = arguments.node_speed > 0
-                              ? given_speed("given", arguments.node_speed, method)
-                              : own_speed(what, decomposition);
-  const NodeSpeed alone = // one node with the whole problem, the base of efficiencies
-      arguments.node_speed > 0 || arguments.ranks == 1
-          ? speed
-          : own_speed(what, decompose(scene.problem, "strips", 1));
-  const SimulatedRun run = simulate(
-      make_plan(what, decomposition, speed, arguments.halo, arguments.steps), platform.path());
-  const double elements = double(scene.problem.lattice.element_count);
+  const Simulated result = simulated(arguments, what);
+  const SimulatedRun& run = result.run;
+  std::vector<double> at_once, stage_by_stage;
+  for (const NodeSpeed& speed : result.speeds) {
+    at_once.push_back(speed.at_once);
+    stage_by_stage.push_back(speed.stage_by_stage);
+  }
   if (!arguments.json.empty())
     write_json(arguments.json, {{"context", measurement_context()},
                                 {"scene", scene.name},
                                 {"platform", arguments.platform},
                                 {"ranks", arguments.ranks},
-                                {"decomposition", decomposition.method},
+                                {"decomposition", result.decomposition},
+                                {"shares", arguments.shares},
                                 {"halo", run.halo},
-                                {"node_at_once_element_stages_per_s", speed.at_once},
-                                {"node_stage_by_stage_element_stages_per_s", speed.stage_by_stage},
+                                {"node_at_once_element_stages_per_s", at_once},
+                                {"node_stage_by_stage_element_stages_per_s", stage_by_stage},
+                                {"ideal_step_s", result.ideal_s},
                                 {"simulated_step_s", run.step_s},
                                 {"communication_s_per_step", run.communication_s_per_step},
                                 {"messages_per_step", run.messages_per_step},
@@ -65,20 +140,7 @@ int simulate_scene(const SimulateArguments& arguments) {
                                 {"seconds_a_byte", run.seconds_a_byte},
                                 {"predicted_step_s", run.predicted_step_s},
                                 {"tried_step_s", run.tried_step_s}});
-  if (arguments.json == "-") return exit_success;
-  fmt::print("{} on {} simulated nodes of {} ({:.3g} us, {:.4g} MB/s), {}, halo {}\n", scene.name,
-             arguments.ranks, arguments.platform, 1e6 * run.latency_s, 1e-6 / run.seconds_a_byte,
-             decomposition.method, run.halo);
-  fmt::print("node: {:.4g} million element-steps/s at once, {:.4g} stage by stage ({})\n",
-             1e-6 * speed.at_once / method.stages, 1e-6 * speed.stage_by_stage / method.stages,
-             speed.name);
-  fmt::print("simulated: {:.6g} us a step, {:.4g} million element-steps/s, efficiency {:.3f}; "
-             "{:.4g} us in exchanges\n",
-             1e6 * run.step_s, 1e-6 * elements / run.step_s,
-             elements * method.stages / alone.at_once / run.step_s / arguments.ranks,
-             1e6 * run.communication_s_per_step);
-  fmt::print("{:.4g} messages and {:.4g} bytes a step\n", run.messages_per_step,
-             run.bytes_per_step);
+  if (arguments.json != "-") print_simulated(arguments, what, result);
   return exit_success;
 }
 
@@ -112,10 +174,17 @@ void add_simulate_command(CLI::App& app, Chosen& chosen) {
       ->capture_default_str()
       ->type_name("DECOMPOSITION");
   command
-      ->add_option(
-          "--node-speed", arguments->node_speed,
-          "Speed of a node in element-steps/s (default: measured on one core of this machine)")
+      ->add_option("--node-speed", arguments->node_speeds,
+                   "Speed of a node in element-steps/s, or one for each: S1,S2,... (default: "
+                   "measured on one "
+                   "core of this machine)")
+      ->delimiter(',')
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--shares", arguments->shares,
+                   "Sizes of the parts: equal, or measured (by the speeds of their nodes)")
+      ->capture_default_str()
+      ->type_name("SHARES");
   command->add_option("--precision", arguments->precision, "f64 or f32")
       ->capture_default_str()
       ->type_name("PRECISION");

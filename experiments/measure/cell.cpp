@@ -38,17 +38,15 @@ std::string Cell::label() const {
   const std::string team = fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
   const std::string twin = is_twin ? " (A/A)" : "";
   const std::string on_device = device.empty() ? "" : " on " + device;
-  const std::string on_ranks =
-      ranks == 1 ? ""
-                 : fmt::format(", {} ranks, halo {}{}", ranks, halo,
-                               decomposition == "strips" ? "" : ", " + decomposition);
+  const std::string exchange =
+      fmt::format(", halo {}{}", halo, decomposition == "strips" ? "" : ", " + decomposition);
+  const std::string on_ranks = ranks == 1 ? "" : fmt::format(", {} ranks{}", ranks, exchange);
   if (!hybrid.empty() && hybrid != "auto")
     return fmt::format("hybrid {}{}{}", hybrid, on_ranks, twin);
   if (!hybrid.empty())
     return fmt::format("hybrid auto, {}{}{}", team, device.empty() ? "" : ", with " + device, twin);
   if (ranks == 1) return fmt::format("{}{}, {}{}", variant, on_device, team, twin);
-  return fmt::format("{}, {} ranks x {}{}{}", variant, ranks, team,
-                     on_ranks.substr(on_ranks.find(", halo")), twin);
+  return fmt::format("{}, {} ranks x {}{}{}", variant, ranks, team, exchange, twin);
 }
 
 } // namespace dss

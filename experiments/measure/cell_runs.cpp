@@ -164,10 +164,12 @@ private:
     for (std::size_t place = 0; place < order.size(); ++place) {
       CellState& state = *order[place];
       if (repetition >= study_.scale.min_repetitions &&
-          elapsed_s() + state.process_s > study_.scale.budget_s)
+          elapsed_s() + state.process_s > study_.scale.budget_s) {
+        repeat_disturbed(disturbed, repetition);
         return false;
+      }
       patience_.wait();
-      if (is_disturbed(state, repetition, 0)) disturbed.push_back(&state);
+      if (run_is_disturbed(state, repetition, 0)) disturbed.push_back(&state);
       show_progress(repetition, double(place + 1) / double(order.size()), state);
     }
     repeat_disturbed(disturbed, repetition);
@@ -181,13 +183,13 @@ private:
         if (!patience_.allows(state->process_s)) return true;
         patience_.wait();
         patience_.spend(state->process_s);
-        return !is_disturbed(*state, repetition, attempt);
+        return !run_is_disturbed(*state, repetition, attempt);
       });
   }
 
   /// Runs a repetition and records it. True if it was contaminated. (Workers that share cores
   /// always wait, so such cells do not count.)
-  bool is_disturbed(CellState& state, long repetition, long attempt) {
+  bool run_is_disturbed(CellState& state, long repetition, long attempt) {
     const Record row = measured(state, repetition, attempt);
     record(state, row);
     return text_in(row, "contaminated") == "true" && text_in(row, "status") == "ok" &&

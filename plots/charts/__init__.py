@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Callable
 
 from . import (advice, balance, cells, chain, cluster, continuum, error_budget, failures, kernels,
-               ladder, paper, stability, statics, work_precision)
+               ladder, mixed_nodes, paper, stability, statics, work_precision)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -58,6 +58,8 @@ CHARTS = [Entry(*words) for words in (
     ("cluster", "A simulated cluster", "cluster_simulated", cluster.cluster, "cluster_simulated"),
     ("cluster-nodes", "A simulated cluster, by its nodes", "cluster_simulated", cluster.by_nodes,
      "cluster_simulated_nodes"),
+    ("mixed-nodes", "Clusters of fast and slow nodes", "mixed_nodes", mixed_nodes.mixed_nodes,
+     "mixed_nodes"),
     ("balance", "Balance of two executors", "balance", balance.balance, "balance"),
     ("stability", "Stability map", "stability", stability.stability, "stability_map"),
     ("energy", "Stable is not accurate", "stability_energy", stability.energy, "stability_energy"),
@@ -72,6 +74,7 @@ CHARTS = [Entry(*words) for words in (
 )]
 # Tables that are drawn in a chart of another table, or have no chart.
 BESIDE = ["stability_map", "ceilings", "table1_simulated", "table2_simulated",
+          "mixed_nodes_held",
           "work_precision_cheapest", "work_precision_comparisons"]
 # The charts of any other table, which is a study of cells that a user wrote.
 CELLS = {"": cells.speedups, "_scaling": cells.scaling, "_figure9": cells.figure9}

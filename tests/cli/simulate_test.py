@@ -45,6 +45,57 @@ class Simulation(ProgramTest):
         self.assertEqual(deep["bytes_per_step"], sendrecv["bytes_per_step"])
         self.assertLess(deep["communication_s_per_step"], sendrecv["communication_s_per_step"])
 
+    def test_unlike_nodes_wait_for_the_slowest_unless_parts_follow_their_speeds(self):
+        line = ["--set", "n=120", "--ranks", 3, "--platform", "fdr", "--node-speed",
+                "2e6,2e6,5e5"]
+        equal, by_speed = simulate(*line), simulate(*line, "--shares", "measured")
+        self.assertAlmostEqual(equal["ideal_step_s"], 14400 / 4.5e6, delta=1e-12)
+        self.assertAlmostEqual(equal["simulated_step_s"], 4800 / 5e5, delta=0.02 * 4800 / 5e5)
+        self.assertLess(by_speed["simulated_step_s"], 1.05 * by_speed["ideal_step_s"])
+        self.assert_refused(2, ["--node-speed", "2 speeds of 3 nodes"], "simulate", "plate_paper",
+                            "--ranks", 3, "--node-speed", "1e6,2e6")
+        self.assert_refused(2, ["--shares", "equal, measured"], "simulate", "plate_paper",
+                            "--ranks", 3, "--node-speed", "1e6", "--shares", "fair")
+
+    def mixed(self, **changes):
+        study = {
+            "scene": "plate_paper", "steps": 100,
+            "nodes": {"fast": {"wall_s": 1, "elements": 1e6, "steps": 4},
+                      "slow": {"wall_s": 1, "elements": 1e6, "steps": 1}},
+            "cases": [{"label": "both", "set": {"n": 40}, "platforms": ["fdr"],
+                       "mixes": [{"fast": 2, "slow": 1}]}],
+            "held": {"set": {"n": 12}, "pairs": 2}, **changes
+        }
+        return self.write("tiny.json", json.dumps({
+            "experiment": "tiny", "title": "t", "mixed_nodes": study, "scales": {"host": {}}}))
+
+    def test_a_study_of_mixed_nodes_says_what_slow_nodes_bring(self):
+        result = dssbench("experiment", self.mixed(), "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
+        with open(self.path("out/tables/tiny.csv"), encoding="utf-8") as file:
+            equal, by_speed = csv.DictReader(file)
+        self.assertEqual((equal["shares"], by_speed["shares"], by_speed["nodes"]),
+                         ("equal", "by speed", "2 fast + 1 slow"))
+        self.assertAlmostEqual(float(by_speed["ideal_wall_s"]), 100 * 1600 / 9e6, delta=1e-9)
+        self.assertLess(float(equal["over_fastest_alone"]), 0.5)
+        self.assertGreater(float(by_speed["over_fastest_alone"]), 1)
+        self.assertGreater(float(by_speed["efficiency"]), 0.95)
+        with open(self.path("out/tables/tiny_held.csv"), encoding="utf-8") as file:
+            [held] = csv.DictReader(file)
+        # two pairs have no interval, and say nothing of this machine
+        self.assertEqual((held["status"], held.get("simulated_over_run_low", "")), ("ok", ""))
+        self.assertGreater(float(held["simulated_over_run"]), 0)
+
+    def test_a_wrong_study_of_mixed_nodes_is_refused(self):
+        case = {"label": "both", "set": {"n": 40}, "platforms": ["fdr"], "mixes": [{"fast": 1}]}
+        for change, words in [({"cases": [{**case, "mixes": [{"quick": 1}]}]}, ["quick", "kind"]),
+                              ({"cases": [{**case, "mixes": [{"fast": 0}]}]}, ["out of range"]),
+                              ({"cases": [{**case, "platforms": ["ether"]}]}, ["ether"]),
+                              ({"nodes": {}}, ["/mixed_nodes/nodes"]),
+                              ({"held": {"pairs": 0}}, ["/mixed_nodes/held/pairs"])]:
+            self.assert_refused(2, words, "experiment", self.mixed(**change), "--out",
+                                self.path("out"))
+
     def test_auto_takes_the_fastest_trial_and_is_near_the_best(self):
         for platform in ["gigabit", "fdr"]:
             line = ["--set", "n=120", "--ranks", 6, "--platform", platform, "--node-speed", "3e7"]

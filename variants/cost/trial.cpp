@@ -54,34 +54,20 @@ private:
   long steps_ = 1;
 };
 
-/// Times the schedules of a large part one after the other: both executors at once would need
-/// several times the memory of the run.
-NodeSpeed measure_large(const Setup& setup, const Plugin& plugin,
-                        const Decomposition& decomposition, int part, int rounds) {
-  NodeSpeed best;
-  const auto time = [&](const char* strategy, double& speed) {
-    Trial trial(setup, plugin, decomposition, part, *find_halo_strategy(strategy));
-    for (int round = 0; round < rounds / 2; ++round) speed = std::max(speed, trial.speed());
-  };
-  time("deep", best.at_once);
-  time("sendrecv", best.stage_by_stage);
-  return best;
-}
-
 } // namespace
 
 NodeSpeed measure_speed(const Setup& setup, const Plugin& plugin,
                         const Decomposition& decomposition, int part, int rounds) {
-  if (setup.problem.lattice.element_count / std::size_t(decomposition.parts) > large_part_elements)
-    return measure_large(setup, plugin, decomposition, part, rounds);
-  Trial at_once(setup, plugin, decomposition, part, *find_halo_strategy("deep"));
-  Trial stage_by_stage(setup, plugin, decomposition, part, *find_halo_strategy("sendrecv"));
-  NodeSpeed best;
-  for (int round = 0; round < rounds; ++round) {
-    best.at_once = std::max(best.at_once, at_once.speed());
-    best.stage_by_stage = std::max(best.stage_by_stage, stage_by_stage.speed());
-  }
-  return best;
+  const std::size_t elements = setup.problem.lattice.element_count;
+  if (elements / std::size_t(decomposition.parts) > large_part_elements) rounds /= 2;
+  // One after the other: two executors in turn would drive each other's state out of the caches.
+  const auto best_speed = [&](const char* strategy) {
+    Trial trial(setup, plugin, decomposition, part, *find_halo_strategy(strategy));
+    double best = 0;
+    for (int round = 0; round < rounds; ++round) best = std::max(best, trial.speed());
+    return best;
+  };
+  return {"", best_speed("deep"), best_speed("sendrecv")};
 }
 
 double measure_speed_at_once(const Setup& setup, const Plugin& plugin,

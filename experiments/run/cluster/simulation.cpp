@@ -22,7 +22,7 @@ constexpr std::size_t most_trial_elements = 1'000'000;
 constexpr double time_limit_s = 1800;
 /// Number of timings of a part; the best one counts, because noise in it would look like network
 /// time. Parts above large_elements get fewer timings, because each takes much longer.
-/// (measure_speed halves the number if both schedules together would need too much memory.)
+/// (measure_speed halves the number for parts above large_part_elements.)
 constexpr int calibrations = 48, calibrations_of_large = 16;
 constexpr std::size_t large_elements = 100'000;
 
@@ -74,6 +74,17 @@ std::pair<int, std::size_t> largest_part(const Problem& problem,
 
 } // namespace
 
+SimulatedProblem simulated_problem(const Scene& scene) {
+  return {scene.problem, *find_method(scene.problem.integrator), find_model(scene.model).value()};
+}
+
+std::vector<std::string> simulated_halos() {
+  std::vector<std::string> names{"auto"};
+  for (const HaloStrategy& strategy : halo_strategies())
+    if (strategy.transport != HaloStrategy::Transport::shared) names.emplace_back(strategy.name);
+  return names;
+}
+
 std::string why_no_simulation() {
   if (std::string_view(DSS_SMPIMAIN).empty()) return "built without SimGrid (libsimgrid-dev)";
   return ::access(DSS_SMPIMAIN, X_OK) == 0 ? "" : fmt::format("{} is not there", DSS_SMPIMAIN);
@@ -95,7 +106,11 @@ NodeSpeed own_speed(const SimulatedProblem& what, const Decomposition& decomposi
 }
 
 SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition,
-                         const NodeSpeed& speed, const std::string& halo, int steps, int threads) {
+                         std::span<const NodeSpeed> speeds, const std::string& halo, int steps,
+                         int threads) {
+  const auto speed_of = [&](std::size_t part) -> const NodeSpeed& {
+    return speeds[speeds.size() == 1 ? 0 : part];
+  };
   SimulationPlan plan{steps, halo, {}};
   for (const bool is_every_stage : {true, false}) {
     std::vector<PartSize> sizes;
@@ -108,15 +123,21 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
         continue;
       PlannedStrategy planned{
           std::string(strategy.name), strategy.exchanges(what.method.stages), {}};
-      for (const PartSize& size : sizes)
-        planned.parts.push_back(plan_part(
-            size,
-            part_times(size, strategy, what.method.stages, what.problem.lattice.row_reach(), speed),
-            what.precision));
+      for (std::size_t p = 0; p < sizes.size(); ++p)
+        planned.parts.push_back(plan_part(sizes[p],
+                                          part_times(sizes[p], strategy, what.method.stages,
+                                                     what.problem.lattice.row_reach(), speed_of(p)),
+                                          what.precision));
       plan.strategies.push_back(std::move(planned));
     }
   }
   return plan;
+}
+
+double ideal_step_s(const SimulatedProblem& what, std::span<const NodeSpeed> speeds) {
+  double together = 0;
+  for (const NodeSpeed& speed : speeds) together += speed.at_once;
+  return double(what.problem.lattice.element_count) * what.method.stages / together;
 }
 
 SimulatedRun simulate(const SimulationPlan& plan, const std::string& platform) {

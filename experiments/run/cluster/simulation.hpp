@@ -4,10 +4,12 @@
 #include "kernels/model.hpp"
 #include "solver/decomposition/part.hpp"
 #include "solver/numerics/method.hpp"
+#include "solver/scene/scene.hpp"
 #include "variants/mpi/simulated/plan.hpp"
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 namespace dss {
@@ -19,6 +21,11 @@ struct SimulatedProblem {
   Model model = Model::spatial;
   Precision precision = Precision::f64;
 };
+
+/// The computation of a scene: its own method and model, in double precision.
+SimulatedProblem simulated_problem(const Scene& scene);
+/// Names of the strategies that a simulation has: those that messages alone carry out, and auto.
+std::vector<std::string> simulated_halos();
 
 /// The simulated network, and the time of a step on it.
 struct SimulatedRun {
@@ -42,11 +49,16 @@ NodeSpeed given_speed(const std::string& name, double element_steps_per_s, const
 
 /// Plans what each strategy computes and exchanges. Strategies through shared memory are left out,
 /// because every rank is a node of its own.
+/// @param speeds  of each part's node, or one of all
 /// @param halo  strategy to run, or "auto"
 /// @param threads  threads of each node: some strategies are not possible with several
 SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& decomposition,
-                         const NodeSpeed& speed, const std::string& halo, int steps,
+                         std::span<const NodeSpeed> speeds, const std::string& halo, int steps,
                          int threads = 1);
+
+/// Time of a step [s] if nobody waits and nothing is exchanged.
+/// @param speeds  of all nodes
+double ideal_step_s(const SimulatedProblem& what, std::span<const NodeSpeed> speeds);
 
 /// Name of the platform that describes this machine, with message costs measured by ping-pong
 /// between two ranks.

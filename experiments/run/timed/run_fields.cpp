@@ -109,7 +109,7 @@ Json members_with_shares(R r) {
 bool is_run_contaminated(R r) {
   const std::string& kind = r.device_use.device.kind;
   const bool is_elsewhere = !kind.empty() && kind != "cpu";
-  return !is_elsewhere && is_contaminated(r.usage, r.sample_s(), r.workers);
+  return !is_elsewhere && is_contaminated(r.usage, r.sample_s(), r.workers, !kind.empty());
 }
 
 Json of_balance(R r, double EnergyShares::*share) {

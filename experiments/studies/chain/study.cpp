@@ -42,62 +42,82 @@ const std::vector<std::string>& raw_chain_columns() {
   return columns;
 }
 
+/// A repetition that other work disturbed is timed again, at most so often.
+constexpr int most_attempts = 4;
+
+/// One timed stage of the chain.
+struct TimedStage {
+  ChainStage stage;
+  std::unique_ptr<StageRun> run;
+  double difference = 0; ///< of its state to that of the plain code
+  long steps = 1;        ///< so many take the study's sample_s
+};
+
+TimedStage timed_stage(const ChainStudy& study, const Scene& scene, const ChainStage& stage) {
+  TimedStage timed{stage, std::make_unique<StageRun>(study, scene, stage),
+                   state_difference(study, scene, stage)};
+  StageRun& run = *timed.run;
+  for (run.advance(timed.steps); run.wall_s() < study.sample_s; run.advance(timed.steps)) {
+    const double growth = std::min(8.0, 1.2 * study.sample_s / run.wall_s());
+    timed.steps = std::max(timed.steps + 1, long(double(timed.steps) * growth));
+  }
+  return timed;
+}
+
+/// Record of the run that was just timed.
+Record stage_record(const ChainStudy& study, const TimedStage& timed, std::size_t n,
+                    int repetition) {
+  const ChainStage& stage = timed.stage;
+  const double wall_s = timed.run->wall_s();
+  const double tolerance =
+      stage.precision == Precision::f64 ? state_tolerance : single_state_tolerance;
+  const bool is_right = timed.difference <= tolerance;
+  const Usage usage = timed.run->usage();
+  return {{"experiment", study.name},
+          {"cell", chain_cell(n, stage)},
+          {"stage", fmt::format("{}", n)},
+          {"label", stage.label},
+          {"variant", stage.variant},
+          {"threads", fmt::format("{}", stage.threads)},
+          {"cores", fmt::format("{}", usable_cores())},
+          {"model", std::string(name(stage.model))},
+          {"precision", std::string(name(stage.precision))},
+          {"integrator", stage.integrator},
+          {"dt_s", number_text(timed.run->dt())},
+          {"repetition", fmt::format("{}", repetition)},
+          {"steps", fmt::format("{}", timed.steps)},
+          {"wall_s", number_text(wall_s)},
+          {"cpu_s", number_text(usage.cpu_s)},
+          {"sample_s", number_text(wall_s)},
+          {"contaminated", is_contaminated(usage, wall_s, stage.threads) ? "true" : "false"},
+          {"check", is_right ? "passed" : "failed"},
+          {"check_error", number_text(timed.difference)},
+          {"check_tolerance", number_text(tolerance)},
+          {"status", is_right ? "ok" : "wrong"},
+          {"reason", is_right ? "" : "its state is not that of the plain code"},
+          {"time_utc", measurement_time()}};
+}
+
 /// Times all stages in turn, for the study's number of repetitions.
 void time_stages(const ChainStudy& study, const Scene& scene, RecordFile& records,
                  Progress& progress) {
   std::set<std::pair<std::string, std::string>> present;
   for (const Record& record : records.present())
     present.emplace(text_in(record, "cell"), text_in(record, "repetition"));
-  std::vector<std::unique_ptr<StageRun>> runs;
-  std::vector<long> steps;
-  std::vector<double> differences;
-  const std::vector<ChainStage> stages = study.timed();
-  for (const ChainStage& stage : stages) {
-    differences.push_back(state_difference(study, scene, stage));
-    runs.push_back(std::make_unique<StageRun>(study, scene, stage));
-    long count = 1;
-    for (runs.back()->advance(count); runs.back()->wall_s() < study.sample_s;
-         runs.back()->advance(count))
-      count = std::max(count + 1, long(double(count) * std::min(8.0, 1.2 * study.sample_s /
-                                                                         runs.back()->wall_s())));
-    steps.push_back(count);
-  }
+  std::vector<TimedStage> stages;
+  for (const ChainStage& stage : study.timed()) stages.push_back(timed_stage(study, scene, stage));
   double done = 0;
   for (int repetition = 0; repetition < study.repetitions; ++repetition)
-    for (std::size_t n = 0; n < runs.size(); ++n) {
-      const ChainStage& stage = stages[n];
-      progress.show(done++, double(study.repetitions) * double(runs.size()), stage.label);
-      if (present.contains({chain_cell(n, stage), fmt::format("{}", repetition)})) continue;
-      runs[n]->advance(steps[n]);
-      const Usage usage = runs[n]->usage();
-      const double wall_s = runs[n]->wall_s(), tolerance = stage.precision == Precision::f64
-                                                               ? state_tolerance
-                                                               : single_state_tolerance;
-      const bool is_right = differences[n] <= tolerance;
-      records.append(
-          {{"experiment", study.name},
-           {"cell", chain_cell(n, stage)},
-           {"stage", fmt::format("{}", n)},
-           {"label", stage.label},
-           {"variant", stage.variant},
-           {"threads", fmt::format("{}", stage.threads)},
-           {"cores", fmt::format("{}", usable_cores())},
-           {"model", std::string(name(stage.model))},
-           {"precision", std::string(name(stage.precision))},
-           {"integrator", stage.integrator},
-           {"dt_s", number_text(runs[n]->dt())},
-           {"repetition", fmt::format("{}", repetition)},
-           {"steps", fmt::format("{}", steps[n])},
-           {"wall_s", number_text(wall_s)},
-           {"cpu_s", number_text(usage.cpu_s)},
-           {"sample_s", number_text(wall_s)},
-           {"contaminated", is_contaminated(usage, wall_s, stage.threads) ? "true" : "false"},
-           {"check", is_right ? "passed" : "failed"},
-           {"check_error", number_text(differences[n])},
-           {"check_tolerance", number_text(tolerance)},
-           {"status", is_right ? "ok" : "wrong"},
-           {"reason", is_right ? "" : "its state is not that of the plain code"},
-           {"time_utc", measurement_time()}});
+    for (std::size_t n = 0; n < stages.size(); ++n) {
+      const TimedStage& timed = stages[n];
+      progress.show(done++, double(study.repetitions) * double(stages.size()), timed.stage.label);
+      if (present.contains({chain_cell(n, timed.stage), fmt::format("{}", repetition)})) continue;
+      for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        timed.run->advance(timed.steps);
+        const Record record = stage_record(study, timed, n, repetition);
+        records.append(record);
+        if (text_in(record, "contaminated") != "true") break;
+      }
     }
 }
 

@@ -38,14 +38,6 @@ void read_problems(ObjectNode& object, SimulationBlock& block) {
     block.ranks.push_back(int(item.whole(1, most_ranks)));
 }
 
-/// Strategies that messages alone carry out.
-std::vector<std::string> simulated_halos() {
-  std::vector<std::string> names{"auto"};
-  for (const HaloStrategy& strategy : halo_strategies())
-    if (strategy.transport != HaloStrategy::Transport::shared) names.emplace_back(strategy.name);
-  return names;
-}
-
 void read_choices(ObjectNode& object, SimulationBlock& block) {
   const Node platforms = object.require("platforms");
   block.platforms = platforms.names();

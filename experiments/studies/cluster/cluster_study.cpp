@@ -82,7 +82,8 @@ public:
         own_(ranks == 1 ? base_ : of_node(own_speed(what(), decomposition_), block.node_cores)) {}
 
   static NodeSpeed speed_of_one(const Scene& scene, int node_cores) {
-    return of_node(own_speed(what(scene), decompose(scene.problem, "strips", 1)), node_cores);
+    return of_node(own_speed(simulated_problem(scene), decompose(scene.problem, "strips", 1)),
+                   node_cores);
   }
 
   /// Rows of all strategies, network by network. Nothing is timed here, because the speeds of this
@@ -116,17 +117,14 @@ private:
     return core;
   }
 
-  static SimulatedProblem what(const Scene& scene) {
-    return {scene.problem, require_method(scene.problem.integrator),
-            find_model(scene.model).value(), Precision::f64};
-  }
-  SimulatedProblem what() const { return what(scene_); }
+  SimulatedProblem what() const { return simulated_problem(scene_); }
   double elements() const { return double(scene_.problem.lattice.element_count); }
 
   /// One plan serves all networks and strategies; only the name of the strategy changes.
   Plans make_plans() const {
     const auto plan = [&](const NodeSpeed& speed) {
-      return make_plan(what(), decomposition_, speed, "auto", simulated_steps, block_.node_cores);
+      return make_plan(what(), decomposition_, {&speed, 1}, "auto", simulated_steps,
+                       block_.node_cores);
     };
     Plans plans{{}, plan(own_)};
     if (block_.published) plans.paper = plan(*published_speed());
