@@ -144,6 +144,22 @@ int simulate_scene(const SimulateArguments& arguments) {
   return exit_success;
 }
 
+/// Options of the speeds of nodes.
+void add_node_options(CLI::App& command, SimulateArguments& arguments) {
+  command
+      .add_option("--node-speed", arguments.node_speeds,
+                  "Speed of a node in element-steps/s, or one for each: S1,S2,... (default: "
+                  "measured on one "
+                  "core of this machine)")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--shares", arguments.shares,
+                  "Sizes of the parts: equal, or measured (by the speeds of their nodes)")
+      ->capture_default_str()
+      ->type_name("SHARES");
+}
+
 } // namespace
 
 void add_simulate_command(CLI::App& app, Chosen& chosen) {
@@ -173,18 +189,7 @@ void add_simulate_command(CLI::App& app, Chosen& chosen) {
                    fmt::format("{}", fmt::join(names_of("DECOMPOSITION"), ", ")))
       ->capture_default_str()
       ->type_name("DECOMPOSITION");
-  command
-      ->add_option("--node-speed", arguments->node_speeds,
-                   "Speed of a node in element-steps/s, or one for each: S1,S2,... (default: "
-                   "measured on one "
-                   "core of this machine)")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--shares", arguments->shares,
-                   "Sizes of the parts: equal, or measured (by the speeds of their nodes)")
-      ->capture_default_str()
-      ->type_name("SHARES");
+  add_node_options(*command, *arguments);
   command->add_option("--precision", arguments->precision, "f64 or f32")
       ->capture_default_str()
       ->type_name("PRECISION");
