@@ -76,6 +76,7 @@ void EnergyBalance::follow_dampers(std::span<const double> half, std::span<const
   const double energy = dynamics_.energy(next);
   if (mean > 0) error_ *= std::exp(-taken / (2 * mean));
   error_ += energy - energy_ - work + taken;
+  error_ = std::min(error_, energy); // no more can be left of it
   dissipated_ += taken;
   dissipated_power_ = power, kinetic_ = kinetic, energy_ = energy;
 }
