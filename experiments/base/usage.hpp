@@ -35,7 +35,7 @@ private:
 /// for: it is also contaminated if its CPU time is below 0.97 wall_s. (Not below 20 ms, because the
 /// clock of getrusage is too coarse.)
 /// @param workers  threads that compute on all ranks, see Executor::workers()
-/// @param waits    a single worker waits for others too: for threads of a device
+/// @param waits    true if a single worker waits too, for a device that has threads of its own
 bool is_contaminated(const Usage& usage, double wall_s, int workers, bool waits = false);
 
 } // namespace dss

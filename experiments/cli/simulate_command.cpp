@@ -40,7 +40,10 @@ Weights weights_of(const SimulateArguments& arguments) {
   if (arguments.shares != "equal" && arguments.shares != "measured")
     throw InputError(fmt::format("--shares {}: unknown; {}", arguments.shares,
                                  nearest_name(arguments.shares, names_of("SHARES"))));
-  if (arguments.shares == "equal" || arguments.node_speeds.size() < 2) return {};
+  if (arguments.shares == "equal") return {};
+  if (arguments.node_speeds.size() < 2)
+    throw InputError("--shares measured: nodes of one speed have equal parts; give --node-speed a "
+                     "speed for each");
   return {arguments.node_speeds, {}};
 }
 
@@ -121,25 +124,30 @@ int simulate_scene(const SimulateArguments& arguments) {
     at_once.push_back(speed.at_once);
     stage_by_stage.push_back(speed.stage_by_stage);
   }
+  const auto of_nodes = [](const std::vector<double>& speeds) {
+    return speeds.size() == 1 ? nlohmann::ordered_json(speeds.front())
+                              : nlohmann::ordered_json(speeds);
+  };
   if (!arguments.json.empty())
-    write_json(arguments.json, {{"context", measurement_context()},
-                                {"scene", scene.name},
-                                {"platform", arguments.platform},
-                                {"ranks", arguments.ranks},
-                                {"decomposition", result.decomposition},
-                                {"shares", arguments.shares},
-                                {"halo", run.halo},
-                                {"node_at_once_element_stages_per_s", at_once},
-                                {"node_stage_by_stage_element_stages_per_s", stage_by_stage},
-                                {"ideal_step_s", result.ideal_s},
-                                {"simulated_step_s", run.step_s},
-                                {"communication_s_per_step", run.communication_s_per_step},
-                                {"messages_per_step", run.messages_per_step},
-                                {"bytes_per_step", run.bytes_per_step},
-                                {"latency_s", run.latency_s},
-                                {"seconds_a_byte", run.seconds_a_byte},
-                                {"predicted_step_s", run.predicted_step_s},
-                                {"tried_step_s", run.tried_step_s}});
+    write_json(arguments.json,
+               {{"context", measurement_context()},
+                {"scene", scene.name},
+                {"platform", arguments.platform},
+                {"ranks", arguments.ranks},
+                {"decomposition", result.decomposition},
+                {"shares", arguments.shares},
+                {"halo", run.halo},
+                {"node_at_once_element_stages_per_s", of_nodes(at_once)},
+                {"node_stage_by_stage_element_stages_per_s", of_nodes(stage_by_stage)},
+                {"ideal_step_s", result.ideal_s},
+                {"simulated_step_s", run.step_s},
+                {"communication_s_per_step", run.communication_s_per_step},
+                {"messages_per_step", run.messages_per_step},
+                {"bytes_per_step", run.bytes_per_step},
+                {"latency_s", run.latency_s},
+                {"seconds_a_byte", run.seconds_a_byte},
+                {"predicted_step_s", run.predicted_step_s},
+                {"tried_step_s", run.tried_step_s}});
   if (arguments.json != "-") print_simulated(arguments, what, result);
   return exit_success;
 }
@@ -152,6 +160,7 @@ void add_node_options(CLI::App& command, SimulateArguments& arguments) {
                   "measured on one "
                   "core of this machine)")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::PositiveNumber);
   command
       .add_option("--shares", arguments.shares,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dss {
 namespace {
@@ -13,6 +14,10 @@ namespace {
 /// end at rest.
 constexpr double least_share = 0.1;
 constexpr double resolved_share = 0.03;
+/// Largest rotation from look to look [rad] for which the work of torques is right.
+constexpr double most_turn = 1.5;
+/// A harmonic signal needs looks at this part of its period.
+constexpr double period_part = 0.25;
 
 using Vector = reference::Vector<double>;
 using Orientation = reference::Orientation<double>;
@@ -44,7 +49,34 @@ std::vector<double> EnergyBalance::signals_at(double time) const {
   return values;
 }
 
-std::vector<double> EnergyBalance::middle(std::span<const double> next, double h) const {
+std::vector<double> EnergyBalance::unseen_signals(double h) const {
+  const auto unseen = [&](const Signal& signal) {
+    if (signal.kind == Signal::Kind::constant) return 0.0;
+    if (signal.kind == Signal::Kind::harmonic && std::abs(signal.frequency) * h > period_part)
+      return 2 * std::abs(signal.amplitude);
+    const double first = signal(time_), middle = signal(time_ + h / 2), last = signal(time_ + h);
+    double largest = 0;
+    const auto compare = [&](double t) {
+      const double x = 2 * (t - time_) / h - 1; // -1 .. 1
+      if (std::abs(x) >= 1) return;
+      const double parabola =
+          middle + x * (last - first) / 2 + x * x * ((first + last) / 2 - middle);
+      largest = std::max(largest, std::abs(signal(t) - parabola));
+    };
+    for (const double part : {0.25, 0.75}) compare(time_ + part * h);
+    if (signal.kind == Signal::Kind::ramp) compare(signal.duration);
+    if (signal.kind == Signal::Kind::table) std::ranges::for_each(signal.times, compare);
+    return largest;
+  };
+  std::vector<double> values;
+  for (const Signal& signal : problem_.frame_acceleration) values.push_back(unseen(signal));
+  for (const Load& load : problem_.loads) values.push_back(unseen(load.signal));
+  return values;
+}
+
+std::vector<double> EnergyBalance::middle(std::span<const double> next, double h) {
+  const bool has_torques =
+      std::ranges::any_of(problem_.loads, [](const Load& load) { return load.torque != Vec3{}; });
   const bool are_vectors = dynamics_.coordinates().has_vectors();
   std::vector<double> middle(state_.size());
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
@@ -54,6 +86,8 @@ std::vector<double> EnergyBalance::middle(std::span<const double> next, double h
     const Vector turned =
         are_vectors ? Vector(r.v - q.v)
                     : reference::vector_of_orientation(reference::product(r, conjugate(q)));
+    if (has_torques && turned.norm() > most_turn)
+      unresolved_ = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
       const auto of_middle = [&](double change, double before, double after) {
         return 1.5 * change / h - (before + after) / 4;
@@ -85,14 +119,11 @@ void EnergyBalance::look(std::span<const double> state, double time) {
   const double h = time - time_;
   if (h <= 0) return;
   const std::vector<double> next = placed(dynamics_, state), half = middle(next, h);
-  const std::vector<double> before = signals_at(time_), after = signals_at(time);
-  std::vector<double> straight = before; // signals half-way if they are straight lines
-  for (std::size_t n = 0; n < straight.size(); ++n) straight[n] = (before[n] + after[n]) / 2;
-  const double supplied = dynamics_.supplied_power(next, after);
+  const double supplied = dynamics_.supplied_power(next, signals_at(time));
   const double of_middle = dynamics_.supplied_power(half, signals_at(time_ + h / 2));
   const double work = simpson(supplied_power_, of_middle, supplied, h);
   work_ += work;
-  unresolved_ += 2 * h / 3 * std::abs(of_middle - dynamics_.supplied_power(half, straight));
+  unresolved_ += h * std::abs(dynamics_.supplied_power(half, unseen_signals(h)));
   if (is_damped_ && follows_dampers_) follow_dampers(half, next, h, work);
   supplied_power_ = supplied;
   state_ = next;

@@ -20,9 +20,10 @@ struct EnergyShares {
   /// growth, over the energy at the end, which counts as at least 0.1 times the largest energy of
   /// the run. What dampers have taken of it since does not count.
   double error = 0;
-  /// The work is known to 3 % of that energy: no signal changes much between two looks.
+  /// The work is known to 3 % of that energy: between two looks, signals change little and torques
+  /// turn elements little.
   bool is_resolved = true;
-  /// The same without what dampers have taken since [J].
+  /// The whole error [J], with what dampers have taken of it since.
   double gained() const { return end - start - work + dissipated; }
 };
 
@@ -30,7 +31,8 @@ struct EnergyShares {
 /// Simpson's rule of the powers, with
 ///     v(t + h/2) = 3/2 (u(t + h) - u(t)) / h - (v(t) + v(t + h)) / 4
 /// so the mean velocity is that of the displacements, and the work of a constant force is exact
-/// over any h. Angular velocities are treated in the same way, with the rotation from look to look.
+/// over any h. Angular velocities are treated in the same way, with the vector of the rotation from
+/// look to look. So the work of a torque is right for rotations up to 1.5 rad from look to look.
 ///
 /// Dampers that take D while the mean kinetic energy is T leave exp(-D / (2 T)) of vibrations,
 /// whose energy is 2 T in the mean, and of an earlier error of the energy. So the error after a
@@ -54,8 +56,11 @@ private:
   /// Adds what dampers took over h [s] up to the state `next`, and the error of the energy.
   void follow_dampers(std::span<const double> half, std::span<const double> next, double h,
                       double work);
-  std::vector<double> middle(std::span<const double> next, double h) const;
+  std::vector<double> middle(std::span<const double> next, double h);
   std::vector<double> signals_at(double time) const;
+  /// Largest difference of each signal over [time_, time_ + h] to the parabola through its values
+  /// at both ends and in the middle.
+  std::vector<double> unseen_signals(double h) const;
 
   const Problem& problem_;
   reference::Dynamics<double> dynamics_;

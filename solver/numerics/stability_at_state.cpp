@@ -132,10 +132,11 @@ double stable_step_at_state(const Problem& problem, Rotation rotation,
                                 [&](const Eigen::VectorXd& x) { return (matrices.*product)(x); });
     };
     const double before = largest(at_rest);
-    return before > 0 ? largest(in_state) / before : 1;
+    return before > 0 ? largest(in_state) / before : 0;
   };
-  return limit_at_rest / std::max(std::sqrt(growth_of(&StateMatrices::stiffness_times)),
-                                  growth_of(&StateMatrices::damping_times));
+  const double growth = std::max(std::sqrt(growth_of(&StateMatrices::stiffness_times)),
+                                 growth_of(&StateMatrices::damping_times));
+  return growth > 0 ? limit_at_rest / growth : limit_at_rest;
 }
 
 } // namespace dss

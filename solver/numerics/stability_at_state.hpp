@@ -8,7 +8,7 @@
 
 namespace dss {
 
-/// Larger problems have no limit in a state: it costs some 100 evaluations.
+/// Larger problems have no limit in a state: it costs some 200 evaluations.
 constexpr std::size_t stability_state_elements = 2'000;
 
 /// Step limit [s] in a state: the limit at rest, divided by the growth of the largest natural

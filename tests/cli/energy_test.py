@@ -102,6 +102,28 @@ class EnergyBalance(ProgramTest):
         self.assertEqual((result.returncode, record["dissipated_j"]), (0, None))
         self.assertLess(record["energy_error"], 0)
 
+    def test_a_wrong_run_on_ranks_is_told_once_with_the_figures_of_the_root(self):
+        if dssbench("run", "two_elements", "--ranks", 2).returncode:
+            self.skipTest("no ranks here")
+        scene = row_of_four([100, 30, 20], integrator="velocity_verlet",
+                            dt=0.85 * self.limit("velocity_verlet"))
+        alone, record = self.run_scene(scene)
+        result, on_ranks = self.run_scene(scene, "--ranks", 2)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(on_ranks["reason"], record["reason"])
+        self.assertEqual(result.stderr.count("the energy of"), 1, result.stderr)
+
+    def test_a_free_body_that_a_torque_spins_up_over_many_steps_is_sound(self):
+        scene = row_of_four([0, 0, 0])
+        scene["clamps"], scene["loads"] = [], [{"select": {"all": True},
+                                                "torque": [0.002, 0, 0]}]
+        result, record = self.run_scene(scene, "--steps", "60000")
+        self.assertEqual((result.returncode, record["status"]), (0, "ok"), result.stderr)
+
+    def test_small_rotations_have_no_balance(self):
+        result, record = self.run_scene(row_of_four([1, 0.3, 0.2]), "--model", "small")
+        self.assertEqual((result.returncode, record["energy_error"]), (0, None), result.stderr)
+
     def test_numbers_beyond_their_range_are_refused(self):
         fast = row_of_four([0, 0, 0])
         fast["clamps"], fast["initial"] = [], [{"velocity": [1e160, 0, 0]}]

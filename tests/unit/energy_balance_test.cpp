@@ -103,6 +103,27 @@ TEST(EnergyBalance, is_unresolved_if_a_signal_changes_between_looks) {
   EXPECT_TRUE(balance_of(block, 1000, 1, false).is_resolved);
 }
 
+TEST(EnergyBalance, is_unresolved_by_whole_periods_pulses_and_far_turns_between_looks) {
+  Problem block = fixture::make_block(4, 2, 1, LinkLaw::material, 0);
+  Signal harmonic, pulse;
+  harmonic.kind = Signal::Kind::harmonic;
+  harmonic.frequency = 2 / (400 * block.dt); // two periods: no look sees the signal
+  pulse.kind = Signal::Kind::table;
+  pulse.times = {0.1 * 400 * block.dt, 0.2 * 400 * block.dt, 0.3 * 400 * block.dt};
+  pulse.values = {0, 1, 0};
+  for (const Signal& signal : {harmonic, pulse}) {
+    block.loads = {{{7}, {40, -30, 20}, {}, signal}};
+    EXPECT_FALSE(balance_of(block, 400, 400, false).is_resolved);
+    EXPECT_TRUE(balance_of(block, 400, 1, false).is_resolved);
+  }
+  Problem lone = fixture::make_block(1, 1, 1, LinkLaw::paper, 0);
+  lone.loads = {{{0}, {}, {0, 0, 0.1}, {}}};
+  EXPECT_FALSE(balance_of(lone, 4000, 2000, false).is_resolved);
+  const EnergyShares followed = balance_of(lone, 4000, 40, false);
+  EXPECT_TRUE(followed.is_resolved);
+  EXPECT_LT(std::abs(followed.error), 1e-6);
+}
+
 TEST(EnergyBalance, of_damped_links_that_are_not_followed_is_an_upper_bound) {
   const EnergyShares shares = balance_of(fixture::make_tumbling_box(1), 500, 100, false);
   EXPECT_FALSE(shares.is_complete);

@@ -34,13 +34,23 @@ TEST(StableStepAtState, falls_as_the_square_root_of_the_stiffness_of_a_stretched
     std::vector<double> state = fixture::rest(pair);
     state[field_count + ux] = gap;
     state[field_count + vy] = 7; // velocities change nothing
-    const double expected = std::sqrt(largest_eigenvalue(pair.bodies[0], 0) /
-                                      largest_eigenvalue(pair.bodies[0], gap));
+    const double expected =
+        std::sqrt(largest_eigenvalue(pair.bodies[0], 0) / largest_eigenvalue(pair.bodies[0], gap));
     EXPECT_NEAR(stable_step_at_state(pair, Rotation::quaternion, state, 2), 2 * expected,
                 1e-3 * expected)
         << gap;
     EXPECT_LT(expected, 0.99);
   }
+}
+
+TEST(StableStepAtState, of_a_body_that_is_stretched_falls_and_with_small_rotations_does_not) {
+  const Problem block = fixture::make_block(6, 3, 2, LinkLaw::paper, 0);
+  std::vector<double> state = fixture::rest(block);
+  block.lattice.for_each_element([&](std::size_t e, const Row&, int x) {
+    state[e * field_count + ux] = 0.5 * block.bodies[0].edge[0] * double(x);
+  });
+  EXPECT_LT(stable_step_at_state(block, Rotation::quaternion, state, 1), 0.95);
+  EXPECT_NEAR(stable_step_at_state(block, Rotation::linearised, state, 1), 1, 1e-3);
 }
 
 TEST(StableStepAtState, does_not_change_by_a_turn_of_everything) {

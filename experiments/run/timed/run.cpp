@@ -5,6 +5,7 @@
 #include "experiments/run/timed/timed_run.hpp"
 #include "solver/error.hpp"
 #include "solver/model/energy.hpp"
+#include "solver/numerics/stability.hpp"
 #include "solver/numerics/stability_at_state.hpp"
 #include "variants/isa/denormals.hpp"
 
@@ -52,6 +53,15 @@ std::optional<double> energy_drift(const Problem& problem, Rotation rotation,
   return *final_j / start_j - 1;
 }
 
+/// Step limit of the final state [s]. If it matters, it refers to the sharp limit at rest: the
+/// plan's may be a bound on the safe side.
+double limit_of_end(const RunPlan& plan, Rotation rotation, const std::vector<double>& state) {
+  const Problem& problem = plan.scene.problem;
+  const double limit = stable_step_at_state(problem, rotation, state, plan.stability_limit);
+  if (plan.dt <= limit) return limit;
+  return limit / plan.stability_limit * stable_step(problem, *plan.method, true).dt;
+}
+
 /// Finds what the final state says of the run.
 void describe_end(TimedRun& timed, const RunPlan& plan, RunResult& result) {
   const Problem& problem = plan.scene.problem;
@@ -65,8 +75,7 @@ void describe_end(TimedRun& timed, const RunPlan& plan, RunResult& result) {
   if (result.model_report.promotions.empty())
     result.energy_drift = energy_drift(problem, rotation, result.energy_j);
   if (count <= stability_state_elements && !plan.adaptive && !plan.method->is_implicit())
-    result.stability_limit_end_s =
-        stable_step_at_state(problem, rotation, state, plan.stability_limit);
+    result.stability_limit_end_s = limit_of_end(plan, rotation, state);
 }
 
 void judge_check(RunResult& result) {
@@ -102,7 +111,8 @@ constexpr double most_energy_error = 0.1;
 /// The limit of the final state is an estimate.
 constexpr double surely_above_limit = 1.1;
 
-/// A step above the limit of the final state needs a complete balance that no damping mends.
+/// True if the step is above the limit of the final state, and the balance does not show that the
+/// run gained nothing: it is incomplete, or it closes only because dampers took what was gained.
 bool is_doubtful(const RunPlan& plan, const EnergyShares& shares, double limit_at_end) {
   if (plan.adaptive || plan.dt <= surely_above_limit * limit_at_end ||
       plan.dt > plan.stability_limit)
@@ -111,20 +121,26 @@ bool is_doubtful(const RunPlan& plan, const EnergyShares& shares, double limit_a
          !(shares.gained() <= most_energy_error * shares.end);
 }
 
+bool is_wrong(const EnergyShares& shares) {
+  if (!std::isfinite(shares.error)) return true;
+  if (!shares.is_resolved) return false;
+  return shares.error > most_energy_error ||
+         (shares.is_complete && shares.error < -most_energy_error);
+}
+
+/// Judges on the root, which alone has the balance.
 void judge_energy(const RunPlan& plan, RunResult& result) {
   if (!result.balance || result.status != "ok") return;
   const EnergyShares& shares = *result.balance;
   const double limit = result.stability_limit_end_s.value_or(plan.stability_limit);
-  const bool is_too_much = !(shares.error <= most_energy_error);
-  const bool is_too_little = shares.is_complete && !(shares.error >= -most_energy_error);
-  const bool is_wrong = shares.is_resolved && (is_too_much || is_too_little);
-  if (!is_wrong && !is_doubtful(plan, shares, limit)) return;
+  if (!is_wrong(shares) && !is_doubtful(plan, shares, limit)) return;
   result.status = "wrong";
   result.reason = fmt::format(
       "the energy of {:.4g} J at the end is {}: start {:.4g} J, work of loads {:.4g} J, dampers "
       "{}; "
       "take {}",
-      shares.end, is_wrong ? fmt::format("wrong by {:+.2g} of it", shares.error) : "doubtful",
+      shares.end,
+      is_wrong(shares) ? fmt::format("wrong by {:+.2g} of it", shares.error) : "doubtful",
       shares.start, shares.work,
       shares.is_complete ? fmt::format("{:.4g} J", shares.dissipated) : "unknown",
       plan.adaptive ? "a smaller --rtol" : fmt::format("--dt below {:.6g} s", plan.dt));

@@ -42,7 +42,7 @@ void TimedRun::run() {
   }
   warm_up();
   write_initial_state(*executor_, problem_);
-  begin_balance(initial_state(problem_), 0);
+  begin_balance(0);
   if (plan_.adaptive) adaptive_.emplace(adaptive_steps());
   const Traffic before = traffic(*executor_);
   const DeviceUse used_before = device_use(*executor_);

@@ -46,8 +46,8 @@ public:
   void repeat(double least_s);
 
   /// The energy balance of the run, after run(). Short runs of small scenes are computed once more,
-  /// with a look at each step; otherwise looks were taken on the way. Empty if the scene is too
-  /// large.
+  /// with a look at each step; otherwise looks were taken on the way. Empty if the run has none,
+  /// and on all ranks but the root. Sets the status of the result if the second run differs.
   std::optional<EnergyShares> energy_balance();
 
   /// The model that computed last, and the rotations with which the oracle has the same equations.
@@ -93,15 +93,21 @@ private:
 
   // The following functions follow the energy (timed_run_energy.cpp).
 
-  /// Follows the energy from a state after `step` steps on.
-  void begin_balance(std::vector<double> state, long step);
+  /// False for scenes that are too large, for runs against a solution, whose errors say more, and
+  /// for Rotation::small, whose equations keep no energy.
+  bool has_balance() const;
+  /// Follows the energy from the state that was written to the executor, after `step` steps.
+  /// @param state  null: the initial state
+  void begin_balance(long step, const std::vector<double>* state = nullptr);
   /// True if every step of the run is looked at.
   bool is_balanced_by_steps() const;
   /// Steps between looks on the way; 0: none.
   long balance_interval() const;
-  /// Looks at the state after `step` steps.
+  /// Looks at the executor's state at a time [s].
   void look_at_energy(EnergyBalance& balance, double time);
+  /// Computes the run again, with a look at each step.
   EnergyShares balance_by_steps();
+  bool repeat_by_steps(EnergyBalance& balance);
 
   // The following functions watch a model of small rotations that --model auto chose
   // (timed_run_model.cpp).

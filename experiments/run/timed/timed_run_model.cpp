@@ -57,7 +57,7 @@ bool TimedRun::promote(long step, long resumed, Model to, const std::string& rel
   executor_.reset(); // frees its memory before the next executor needs it
   executor_ = created(to);
   executor_->write(0, monitor_->good_state());
-  begin_balance(monitor_->good_state(), resumed);
+  begin_balance(resumed, &monitor_->good_state());
   if (to == Model::spatial)
     left_out_ = {monitor_->left_out(), monitor_->tolerance()}, monitor_.reset();
   else
@@ -75,7 +75,7 @@ bool TimedRun::holds_at_end() {
 void TimedRun::begin_anew() {
   left_out_.reset();
   write_initial_state(*executor_, problem_);
-  begin_balance(initial_state(problem_), 0);
+  begin_balance(0);
   series_.discard();
   series_ = new_series();
   if (meter_) meter_.emplace(problem_, plan_.reference->states);

@@ -42,7 +42,7 @@ const std::vector<std::string>& raw_chain_columns() {
   return columns;
 }
 
-/// A repetition that other work disturbed is timed again, at most so often.
+/// A repetition that other work disturbed is timed again; so many timings at most.
 constexpr int most_attempts = 4;
 
 /// One timed stage of the chain.

@@ -15,7 +15,7 @@ namespace dss {
 namespace {
 
 constexpr int timings = 8; ///< the best of them counts, on both sides
-/// The simulator holds if the interval of the ratios lies within 1 / (1 + this) and 1 + this.
+/// Simulated and measured steps differ if the whole interval of their ratios is farther from 1.
 constexpr double held_within = 0.1;
 
 /// Best time of a step [s] of a run of one process.

@@ -7,10 +7,9 @@
 #include "solver/error.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <numeric>
+#include <optional>
 
 namespace dss {
 namespace {
@@ -93,31 +92,36 @@ private:
   /// Writes a row of equal parts, and one of parts by speed.
   void put_pair(const Platform& platform, const std::string& network, const std::string& halo,
                 Record* row) const {
-    std::optional<double> equal_s;
+    std::optional<double> equal_s, fastest_s;
     for (const auto& [shares, cluster] : clusters_) {
       *row = common(network, halo);
       (*row)["shares"] = shares;
       try {
-        const SimulatedRun run = cluster.run(platform, halo);
-        const double time = wall_s(run), alone = wall_s(fastest_.run(platform, halo));
-        if (!equal_s) equal_s = time;
-        (*row)["halo_used"] = run.halo;
-        (*row)["imbalance"] = number_text(cluster.imbalance());
-        (*row)["simulated_wall_s"] = number_text(time);
-        (*row)["communication_s"] =
-            number_text(run.communication_s_per_step * double(study_.steps));
-        (*row)["ideal_wall_s"] = number_text(cluster.ideal_wall_s());
-        (*row)["efficiency"] = number_text(cluster.ideal_wall_s() / time);
-        (*row)["fastest_alone_wall_s"] = number_text(alone);
-        (*row)["over_fastest_alone"] = number_text(alone / time);
-        (*row)["over_equal"] = number_text(*equal_s / time);
-        (*row)["status"] = "ok";
+        if (!fastest_s) fastest_s = wall_s(fastest_.run(platform, halo));
+        const double time = put_run(cluster, cluster.run(platform, halo), *row);
+        (*row)["fastest_alone_wall_s"] = number_text(*fastest_s);
+        (*row)["over_fastest_alone"] = number_text(*fastest_s / time);
+        if (shares == equal) equal_s = time;
+        if (equal_s) (*row)["over_equal"] = number_text(*equal_s / time);
       } catch (const InputError& error) {
         (*row)["status"] = "failed";
         (*row)["reason"] = error.what();
       }
       ++row;
     }
+  }
+
+  /// @return the time of the study's steps [s]
+  double put_run(const MixedCluster& cluster, const SimulatedRun& run, Record& row) const {
+    const double time = wall_s(run), ideal = cluster.ideal_wall_s();
+    row["halo_used"] = run.halo;
+    row["imbalance"] = number_text(cluster.imbalance());
+    row["simulated_wall_s"] = number_text(time);
+    row["communication_s"] = number_text(run.communication_s_per_step * double(study_.steps));
+    row["ideal_wall_s"] = number_text(ideal);
+    row["efficiency"] = number_text(ideal / time);
+    row["status"] = "ok";
+    return time;
   }
 
   Record common(const std::string& network, const std::string& halo) const {
@@ -179,8 +183,18 @@ Table mixed_table(const MixedStudy& study, Progress& progress) {
       for (const NodeMix& mix : one.mixes) {
         progress.note(
             fmt::format("mixed nodes: {} {}, {}", study.scene, set_text(set), text_of(mix)));
-        for (Record& row : MixedRows(study, one, scene, set, mix).rows(platforms))
-          table.rows.push_back(std::move(row));
+        try {
+          for (Record& row : MixedRows(study, one, scene, set, mix).rows(platforms))
+            table.rows.push_back(std::move(row));
+        } catch (const InputError& error) { // such as more nodes than rows
+          table.rows.push_back({{"experiment", study.name},
+                                {"label", one.label},
+                                {"scene", scene.name},
+                                {"set", set_text(set)},
+                                {"nodes", text_of(mix)},
+                                {"status", "failed"},
+                                {"reason", error.what()}});
+        }
       }
     }
   }
@@ -201,9 +215,9 @@ std::string mixed_text(const Table& mixed, const Table& held) {
                      shown(row, "simulated_over_run_low", "{:.3f}"),
                      shown(row, "simulated_over_run_high", "{:.3f}"), text_in(row, "status")});
   return text_table({"set", "nodes", "network", "halo", "parts", "simulated [s]", "efficiency",
-                     "of the fast alone", "of equal parts", "note"},
+                     "over the fastest alone", "over equal parts", "note"},
                     clusters) +
-         "\nThe simulator against runs that exchange nothing:\n" +
+         "\nSimulated steps over those of runs that exchange nothing:\n" +
          text_table({"set", "pairs", "simulated over run", "low", "high", "status"}, pairs);
 }
 
