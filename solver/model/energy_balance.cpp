@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace dss {
+
+using reference::Orientation;
+using Vector = reference::Vector<double>;
+
 namespace {
 
 /// The energy at the end counts as at least this share of the largest during the run: motions may
@@ -19,10 +22,7 @@ constexpr double most_turn = 1.5;
 /// A harmonic signal needs looks at this part of its period.
 constexpr double period_part = 0.25;
 
-using Vector = reference::Vector<double>;
-using Orientation = reference::Orientation<double>;
-
-Orientation conjugate(const Orientation& q) { return {q.s, -q.v}; }
+Orientation<double> conjugate(const Orientation<double>& q) { return {q.s, -q.v}; }
 
 double simpson(double first, double middle, double last, double h) {
   return h / 6 * (first + 4 * middle + last);
@@ -74,20 +74,37 @@ std::vector<double> EnergyBalance::unseen_signals(double h) const {
   return values;
 }
 
-std::vector<double> EnergyBalance::middle(std::span<const double> next, double h) {
-  const bool has_torques =
-      std::ranges::any_of(problem_.loads, [](const Load& load) { return load.torque != Vec3{}; });
+Vector EnergyBalance::turn_between(const Orientation<double>& q,
+                                   const Orientation<double>& r) const {
+  return dynamics_.coordinates().has_vectors()
+             ? Vector(r.v - q.v)
+             : reference::vector_of_orientation(reference::product(r, conjugate(q)));
+}
+
+double EnergyBalance::unseen_work_of_torques(std::span<const double> next, double time) const {
+  double work = 0;
+  for (const Load& load : problem_.loads) {
+    const Vector torque(load.torque[0], load.torque[1], load.torque[2]);
+    if (torque.isZero(0)) continue;
+    for (const std::size_t e : load.elements) {
+      const double turned = turn_between(reference::orientation_fields(&state_[e * field_count]),
+                                         reference::orientation_fields(&next[e * field_count]))
+                                .norm();
+      if (turned > most_turn) work += std::abs(load.signal(time)) * torque.norm() * turned;
+    }
+  }
+  return work;
+}
+
+std::vector<double> EnergyBalance::middle(std::span<const double> next, double h) const {
   const bool are_vectors = dynamics_.coordinates().has_vectors();
   std::vector<double> middle(state_.size());
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
     const double *a = &state_[e * field_count], *b = &next[e * field_count];
     double* m = &middle[e * field_count];
-    const Orientation q = reference::orientation_fields(a), r = reference::orientation_fields(b);
-    const Vector turned =
-        are_vectors ? Vector(r.v - q.v)
-                    : reference::vector_of_orientation(reference::product(r, conjugate(q)));
-    if (has_torques && turned.norm() > most_turn)
-      unresolved_ = std::numeric_limits<double>::infinity();
+    const Orientation<double> q = reference::orientation_fields(a),
+                              r = reference::orientation_fields(b);
+    const Vector turned = turn_between(q, r);
     for (int axis = 0; axis < 3; ++axis) {
       const auto of_middle = [&](double change, double before, double after) {
         return 1.5 * change / h - (before + after) / 4;
@@ -96,7 +113,7 @@ std::vector<double> EnergyBalance::middle(std::span<const double> next, double h
       m[vx + axis] = of_middle(b[ux + axis] - a[ux + axis], a[vx + axis], b[vx + axis]);
       m[wx + axis] = of_middle(turned[axis], a[wx + axis], b[wx + axis]);
     }
-    const Orientation half{(q.s + r.s) / 2, (q.v + r.v) / 2};
+    const Orientation<double> half{(q.s + r.s) / 2, (q.v + r.v) / 2};
     reference::set_orientation_fields(m, are_vectors ? half : reference::of_unit_length(half));
   }
   return middle;
@@ -123,7 +140,8 @@ void EnergyBalance::look(std::span<const double> state, double time) {
   const double of_middle = dynamics_.supplied_power(half, signals_at(time_ + h / 2));
   const double work = simpson(supplied_power_, of_middle, supplied, h);
   work_ += work;
-  unresolved_ += h * std::abs(dynamics_.supplied_power(half, unseen_signals(h)));
+  unresolved_ += h * std::abs(dynamics_.supplied_power(half, unseen_signals(h))) +
+                 unseen_work_of_torques(next, time);
   if (is_damped_ && follows_dampers_) follow_dampers(half, next, h, work);
   supplied_power_ = supplied;
   state_ = next;

@@ -56,7 +56,12 @@ private:
   /// Adds what dampers took over h [s] up to the state `next`, and the error of the energy.
   void follow_dampers(std::span<const double> half, std::span<const double> next, double h,
                       double work);
-  std::vector<double> middle(std::span<const double> next, double h);
+  std::vector<double> middle(std::span<const double> next, double h) const;
+  /// Vector of the rotation from q to r [rad].
+  reference::Vector<double> turn_between(const reference::Orientation<double>& q,
+                                         const reference::Orientation<double>& r) const;
+  /// What torques may have done up to the state `next` where elements turned too far to tell [J].
+  double unseen_work_of_torques(std::span<const double> next, double time) const;
   std::vector<double> signals_at(double time) const;
   /// Largest difference of each signal over [time_, time_ + h] to the parabola through its values
   /// at both ends and in the middle.
