@@ -44,7 +44,7 @@ return {
   height: box.height,
 };
 """
-SECTIONS = ["paper-1", "paper-2", "paper-3", "figure-9", "speedups-1-host", "speedups-1",
+SECTIONS = ["paper-1", "paper-2", "paper-3", "figure-9", "speedups-1",
             "speedups-2", "speedups-3", "sizes-3", "chain", "chain-block", "chain-bending",
             "work-precision-time", "work-precision-evaluations", "pareto", "scaling-1",
             "scaling-2", "cluster", "cluster-nodes", "mixed-nodes", "balance", "stability",

@@ -189,6 +189,8 @@ class Committed(unittest.TestCase):
         report.leave_out_empty_columns(reduced)
         whole, less = Results(self.directory), Results(reduced)
         for entry in CHARTS:
+            if not whole.has(entry.table):  # not every study is part of a reproduction
+                continue
             specs = [page.spec(entry.make(results)) for results in (whole, less)]
             self.assertEqual(*specs, entry.name)
 
