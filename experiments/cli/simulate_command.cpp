@@ -119,14 +119,11 @@ int simulate_scene(const SimulateArguments& arguments) {
   const SimulatedProblem what{scene.problem, method, find_model(scene.model).value(), precision};
   const Simulated result = simulated(arguments, what);
   const SimulatedRun& run = result.run;
-  std::vector<double> at_once, stage_by_stage;
-  for (const NodeSpeed& speed : result.speeds) {
-    at_once.push_back(speed.at_once);
-    stage_by_stage.push_back(speed.stage_by_stage);
-  }
-  const auto of_nodes = [](const std::vector<double>& speeds) {
-    return speeds.size() == 1 ? nlohmann::ordered_json(speeds.front())
-                              : nlohmann::ordered_json(speeds);
+  // One number, or one for each node.
+  const auto of_nodes = [&](double NodeSpeed::*speed) {
+    nlohmann::ordered_json numbers;
+    for (const NodeSpeed& node : result.speeds) numbers.push_back(node.*speed);
+    return numbers.size() == 1 ? numbers.front() : numbers;
   };
   if (!arguments.json.empty())
     write_json(arguments.json,
@@ -137,8 +134,8 @@ int simulate_scene(const SimulateArguments& arguments) {
                 {"decomposition", result.decomposition},
                 {"shares", arguments.shares},
                 {"halo", run.halo},
-                {"node_at_once_element_stages_per_s", of_nodes(at_once)},
-                {"node_stage_by_stage_element_stages_per_s", of_nodes(stage_by_stage)},
+                {"node_at_once_element_stages_per_s", of_nodes(&NodeSpeed::at_once)},
+                {"node_stage_by_stage_element_stages_per_s", of_nodes(&NodeSpeed::stage_by_stage)},
                 {"ideal_step_s", result.ideal_s},
                 {"simulated_step_s", run.step_s},
                 {"communication_s_per_step", run.communication_s_per_step},
@@ -157,8 +154,7 @@ void add_node_options(CLI::App& command, SimulateArguments& arguments) {
   command
       .add_option("--node-speed", arguments.node_speeds,
                   "Speed of a node in element-steps/s, or one for each: S1,S2,... (default: "
-                  "measured on one "
-                  "core of this machine)")
+                  "measured on one core of this machine)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::PositiveNumber);

@@ -35,18 +35,11 @@ EnergyBalance::EnergyBalance(const Problem& problem, Rotation rotation,
     : problem_(problem), dynamics_(energy_terms(problem, rotation)),
       follows_dampers_(follows_dampers), is_damped_(has_dampers(problem)),
       state_(placed(dynamics_, state)), time_(time),
-      supplied_power_(dynamics_.supplied_power(state_, signals_at(time))),
+      supplied_power_(dynamics_.supplied_power(state_, signals_at(problem, time))),
       start_(dynamics_.energy(state_)), largest_(start_), energy_(start_) {
   if (!is_damped_ || !follows_dampers_) return;
   dissipated_power_ = dynamics_.dissipated_power(state_);
   kinetic_ = dynamics_.kinetic_energy(state_);
-}
-
-std::vector<double> EnergyBalance::signals_at(double time) const {
-  std::vector<double> values;
-  for (const Signal& signal : problem_.frame_acceleration) values.push_back(signal(time));
-  for (const Load& load : problem_.loads) values.push_back(load.signal(time));
-  return values;
 }
 
 std::vector<double> EnergyBalance::unseen_signals(double h) const {
@@ -82,15 +75,16 @@ Vector EnergyBalance::turn_between(const Orientation<double>& q,
 }
 
 double EnergyBalance::unseen_work_of_torques(std::span<const double> next, double time) const {
+  const auto speed = [](const double* fields) { return Vector(&fields[wx]).norm(); };
   double work = 0;
   for (const Load& load : problem_.loads) {
-    const Vector torque(load.torque[0], load.torque[1], load.torque[2]);
-    if (torque.isZero(0)) continue;
+    const double torque = Vector(load.torque.data()).norm() * std::abs(load.signal(time));
     for (const std::size_t e : load.elements) {
-      const double turned = turn_between(reference::orientation_fields(&state_[e * field_count]),
-                                         reference::orientation_fields(&next[e * field_count]))
-                                .norm();
-      if (turned > most_turn) work += std::abs(load.signal(time)) * torque.norm() * turned;
+      const double *a = &state_[e * field_count], *b = &next[e * field_count];
+      const double turned = std::max(
+          turn_between(reference::orientation_fields(a), reference::orientation_fields(b)).norm(),
+          (time - time_) * std::max(speed(a), speed(b)));
+      if (turned > most_turn) work += torque * turned;
     }
   }
   return work;
@@ -136,8 +130,8 @@ void EnergyBalance::look(std::span<const double> state, double time) {
   const double h = time - time_;
   if (h <= 0) return;
   const std::vector<double> next = placed(dynamics_, state), half = middle(next, h);
-  const double supplied = dynamics_.supplied_power(next, signals_at(time));
-  const double of_middle = dynamics_.supplied_power(half, signals_at(time_ + h / 2));
+  const double supplied = dynamics_.supplied_power(next, signals_at(problem_, time));
+  const double of_middle = dynamics_.supplied_power(half, signals_at(problem_, time_ + h / 2));
   const double work = simpson(supplied_power_, of_middle, supplied, h);
   work_ += work;
   unresolved_ += h * std::abs(dynamics_.supplied_power(half, unseen_signals(h))) +

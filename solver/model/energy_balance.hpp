@@ -61,8 +61,8 @@ private:
   reference::Vector<double> turn_between(const reference::Orientation<double>& q,
                                          const reference::Orientation<double>& r) const;
   /// What torques may have done up to the state `next` where elements turned too far to tell [J].
+  /// A rotation that is too fast for looks shows in angular velocities alone.
   double unseen_work_of_torques(std::span<const double> next, double time) const;
-  std::vector<double> signals_at(double time) const;
   /// Largest difference of each signal over [time_, time_ + h] to the parabola through its values
   /// at both ends and in the middle.
   std::vector<double> unseen_signals(double h) const;

@@ -11,6 +11,12 @@ void append_row(const Problem& problem, double t, std::vector<double>& rows) {
 
 } // namespace
 
+std::vector<double> signals_at(const Problem& problem, double t) {
+  std::vector<double> row;
+  append_row(problem, t, row);
+  return row;
+}
+
 std::vector<double> signal_rows(const Problem& problem, const Method& method, double dt,
                                 long first_step, long steps) {
   std::vector<double> rows;

@@ -11,6 +11,9 @@ namespace dss {
 /// Width of a row: frame acceleration x, y, z, then one value for each of problem.loads.
 inline std::size_t signal_count(const Problem& problem) { return 3 + problem.loads.size(); }
 
+/// One row: the values at time t [s].
+std::vector<double> signals_at(const Problem& problem, double t);
+
 /// Values at the stage times (first_step + n + node[s]) * dt of the steps n = 0 .. steps - 1: one
 /// row for each stage, step after step, and a last row at (first_step + steps) * dt.
 std::vector<double> signal_rows(const Problem& problem, const Method& method, double dt,

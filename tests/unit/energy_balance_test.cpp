@@ -14,25 +14,17 @@ using fixture::rk4;
 
 /// Balance of a run by the oracle.
 /// @param between  steps between looks
-/// @param change   what is done to the state before a look after `step` steps
+/// @param change   what is done to the state before a look after `step` steps; for constant
+/// signals,
+///     because time restarts
 EnergyShares balance_of(const Problem& problem, long steps, long between, bool follows_dampers,
                         const std::function<void(long, std::vector<double>&)>& change = {}) {
   Oracle<double> oracle(problem, rk4, problem.dt);
   std::vector<double> state = initial_state(problem);
   oracle.write(state);
   EnergyBalance balance(problem, Rotation::quaternion, state, 0, follows_dampers);
-  std::vector<double> signals;
-  const auto signals_at = [&](long step, double node) -> std::span<const double> {
-    signals.clear();
-    const double t = (double(step) + node) * problem.dt;
-    for (const Signal& signal : problem.frame_acceleration) signals.push_back(signal(t));
-    for (const Load& load : problem.loads) signals.push_back(load.signal(t));
-    return signals;
-  };
   for (long step = 0; step < steps; step += between) {
-    oracle.advance(between, [&](long s, int stage) {
-      return signals_at(step + s, rk4.node[std::size_t(stage)]);
-    });
+    oracle.advance(between);
     oracle.read(state);
     if (change) {
       change(step + between, state);

@@ -86,12 +86,17 @@ private:
   /// The two most used models are verified with every method on every variant.
   bool is_common() const { return model_ == Model::spatial || model_ == Model::planar; }
 
+  /// Equations of the oracle for a variant with its own description of rotations.
+  Rotation equations_of(Rotation own) const {
+    const Rotation of_model = rotation_of(model_);
+    return of_model == Rotation::quaternion ? own : of_model;
+  }
+
   /// Computed once for all models with the same equations. With finite rotations, they are those of
   /// the variant's own description: another one has another error of a step.
   /// @param halvings  how often the step is halved and the number of steps doubled
   const ExpectedRun& expected_run(const Method& method, Rotation own, int halvings = 0) {
-    const Rotation of_model = rotation_of(model_);
-    const Rotation equations = of_model == Rotation::quaternion ? own : of_model;
+    const Rotation equations = equations_of(own);
     const auto [place, is_new] = expected_runs_.try_emplace({&method, equations, halvings});
     ExpectedRun& run = place->second;
     if (!is_new) return run;
@@ -213,9 +218,7 @@ private:
   template <class T>
   double rounding_error(const Method& method, Rotation own) {
     const ExpectedRun& expected = expected_run(method, own);
-    const Rotation of_model = rotation_of(model_);
-    Oracle<T> oracle(problem_, method, expected.dt,
-                     of_model == Rotation::quaternion ? own : of_model);
+    Oracle<T> oracle(problem_, method, expected.dt, equations_of(own));
     std::vector<double> state = initial_state(problem_);
     oracle.write(state);
     oracle.advance(steps_);

@@ -11,6 +11,9 @@
 
 namespace dss {
 
+/// Steps of each simulation.
+inline constexpr int mixed_simulated_steps = 20;
+
 /// Numbers of nodes by kind.
 using NodeMix = std::map<std::string, int>;
 

@@ -14,7 +14,6 @@
 namespace dss {
 namespace {
 
-constexpr int simulated_steps = 20;
 constexpr const char *equal = "equal", *by_speed = "by speed";
 
 std::string text_of(const NodeMix& mix) {
@@ -36,7 +35,7 @@ public:
       }
     const Decomposition decomposition =
         decompose(scene.problem, "strips", int(speeds_.size()), is_by_speed ? weights : Weights{});
-    plan_ = make_plan(what_, decomposition, speeds_, "auto", simulated_steps);
+    plan_ = make_plan(what_, decomposition, speeds_, "auto", mixed_simulated_steps);
     const std::vector<std::size_t> elements = part_elements(decomposition, scene.problem.lattice);
     for (std::size_t part = 0; part < elements.size(); ++part)
       longest_step_s_ = std::max(longest_step_s_, double(elements[part]) / weights.speed[part]);

@@ -18,9 +18,9 @@ public:
   StudyResult run(const StudyRun& how) override {
     const Table mixed = mixed_table(study_, how.progress);
     const Table held = held_table(study_, how.progress);
-    return {{{study_.name, mixed}, {study_.name + "_held", held}},
-            "\n" + mixed_text(mixed, held),
-            !has_failed_rows(mixed) && !has_failed_rows(held)};
+    StudyResult result = result_of(study_.name, mixed, "\n" + mixed_text(mixed, held));
+    result.tables.push_back({study_.name + "_held", held});
+    return result;
   }
 
 private:
