@@ -1,5 +1,6 @@
 #include "experiments/base/usage.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -10,6 +11,9 @@
 
 namespace dss {
 namespace {
+
+/// of Usage::others_s: a tick [s]
+constexpr double others_resolution_s = 0.01;
 
 double seconds(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
@@ -28,12 +32,20 @@ double queue_wait_s() {
   return is_known ? 1e-9 * sum : std::numeric_limits<double>::quiet_NaN();
 }
 
-double steal_s() {
+/// Times of all processors together [s], in ticks.
+struct ProcessorTimes {
+  double idle_s = 0, steal_s = 0;
+  int processors = 0; ///< 0: unknown
+};
+
+ProcessorTimes processor_times() {
   std::ifstream stream("/proc/stat");
-  std::string cpu;
+  std::string word;
   double user = 0, nice = 0, system = 0, idle = 0, io = 0, irq = 0, soft_irq = 0, steal = 0;
-  stream >> cpu >> user >> nice >> system >> idle >> io >> irq >> soft_irq >> steal;
-  return stream ? steal / double(::sysconf(_SC_CLK_TCK)) : 0;
+  stream >> word >> user >> nice >> system >> idle >> io >> irq >> soft_irq >> steal;
+  if (!stream) return {};
+  const double ticks_per_s = double(::sysconf(_SC_CLK_TCK));
+  return {(idle + io) / ticks_per_s, steal / ticks_per_s, int(::sysconf(_SC_NPROCESSORS_ONLN))};
 }
 
 void read_processor(Usage& usage) {
@@ -49,23 +61,36 @@ Usage& Usage::operator+=(const Usage& other) {
   cpu_s += other.cpu_s;
   wait_s += other.wait_s;
   steal_s += other.steal_s;
+  others_s += other.others_s;
   involuntary_switches += other.involuntary_switches;
   return *this;
 }
 
-UsageMeter::UsageMeter() {
-  start_.wait_s = queue_wait_s();
-  start_.steal_s = steal_s();
-  read_processor(start_);
+UsageMeter::Reading UsageMeter::reading() {
+  Reading now;
+  read_processor(now.usage);
+  now.when = std::chrono::steady_clock::now();
+  const ProcessorTimes times = processor_times();
+  now.usage.steal_s = times.steal_s;
+  now.idle_s = times.idle_s;
+  now.processors = times.processors;
+  now.usage.wait_s = queue_wait_s();
+  return now;
 }
 
+UsageMeter::UsageMeter() : start_(reading()) { read_processor(start_.usage); }
+
 Usage UsageMeter::read() const {
-  Usage now;
-  read_processor(now);
-  now.wait_s = queue_wait_s();
-  now.steal_s = steal_s();
-  return {now.cpu_s - start_.cpu_s, now.wait_s - start_.wait_s, now.steal_s - start_.steal_s,
-          now.involuntary_switches - start_.involuntary_switches};
+  const Reading now = reading();
+  const Usage &end = now.usage, &start = start_.usage;
+  Usage used{end.cpu_s - start.cpu_s, end.wait_s - start.wait_s, end.steal_s - start.steal_s,
+             std::numeric_limits<double>::quiet_NaN(),
+             end.involuntary_switches - start.involuntary_switches};
+  const double elapsed_s = std::chrono::duration<double>(now.when - start_.when).count();
+  if (now.processors > 0)
+    used.others_s =
+        now.processors * elapsed_s - (now.idle_s - start_.idle_s) - used.steal_s - used.cpu_s;
+  return used;
 }
 
 bool is_contaminated(const Usage& usage, double wall_s, int workers, bool waits) {
@@ -73,7 +98,9 @@ bool is_contaminated(const Usage& usage, double wall_s, int workers, bool waits)
   if (available_s <= 0) return false;
   const bool is_starved =
       !waits && workers == 1 && wall_s >= 0.02 && usage.cpu_s / available_s < 0.97;
-  const double wait_s = std::isnan(usage.wait_s) ? 0 : usage.wait_s;
+  double wait_s = std::isnan(usage.wait_s) ? 0 : usage.wait_s;
+  if (waits && !std::isnan(usage.others_s))
+    wait_s = std::min(wait_s, std::max(0.0, usage.others_s - others_resolution_s));
   return is_starved || wait_s + usage.steal_s > 0.01 * available_s;
 }
 

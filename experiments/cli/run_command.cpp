@@ -1,6 +1,6 @@
-#include "experiments/base/cores.hpp"
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
+#include "experiments/cli/run_summary.hpp"
 #include "experiments/run/plan/job.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "experiments/run/plan/run_plan.hpp"
@@ -24,108 +24,6 @@ struct RunArguments {
   AnalysisRequest analysis;
   std::vector<std::string> set;
 };
-
-void print_device(const RunResult& result) {
-  const DeviceUse& use = result.device_use;
-  const double steps = double(result.steps);
-  if (!use.device.id.empty())
-    fmt::print("device {} ({}): built in {:.3g} s{}, a step {:.4g} launches of {:.3g} us, {:.4g} "
-               "bytes to and {:.4g} "
-               "from it in {:.3g} us\n",
-               use.device.id, use.device.name, use.build_s, use.is_cached ? " from the cache" : "",
-               use.launches / steps, 1e6 * use.launch_s, use.to_device_bytes / steps,
-               use.from_device_bytes / steps, 1e6 * use.transfer_s / steps);
-  if (result.hybrid.members.empty()) return;
-  std::vector<std::string> members;
-  for (const HybridInfo::Entry& entry : result.hybrid.members)
-    members.push_back(fmt::format("{} {:.1f} % of the elements, {:.4g} million element-steps/s",
-                                  entry.member, 100 * entry.share, 1e-6 * entry.speed));
-  fmt::print("hybrid: {}; re-balanced {} times{}{}\n", fmt::join(members, "; "),
-             result.hybrid.rebalances, result.hybrid.reason.empty() ? "" : "; ",
-             result.hybrid.reason);
-}
-
-void print_model(const RunResult& result) {
-  const ModelChoice& choice = result.model_choice;
-  if (choice.asked != "auto") return;
-  fmt::print("model {}: {}\n", name(choice.chosen), choice.why);
-  const ModelReport& report = result.model_report;
-  if (choice.is_bounded)
-    fmt::print("largest rotation within the bound {:.3g} rad, error of the model at most {:.3g}, "
-               "{} looks\n",
-               report.largest_rotation, report.estimate, report.looks);
-  for (const Promotion& promotion : report.promotions)
-    fmt::print("promoted from {} to {}: after step {} the error may be {:.3g}; on from step {}\n",
-               name(promotion.from), name(promotion.to), promotion.step, promotion.estimate,
-               promotion.resumed_step);
-}
-
-void print_balance(const RunResult& result) {
-  if (result.balance && result.balance->is_resolved) {
-    const EnergyShares& shares = *result.balance;
-    fmt::print("energy balance: {:.4g} J at the start, {:+.4g} J by loads, {}; {}\n", shares.start,
-               shares.work,
-               shares.is_complete ? fmt::format("{:.4g} J to dampers", shares.dissipated)
-                                  : "an unknown part to dampers",
-               shares.is_complete ? fmt::format("error {:.2g} of the energy", shares.error)
-                                  : fmt::format("gained at most {:.2g} of the energy",
-                                                std::max(0.0, shares.error)));
-  }
-  if (const auto& limit = result.stability_limit_end_s; limit && result.dt_s > *limit)
-    fmt::print("the step is above the stability limit of the final state, {:.6g} s; a longer run "
-               "may grow\n",
-               *limit);
-}
-
-void print_summary(const RunResult& result) {
-  fmt::print("{}: {} elements, {} links, {} steps of {}{:g} s ({}, {}, {})\n", result.scene,
-             result.elements, result.links, result.steps, result.adaptive ? "first " : "",
-             result.dt_s, result.model, result.precision, result.integrator);
-  print_model(result);
-  fmt::print("{} ({}), {} thread{}{}, {}\n", result.variant, result.isa, result.threads,
-             result.threads == 1 ? "" : "s",
-             result.workers < result.threads ? fmt::format(" ({} with work)", result.workers) : "",
-             result.schedule);
-  if (const int cores = usable_cores(), busy = std::min(result.threads, result.workers);
-      busy > cores)
-    fmt::print("{} threads share {} core{}: a time that says nothing of speed\n", busy, cores,
-               cores == 1 ? "" : "s");
-  fmt::print("wall {:.6g} s{}, {:.4g} million element-steps/s, {:.1f} bytes an element\n",
-             result.wall_s, result.runs > 1 ? fmt::format(" (mean of {} runs)", result.runs) : "",
-             1e-6 * result.element_steps_per_s(), double(result.bytes) / double(result.elements));
-  if (result.adaptive)
-    fmt::print("adaptive, rtol {:g}, atol {:g}: {} steps of {:.3g} to {:.3g} s accepted, {} "
-               "rejected, to t = {:g} s\n",
-               result.adaptive->rtol, result.adaptive->atol, result.steps, result.least_step_s,
-               result.largest_step_s, result.rejected_steps, result.end_s);
-  fmt::print("time to the first step {:.3g} s\n", result.first_step_s);
-  print_device(result);
-  fmt::print("largest displacement {:.6g} m, energy {}, state {:016x}\n", result.max_displacement_m,
-             result.energy_j ? fmt::format("{:.6g} J", *result.energy_j)
-                             : "not computed (large state)",
-             result.digest);
-  if (result.check.is_done)
-    fmt::print("check: {} ({}): error {:.3g}, tolerance {:.3g}\n",
-               result.check.is_passed() ? "passed" : "failed", result.check.how, result.check.error,
-               result.check.tolerance);
-  if (result.reference)
-    fmt::print("displacements against the solution at {} times: error {:.3g} at the end, {:.3g} "
-               "rms, {:.3g} at most (the "
-               "solution's own: {:.1g})\n",
-               result.reference->times.count, result.reference->accuracy.final,
-               result.reference->accuracy.l2, result.reference->accuracy.max,
-               result.reference->error);
-  print_balance(result);
-  if (result.energy_drift) fmt::print("energy drift {:.3g}\n", *result.energy_drift);
-  if (result.ranks.ranks > 1)
-    fmt::print("{:.4g} messages and {:.4g} bytes a step, {:.1f} % of the time in exchanges, "
-               "imbalance {:.3f}\n",
-               result.messages_per_step, result.bytes_per_step, 100 * result.communication_share,
-               result.ranks.imbalance);
-  if (!result.ranks.halo_reason.empty())
-    fmt::print("halo {}: {}\n", result.ranks.halo, result.ranks.halo_reason);
-  for (const std::string& file : result.files) fmt::print("wrote {}\n", file);
-}
 
 /// Reports all mistakes that can be found without ranks before any rank is started.
 void require_startable(RunRequest request) {
@@ -313,6 +211,15 @@ void add_check_options(CLI::App& command, RunRequest& request) {
           "--repeat-for", request.repeat_for,
           "Repeat a shorter run until this time was measured [s]; times are the mean of the runs")
       ->capture_default_str()
+      ->group("Checks");
+  command
+      .add_option("--samples", request.samples,
+                  "Time the run so many times; the fastest counts, because other work only slows")
+      ->capture_default_str()
+      ->group("Checks");
+  command
+      .add_flag("!--no-balance", request.has_balance,
+                "Do not follow the energy: for repetitions of a run that was judged")
       ->group("Checks");
 }
 

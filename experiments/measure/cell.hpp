@@ -54,6 +54,8 @@ struct Cell {
   /// True with more workers (ranks x threads) than cores: the time is shown, but says nothing about
   /// speed.
   bool is_oversubscribed(int cores) const { return ranks * threads > cores; }
+  /// False for a cell that is shown and has no speed-up.
+  bool is_compared(int cores) const { return !is_whole_once && !is_oversubscribed(cores); }
   /// Status of a skipped cell.
   const char* skipped_status() const { return is_unavailable ? "unavailable" : "skipped"; }
 };

@@ -33,6 +33,7 @@ Scale read_scale(const StudyFile& file, const CellRules& rules) {
   scale.tail_checks = object.whole_or("tail_checks", 1, scale.tail_checks);
   scale.warmup_steps = object.whole_or("warmup_steps", 0, scale.warmup_steps);
   scale.warmup_s = object.non_negative_or("warmup_s", scale.warmup_s);
+  scale.samples = object.whole_or("samples", 1, scale.samples);
   scale.retries = object.whole_or("retries", 0, scale.retries);
   scale.half_width = object.positive_or("half_width", scale.half_width);
   scale.budget_s = object.positive_or("budget_s", scale.budget_s);
@@ -85,11 +86,11 @@ void add_twins(const std::string& variant, CellStudy& study) {
 }
 
 /// Adds a cell of all steps for each cell that is scaled and whose variant is in `whole_once`.
-void add_whole_runs(CellStudy& study) {
+void add_whole_runs(int cores, CellStudy& study) {
   std::vector<Cell> whole;
   for (const Cell& cell : study.cells)
     if (std::ranges::find(study.scale.whole_once, cell.variant) != study.scale.whole_once.end() &&
-        cell.steps < cell.full_steps && cell.ranks == 1 && cell.threads == 1) {
+        cell.steps < cell.full_steps && !cell.is_oversubscribed(cores)) {
       whole.push_back(cell);
       whole.back().steps = cell.full_steps;
       whole.back().is_whole_once = true;
@@ -106,7 +107,7 @@ void read_cells(const StudyFile& file, const CellRules& rules, CellStudy& study)
   const Sets scale_sets = combinations(scale, "set");
   for (const Node& block : root.require("cells").list()) add_block(block, scale_sets, rules, study);
   if (const auto steps = scale.find("steps_by_set")) require_sets(*steps, study);
-  add_whole_runs(study);
+  add_whole_runs(rules.cores, study);
   study.bases = root.names_or("base", {});
   for (const std::string& base : study.bases) require_cell_of(base, study, root.require("base"));
   const auto twin = root.find("twin");

@@ -1,4 +1,6 @@
 #include "experiments/measure/cell_record.hpp"
+#include "experiments/base/cores.hpp"
+#include "experiments/measure/cell_bases.hpp"
 #include "experiments/run/plan/context.hpp"
 #include "experiments/run/timed/run_fields.hpp"
 
@@ -119,6 +121,13 @@ void put_identity(const RecordPlace& place, Record& row) {
     if (field.is_in_tables) row[field.column] = field.value(place);
 }
 
+/// Cells that others are compared with take twice as many samples: every speed-up depends on them.
+long sample_count(const CellStudy& study, const Cell& cell) {
+  const long samples = study.scale.samples;
+  if (samples == 1 || !cell.is_compared(usable_cores())) return 1;
+  return is_partner(study, cell) ? 2 * samples : samples;
+}
+
 std::vector<std::string> run_arguments(const CellStudy& study, const Cell& cell,
                                        const std::vector<std::string>& checks) {
   std::vector<std::string> line = {"dssbench",
@@ -140,6 +149,8 @@ std::vector<std::string> run_arguments(const CellStudy& study, const Cell& cell,
                                    text(study.scale.warmup_steps),
                                    "--warmup-time",
                                    text(study.scale.warmup_s),
+                                   "--samples",
+                                   text(sample_count(study, cell)),
                                    "--json",
                                    "-"};
   line.insert(line.end(), checks.begin(), checks.end());

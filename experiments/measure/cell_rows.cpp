@@ -94,8 +94,9 @@ std::optional<double> resolution_of(const std::vector<Record>& records) {
 }
 
 bool is_without_failures(const Table& table) {
-  static const std::set<std::string> fine = {
-      "", "ok", "skipped", "unavailable", "oversubscribed", "refused", "unstable", "inaccurate"};
+  static const std::set<std::string> fine = {"",        "ok",          "once",
+                                             "skipped", "unavailable", "oversubscribed",
+                                             "refused", "unstable",    "inaccurate"};
   return std::ranges::all_of(
       table.rows, [](const Record& row) { return fine.contains(text_in(row, "status")); });
 }

@@ -138,15 +138,15 @@ private:
                        [&](const CellState& state) { return is_wanted(state); });
   }
   bool is_wanted(const CellState& state) const {
-    const bool is_compared = !state.is_oversubscribed && !state.cell->is_whole_once;
-    const long most = is_compared ? study_.scale.max_repetitions : uncompared_repetitions;
+    const long most =
+        state.cell->is_compared(cores_) ? study_.scale.max_repetitions : uncompared_repetitions;
     return !state.is_broken && !state.is_converged && state.done < most &&
            state.cell->skipped.empty();
   }
   /// Bases and twins continue as long as any cell: speed-ups are ratios within a round.
   bool is_still_partner(const CellState& state) const {
-    return state.is_partner && !state.is_broken && !state.is_oversubscribed &&
-           !state.cell->is_whole_once && state.cell->skipped.empty();
+    return state.is_partner && !state.is_broken && state.cell->is_compared(cores_) &&
+           state.cell->skipped.empty();
   }
 
   /// Runs one repetition of every cell that needs one, in random order. Returns false if the budget

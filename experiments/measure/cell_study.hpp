@@ -29,6 +29,7 @@ struct Scale {
   /// bits. 0: all.
   long tail_checks = 0;
   long min_repetitions = 6, max_repetitions = 30;
+  long samples = 1;        ///< of a repetition; the fastest counts
   long retries = 3;        ///< largest number of times that a contaminated repetition is repeated
   double patience_s = 120; ///< for waiting for a quiet machine and for these repetitions [s]
   /// a cell has converged at this relative half-width of its 95 % interval

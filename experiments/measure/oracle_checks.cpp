@@ -33,7 +33,7 @@ std::vector<std::string> OracleChecks::options(const Cell& cell, long repetition
       [&](const std::string& file) { compute(cell, scene, key, file); });
   std::vector<std::string> options{"--check-state", path};
   if (study_.scale.tail_checks > 0 && repetition >= study_.scale.tail_checks)
-    options.insert(options.end(), {"--check-tail", "0"});
+    options.insert(options.end(), {"--check-tail", "0", "--no-balance"});
   return options;
 }
 

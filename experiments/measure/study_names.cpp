@@ -1,4 +1,5 @@
 #include "experiments/measure/study_names.hpp"
+#include "experiments/run/cluster/simulation.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "solver/nearest_name.hpp"
 
@@ -19,6 +20,12 @@ Model model_in(const Node& node) { return *find_model(node.known_name("model", m
 
 Precision precision_in(const Node& node) {
   return *find_precision(node.known_name("precision", names_of("PRECISION")));
+}
+
+std::vector<std::string> platforms_in(const Node& node) {
+  const std::vector<std::string> names = node.names();
+  for (const std::string& name : names) node.placed([&] { Platform::require_known(name); });
+  return names;
 }
 
 const std::vector<std::string>& field_names() {

@@ -13,6 +13,9 @@ const VariantStatus& known_variant(const std::string& name, const Node& node);
 Model model_in(const Node& node);
 Precision precision_in(const Node& node);
 
+/// Names of platforms. @throws InputError with the place and the nearest known name
+std::vector<std::string> platforms_in(const Node& node);
+
 /// Names of an element's fields, in the order of `Field`.
 const std::vector<std::string>& field_names();
 

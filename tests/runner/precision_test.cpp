@@ -127,6 +127,29 @@ TEST_F(Pair, AnAdaptiveRunThatIsRepeatedTakesTheSameSteps) {
   EXPECT_EQ(repeated.digest, once.digest);
 }
 
+TEST_F(Pair, TheFastestOfSeveralSamplesCounts) {
+  RunRequest request;
+  request.scene = "two_elements";
+  request.steps = 50;
+  const RunResult once = run_scene(request);
+  EXPECT_EQ(once.samples, 1);
+  EXPECT_TRUE(once.balance);
+  request.has_balance = false;
+  for (const double repeat_for : {0.0, 0.005}) {
+    request.samples = 40;
+    request.repeat_for = repeat_for;
+    const RunResult fastest = run_scene(request);
+    EXPECT_EQ(fastest.status, "ok");
+    EXPECT_EQ(fastest.samples, 40);
+    EXPECT_EQ(fastest.runs > 1, repeat_for > 0);
+    EXPECT_GE(fastest.sample_s(), repeat_for * (1 - 1e-12));
+    EXPECT_EQ(fastest.digest, once.digest);
+    EXPECT_FALSE(fastest.balance);
+  }
+  request.samples = 0;
+  EXPECT_THROW(run_scene(request), InputError);
+}
+
 TEST_F(Pair, AStepThatMissesSavedTimesIsRefused) {
   write_solution(file("a"), found(1e-6));
   RunRequest request;

@@ -134,7 +134,9 @@ TEST_F(Scaling, AScaledTimeIsComparedWithOneRunOfAllSteps) {
   const double scaled = number(scalar, "extrapolated_wall_s");
   records.push_back(row(whole, 0, scaled / 1.03));
   EXPECT_NEAR(number(scalar, "scaling_error"), 0.03, 1e-12);
-  EXPECT_EQ(text_in(derive_table(study, records).rows.back(), "scaling_error"), "");
+  const Record once = derive_table(study, records).rows.back();
+  EXPECT_EQ(text_in(once, "scaling_error"), "");
+  EXPECT_EQ(text_in(once, "status"), "once");
 }
 
 TEST_F(Scaling, AFailedRankCostsTheCellItsScaling) {

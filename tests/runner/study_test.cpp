@@ -102,12 +102,16 @@ TEST_F(StudyOfRanks, FillTakesAsManyThreadsAsFillTheCoresWithTheRanks) {
 TEST_F(StudyOfRanks, SlowVariantsRunOnceWithAllStepsIfAsked) {
   study["scales"]["smoke"]["steps_for"] = {{variant, 4}};
   study["scales"]["smoke"]["whole_once"] = {variant};
-  const SpeedupStudy loaded = load({with({{"ranks", {1, 2}}})});
-  ASSERT_EQ(loaded.cells.size(), 3u);
-  EXPECT_EQ(loaded.cells[0].steps, 4);
-  EXPECT_EQ(loaded.cells[2].steps, 10);
-  EXPECT_TRUE(loaded.cells[2].is_whole_once);
-  EXPECT_EQ(loaded.cells[2].ranks, 1);
+  const SpeedupStudy on_one = load({with({{"ranks", {1, 2}}})}, 1);
+  ASSERT_EQ(on_one.cells.size(), 3u) << "2 ranks share the core";
+  EXPECT_EQ(on_one.cells[0].steps, 4);
+  EXPECT_EQ(on_one.cells[2].steps, 10);
+  EXPECT_TRUE(on_one.cells[2].is_whole_once);
+  EXPECT_EQ(on_one.cells[2].ranks, 1);
+  const SpeedupStudy on_two = load({with({{"ranks", {1, 2}}})}, 2);
+  ASSERT_EQ(on_two.cells.size(), 4u);
+  EXPECT_TRUE(on_two.cells[3].is_whole_once);
+  EXPECT_EQ(on_two.cells[3].ranks, 2);
 }
 
 TEST_F(StudyOfRanks, WrongKeysAreRefusedWithTheirPlace) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 Usage used_by(double cpu_s, double wait_s, double steal_s = 0) {
-  return {cpu_s, wait_s, steal_s, 0};
+  return {cpu_s, wait_s, steal_s, unknown, 0};
 }
 
 TEST(Contamination, WaitingForAProcessorCountsForAnyNumberOfWorkers) {
@@ -36,6 +36,21 @@ TEST(Contamination, ASingleWorkerHasNobodyToWaitFor) {
   EXPECT_TRUE(is_contaminated(used_by(0.48, 0), 0.5, 1));
   EXPECT_FALSE(is_contaminated(used_by(0.49, 0), 0.5, 1));
   EXPECT_FALSE(is_contaminated(used_by(0.0, 0), 0.01, 1)) << "the clock of CPU time is too coarse";
+}
+
+/// Threads of such a device and those that wait for them share processors.
+TEST(Contamination, WorkersThatWaitForADeviceAreDisturbedByOthersAlone) {
+  Usage used = used_by(0.9, 0.7);
+  EXPECT_TRUE(is_contaminated(used, 0.5, 2, true)) << "nothing is known of others";
+  used.others_s = 0.015;
+  EXPECT_FALSE(is_contaminated(used, 0.5, 2, true));
+  EXPECT_TRUE(is_contaminated(used, 0.5, 2)) << "workers that do not share wait for others alone";
+  used.others_s = 0.025;
+  EXPECT_TRUE(is_contaminated(used, 0.5, 2, true));
+  used.wait_s = 0.009;
+  EXPECT_FALSE(is_contaminated(used, 0.5, 2, true)) << "others ran elsewhere";
+  used.others_s = -0.02;
+  EXPECT_FALSE(is_contaminated(used, 0.5, 2, true));
 }
 
 TEST(UsageMeter, SeesTheTimeThatThisThreadComputes) {

@@ -109,6 +109,7 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
                        *request.stability_limit));
   if (!(request.repeat_for >= 0) || !std::isfinite(request.repeat_for))
     refuse(fmt::format("--repeat-for {:g}: give 0 s or more", request.repeat_for));
+  if (request.samples < 1) refuse(fmt::format("--samples {}: give at least 1", request.samples));
   if (request.repeat_for > 0 && request.ranks > 1)
     refuse("--repeat-for: only a run on 1 rank starts again");
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));

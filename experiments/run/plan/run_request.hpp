@@ -42,9 +42,11 @@ struct RunRequest {
   long check_tail = 2; ///< number of last steps of a longer run that the oracle checks; 0: none
   /// file of the scene's solution, to measure errors against; or empty
   std::string reference;
-  /// Shortest total time [s]. A shorter run is repeated from the start until this time was
+  long samples = 1; ///< samples that are taken of the run, of which the fastest counts
+  /// Shortest time of a sample [s]. A shorter run is repeated from the start until this time was
   /// measured.
   double repeat_for = 0;
+  bool has_balance = true; ///< follow the energy
 };
 
 } // namespace dss

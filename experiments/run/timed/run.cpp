@@ -178,7 +178,8 @@ RunResult run_scene(const RunRequest& request) {
   result.balance = timed.energy_balance();
   judge_check(result);
   judge_energy(plan, result);
-  if (is_ok_on_root(timed.executor(), result)) timed.repeat(request.repeat_for);
+  if (is_ok_on_root(timed.executor(), result))
+    timed.take_samples(request.samples, request.repeat_for);
   return result;
 }
 

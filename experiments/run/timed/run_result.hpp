@@ -51,7 +51,8 @@ struct RunResult {
   long steps = 0, warmup_steps = 0;
   int stages = 0; ///< force evaluations per step
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
-  long runs = 1;    ///< number of timed runs: wall_s is their mean, usage their sum
+  long samples = 1; ///< number of samples, of which the fastest counts
+  long runs = 1;    ///< runs of that sample: wall_s is their mean, usage their sum
   double end_s = 0; ///< end time of the run [s]
   /// With adaptive steps, dt_s is the first step and `steps` counts accepted steps.
   std::optional<StepTolerance> adaptive;
@@ -75,7 +76,7 @@ struct RunResult {
   std::vector<std::string> files; ///< written files, as text
   /// status other than "ok": "unstable", "wrong", "bound"; reason: what happened, and where
   std::string status = "ok", reason;
-  double sample_s() const { return wall_s * double(runs); } ///< total measured time [s]
+  double sample_s() const { return wall_s * double(runs); } ///< time of that sample [s]
   double element_steps_per_s() const {
     return wall_s > 0 ? double(elements) * double(steps) / wall_s : 0;
   }

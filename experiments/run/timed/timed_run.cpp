@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <numeric>
 #include <utility>
 
 namespace dss {
@@ -77,21 +78,38 @@ void TimedRun::warm_up() {
   }
 }
 
-void TimedRun::repeat(double least_s) {
-  if (result_.wall_s >= least_s || !result_.model_report.promotions.empty()) return;
+RunResult TimedRun::sample(double least_s) {
   RunResult again;
-  long runs = 0;
-  for (; again.wall_s < least_s; ++runs) {
+  again.runs = 0;
+  do {
     write_initial_state(*executor_, problem_);
     if (plan_.adaptive)
       again.wall_s += adapt_again(again.usage);
     else
       advance_to(0, plan_.steps, again);
+    ++again.runs;
+  } while (again.wall_s < least_s);
+  again.wall_s /= double(again.runs);
+  again.usage = of_all_ranks(again.usage);
+  return again;
+}
+
+void TimedRun::take_samples(long samples, double least_s) {
+  if (!result_.model_report.promotions.empty()) return;
+  // All ranks decide by the clock of the first.
+  const auto of_root = [&](double wall_s) { return gather(*executor_, wall_s).front(); };
+  double fastest_s = of_root(result_.wall_s);
+  long taken = fastest_s < least_s ? 0 : 1;
+  result_.samples = samples;
+  if (taken == samples) return;
+  for (; taken < samples; ++taken) {
+    const RunResult again = sample(least_s);
+    // Checks of the model were timed only in the first run.
+    const double wall_s = of_root(again.wall_s) + result_.model_report.look_s;
+    if (taken > 0 && wall_s >= fastest_s) continue;
+    fastest_s = wall_s;
+    result_.wall_s = wall_s, result_.usage = again.usage, result_.runs = again.runs;
   }
-  // checks of the model were timed only in the first run
-  result_.wall_s = again.wall_s / double(runs) + result_.model_report.look_s;
-  result_.usage = again.usage;
-  result_.runs = runs;
   if (state_digest(*executor_, problem_.lattice.element_count, plan_.precision) == result_.digest)
     return;
   result_.status = "wrong";
@@ -143,23 +161,23 @@ std::vector<long> TimedRun::stops() const {
 
 bool TimedRun::advance_to(long step, long stop, RunResult& result) {
   bool is_finite = true;
+  const UsageMeter usage; // of the same region as the clock: the ratio CPU / wall is judged
   while (step < stop && is_finite) {
     const bool is_very_first = !std::exchange(has_begun_, true);
     const long count = std::min(is_very_first ? 1 : signal_steps, stop - step);
     const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
     // Lets all ranks start together, so that work of rank 0 alone is not timed.
     if (plan_.plugin->is_distributed) gather(*executor_, 0);
-    const UsageMeter usage; // covers the same region as the clock: the ratio CPU / wall is judged
     const auto start = Clock::now();
     const Outcome outcome = executor_->advance(count, signals);
     const double wall_s = seconds_since(start);
     result.wall_s += wall_s;
     if (is_very_first) result_.first_step_s += wall_s;
-    result.usage += usage.read();
     is_finite = outcome.is_finite;
     if (!is_finite) report_breakdown(step + outcome.step, outcome, result);
     step += count;
   }
+  result.usage += usage.read();
   return is_finite;
 }
 
@@ -190,12 +208,22 @@ void TimedRun::sum_over_ranks(const Traffic& before) {
   result_.bytes_per_step = sum(now.bytes - before.bytes) / steps;
   result_.communication_share =
       sum(now.wait_s - before.wait_s) / (result_.wall_s * result_.ranks.ranks);
-  Usage& usage = result_.usage;
+  result_.usage = of_all_ranks(result_.usage);
+}
+
+Usage TimedRun::of_all_ranks(Usage usage) {
+  const auto gathered = [&](double value) { return gather(*executor_, value); };
+  const auto sum = [&](double value) {
+    const std::vector<double> of_ranks = gathered(value);
+    return std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0);
+  };
   usage.cpu_s = sum(usage.cpu_s);
   usage.wait_s = sum(usage.wait_s);
   usage.involuntary_switches = long(sum(double(usage.involuntary_switches)));
-  for (const double of_rank : gather(*executor_, usage.steal_s)) // each reads that of its machine
-    usage.steal_s = std::max(usage.steal_s, of_rank);
+  // Each rank reads those of its machine.
+  usage.steal_s = std::ranges::max(gathered(usage.steal_s));
+  usage.others_s = std::ranges::max(gathered(usage.others_s));
+  return usage;
 }
 
 AdaptiveSteps TimedRun::adaptive_steps() {

@@ -40,10 +40,11 @@ public:
   TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result);
 
   void run();
-  /// Repeats a short run until `least_s` seconds were measured, and replaces its time. Repeated
-  /// runs pause nowhere if their steps are equal. The first run, which paused for inspections,
-  /// serves as warm-up.
-  void repeat(double least_s);
+  /// Takes so many samples of the same run, and makes the fastest the time of the result: other
+  /// work only slows. Runs of a sample take at least `least_s` seconds together. The first run,
+  /// which paused for inspections, is a sample if it took so long. Later runs pause nowhere if
+  /// their steps are equal.
+  void take_samples(long samples, double least_s);
 
   /// The energy balance of the run, after run(). Short runs of small scenes are computed once more,
   /// with a look at each step; otherwise looks were taken on the way. Empty if the run has none,
@@ -76,6 +77,9 @@ private:
   bool is_finite_after(long step);
   void report_breakdown(long step, const Outcome& outcome, RunResult& result) const;
   void sum_over_ranks(const Traffic& before);
+  Usage of_all_ranks(Usage usage);
+  /// Runs from the initial state, again and again, until this took `least_s` seconds.
+  RunResult sample(double least_s);
 
   AdaptiveSteps adaptive_steps();
   /// Advances by adaptive steps to the time that `stop` equal steps would reach.
@@ -93,8 +97,8 @@ private:
 
   // The following functions follow the energy (timed_run_energy.cpp).
 
-  /// False for scenes that are too large, for runs against a solution, whose errors say more, and
-  /// for Rotation::small, whose equations keep no energy.
+  /// False if the request says so, for scenes that are too large, for runs against a solution,
+  /// whose errors say more, and for Rotation::small, whose equations keep no energy.
   bool has_balance() const;
   /// Follows the energy from the state that was written to the executor, after `step` steps.
   /// @param state  null: the initial state

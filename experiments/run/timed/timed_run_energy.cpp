@@ -22,7 +22,7 @@ constexpr long most_looked_at = 2'000'000;
 } // namespace
 
 bool TimedRun::has_balance() const {
-  return !plan_.reference && equations() != Rotation::small &&
+  return request_.has_balance && !plan_.reference && equations() != Rotation::small &&
          problem_.lattice.element_count <= balanced_elements;
 }
 

@@ -78,6 +78,7 @@ ChainStudy read_chain(const StudyFile& file) {
   chain.saved_times = object.require("saved_times").count(1);
   chain.bar = object.require("bar").positive();
   chain.repetitions = scale.require("repetitions").count(1);
+  chain.samples = int(scale.whole_or("samples", 1, chain.samples));
   chain.sample_s = scale.require("sample_s").positive();
   chain.error_s = scale.positive_or("error_s", chain.error_s);
   scale.finish();

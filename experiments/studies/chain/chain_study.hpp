@@ -43,6 +43,7 @@ struct ChainStudy {
   /// Stages and then neighbours: everything that is timed.
   std::vector<ChainStage> timed() const;
   int repetitions = 9;
+  int samples = 1; ///< of a repetition; the fastest counts
   double sample_s = 0.1;
   /// Time for the errors of a slow stage [s]: they are taken at as many saved times as it reaches,
   /// but at least at one.

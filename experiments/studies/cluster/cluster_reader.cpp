@@ -1,4 +1,6 @@
+#include "experiments/measure/left_out.hpp"
 #include "experiments/measure/study_file.hpp"
+#include "experiments/measure/study_names.hpp"
 #include "experiments/measure/study_sets.hpp"
 #include "experiments/run/cluster/simulation.hpp"
 #include "experiments/studies/cluster/cluster_study.hpp"
@@ -6,7 +8,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <set>
 
 namespace dss {
 namespace {
@@ -39,10 +40,7 @@ void read_problems(ObjectNode& object, SimulationBlock& block) {
 }
 
 void read_choices(ObjectNode& object, SimulationBlock& block) {
-  const Node platforms = object.require("platforms");
-  block.platforms = platforms.names();
-  for (const std::string& name : block.platforms)
-    platforms.placed([&] { Platform::require_known(name); });
+  block.platforms = platforms_in(object.require("platforms"));
   block.halos =
       object.known_names_or("halos", "halo strategy of a simulation", simulated_halos(), {"auto"});
   block.decompositions = object.names_or("decompositions", {"strips"});
@@ -89,20 +87,15 @@ SimulationBlock read_block(const Node& node) {
 /// Reads all blocks. Loads no scene of a block that a scale leaves out, because loading a large
 /// scene takes seconds.
 std::vector<SimulationBlock> read_blocks(const Node& simulation, ObjectNode& scale) {
-  const std::vector<std::string> labels = scale.names_or("leave_out", {});
+  LeftOut left_out(scale);
   std::vector<SimulationBlock> blocks;
-  std::set<std::string> known;
   for (const Node& item : simulation.list()) {
     SimulationBlock block = read_block(item);
-    known.insert(block.label);
-    if (std::ranges::find(labels, block.label) != labels.end()) continue;
+    if (left_out.has(block.label)) continue;
     for (const auto& set : block.sets) item.placed([&] { load_scene(block.scene, set); });
     blocks.push_back(std::move(block));
   }
-  for (const std::string& label : labels)
-    if (!known.contains(label))
-      scale.require("leave_out")
-          .fail(fmt::format("no block of \"simulation\" has the label \"{}\"", label));
+  left_out.require_all_known("block of \"simulation\"");
   return blocks;
 }
 

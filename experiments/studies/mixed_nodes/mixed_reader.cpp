@@ -1,10 +1,9 @@
+#include "experiments/measure/left_out.hpp"
+#include "experiments/measure/study_names.hpp"
 #include "experiments/measure/study_sets.hpp"
 #include "experiments/run/cluster/simulation.hpp"
 #include "experiments/studies/mixed_nodes/mixed_study.hpp"
 #include "variants/api/distribution.hpp"
-
-#include <algorithm>
-#include <set>
 
 namespace dss {
 namespace {
@@ -39,10 +38,7 @@ MixedCase read_case(const Node& item, const MixedStudy& study) {
   MixedCase one;
   one.label = object.require("label").name();
   one.sets = combinations(object, "set");
-  const Node platforms = object.require("platforms");
-  one.platforms = platforms.names();
-  for (const std::string& name : one.platforms)
-    platforms.placed([&] { Platform::require_known(name); });
+  one.platforms = platforms_in(object.require("platforms"));
   one.halos =
       object.known_names_or("halos", "halo strategy of a simulation", simulated_halos(), {"auto"});
   for (const Node& mix : object.require("mixes").items(1))
@@ -69,17 +65,12 @@ MixedStudy read_mixed(const StudyFile& file) {
   study.scene = object.require("scene").name();
   study.steps = object.require("steps").whole(1);
   read_nodes(object.require("nodes"), study);
-  const std::vector<std::string> left_out = scale.names_or("leave_out", {});
-  std::set<std::string> known;
+  LeftOut left_out(scale);
   for (const Node& item : object.require("cases").items(1)) {
     MixedCase one = read_case(item, study);
-    known.insert(one.label);
-    if (std::ranges::find(left_out, one.label) == left_out.end())
-      study.cases.push_back(std::move(one));
+    if (!left_out.has(one.label)) study.cases.push_back(std::move(one));
   }
-  for (const std::string& label : left_out)
-    if (!known.contains(label))
-      scale.require("leave_out").fail("no case has the label \"" + label + "\"");
+  left_out.require_all_known("case");
   read_held(object.require("held"), study);
   study.pairs = scale.whole_or("pairs", 1, study.pairs);
   object.finish();

@@ -78,6 +78,7 @@ Record measured_row(const SpeedupStudy& study, const StudySamples& samples, cons
         "its bits are not those of the other variants with FMA, threads, ranks or repetitions";
   }
   if (row["status"] == "ok" && sample->is_oversubscribed()) row["status"] = "oversubscribed";
+  if (row["status"] == "ok" && cell.is_whole_once) row["status"] = "once";
   put_scaling_error(study, samples, cell, row);
   put_speedups(study, samples, cell, row);
   put_scaling(study, samples, cell, row);
