@@ -41,21 +41,27 @@ test-aarch64: build
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.
 UNTIMED_STUDIES := error_budget failures continuum
-PAPER_STUDIES := table1 table2 table3 paper_table1 paper_table2 paper_table3
-STUDIES := chain chain_block chain_bending kernels $(PAPER_STUDIES) work_precision \
-  advise stability model_ladder statics balance cluster mixed_nodes
+# Tables of speed-ups are measured in three parts, with other studies in between: a busy neighbour
+# of the machine stays for minutes, and so disturbs only some of their rounds.
+SPREAD := table1 table2 table3
+PAPER_STUDIES := paper_table1 paper_table2 paper_table3
+STUDIES := chain chain_block chain_bending kernels
+LATER_STUDIES := work_precision advise stability model_ladder statics balance cluster mixed_nodes
 # Five minutes of measuring: the paper's tables and the chain alone.
 ifeq (quick,$(SCALE))
 UNTIMED_STUDIES :=
-STUDIES := chain $(PAPER_STUDIES)
+STUDIES := chain
+LATER_STUDIES :=
 endif
+ORDER := $(SPREAD:%=begin-%) $(STUDIES:%=study-%) $(SPREAD:%=go-on-%) $(LATER_STUDIES:%=study-%) \
+  $(SPREAD:%=end-%) $(PAPER_STUDIES:%=study-%)
 SIDE_BY_SIDE := --no-print-directory -j 2 --output-sync=target
 
 reproduce: TARGETS := --target dssbench
 reproduce: build
 	@$(MAKE) $(SIDE_BY_SIDE) verify-cpu verify-devices
 	@$(if $(UNTIMED_STUDIES),$(MAKE) $(SIDE_BY_SIDE) $(addprefix study-,$(UNTIMED_STUDIES)))
-	@for study in $(STUDIES); do $(MAKE) --no-print-directory study-$$study || exit 1; done
+	@for part in $(ORDER); do $(MAKE) --no-print-directory $$part || exit 1; done
 	@mkdir -p $(OUT)/fields
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 \
 	  --output $(OUT)/fields/plate_paper.vtu >/dev/null
@@ -68,9 +74,17 @@ verify-cpu:
 verify-devices:
 	@$(BUILD)/dssbench verify --quiet plate_paper --variant scalar,opencl,opencl-rhs
 
+# $(1): further options
+MEASURE = start=$$(date +%s); $(BUILD)/dssbench experiment $* --scale $(SCALE) --out $(OUT) $(1) && \
+  echo "== $@: $$(($$(date +%s) - start)) s"
 study-%:
-	@start=$$(date +%s); $(BUILD)/dssbench experiment $* --scale $(SCALE) --out $(OUT) && \
-	  echo "== $*: $$(($$(date +%s) - start)) s"
+	@$(call MEASURE)
+begin-%:
+	@$(call MEASURE,--rounds 3)
+go-on-%:
+	@$(call MEASURE,--rounds 3 --resume)
+end-%:
+	@$(call MEASURE,--resume)
 
 # All that needs a GPU. Without one, present results stay as they are.
 reproduce-gpu: TARGETS := --target dssbench

@@ -8,7 +8,8 @@ A page marks a quotation with its name in quotes.toml, and a table with its name
     | ... |
     <!--/table-->
 
-fill_pages.py writes what stands between the marks.
+fill_pages.py writes what stands between the marks. A name trial_NAME quotes the row NAME of
+results/trials/tables/trials.csv: figures that somebody measured once, for a choice of design.
 """
 import re
 import tomllib
@@ -64,6 +65,15 @@ def quoted(results, line):
     if any(map(is_missing, values)):
         raise Unknown(f"tables/{table}.csv has no value of {what} where {condition}")
     return form.format(*values).replace("%", " %")
+
+
+def of_trial(results, name):
+    """The figure of a trial."""
+    frame = Results(results.directory / "trials").table("trials", "name", "figure")
+    rows = frame[frame["name"] == name]
+    if len(rows) != 1:
+        raise Unknown(f"trials.csv has {len(rows)} rows {name}")
+    return rows.iloc[0]["figure"]
 
 
 def disturbed(row):
@@ -158,8 +168,49 @@ def sizes_table(results):
     return ["elements a side", *(size.removeprefix("n=") for size in sizes)], lines
 
 
-TABLES = {"chain": chain_table, "first": first_table, "gpu": gpu_table, "networks": network_table,
-          "sizes": sizes_table}
+def mix_table(results):
+    """Instructions of a pack of the spatial row, and its time beside that of these alone."""
+    variants = ["scalar", "avx2", "avx512"]
+    frame = results.table("attribution", "variant", "model", "precision", "part", "fma",
+                          "peak_bound_ns", "mix_bound_ns", "measured_in_l1_ns")
+    frame = frame[(frame["model"] == "spatial") & (frame["precision"] == "f64")
+                  & (frame["part"] == "stage_row")].set_index("variant")
+    rows = [frame.loc[variant] for variant in variants]
+    texts = (
+        ("fused multiply-adds", lambda row: f"{row['fma']:.0f}"),
+        ("sums and products", lambda row: f"{row['sums'] + row['products']:.0f}"),
+        ("lane shifts", lambda row: f"{row['shuffles']:.0f}"),
+        ("loads (of them of spilled registers)",
+         lambda row: f"{row['loads']:.0f} ({row['stack_loads']:.0f})"),
+        ("stores (of them of spilled registers)",
+         lambda row: f"{row['stores']:.0f} ({row['stack_stores']:.0f})"),
+        ("time of the fused multiply-adds alone (scalar: sums and products)",
+         lambda row: f"{row['peak_bound_ns']:.1f}"),
+        ("time of the mix without spilled registers",
+         lambda row: f"{row['mix_without_stack_bound_ns']:.1f}"),
+        ("**time of the mix as executed**", lambda row: f"{row['mix_bound_ns']:.1f}"),
+        ("**measured time of the row**", lambda row: f"{row['measured_in_l1_ns']:.1f}"),
+        ("time of the mix over measured time",
+         lambda row: f"{row['share_of_ceiling_in_l1']:.2f}"))
+    lines = [[name, *(text(row) for row in rows)] for name, text in texts]
+    return ["", "scalar", "AVX2", "AVX-512"], lines
+
+
+def continuum_table(results):
+    """Errors of the finest grids and of the limits of grids, over all modes of a check."""
+    frame = results.table("continuum", "check", "mode", "value", "error",
+                          optional=["set", "limit_error"])
+    lines = []
+    for check, rows in frame.groupby("check", sort=False):
+        finest = rows.loc[rows.groupby("mode")["value"].idxmax()]
+        ends = [[f"{column.min():+.0e}", f"{column.max():+.0e}"]
+                for column in (finest["error"], finest["limit_error"])]
+        lines.append([f"`{check}`", *(" to ".join(dict.fromkeys(pair)) for pair in ends)])
+    return ["check", "finest grid against theory", "limit by Richardson against theory"], lines
+
+
+TABLES = {"chain": chain_table, "continuum": continuum_table, "first": first_table,
+          "gpu": gpu_table, "mix": mix_table, "networks": network_table, "sizes": sizes_table}
 
 
 def markdown(head, lines):
@@ -183,7 +234,9 @@ def filled(text, results, quotes):
         name, old = match.groups()
         line = quotes.get(name)
         new = old
-        if line is None:
+        if name.startswith("trial_"):
+            new = attempt(name, old, lambda: of_trial(results, name.removeprefix("trial_")))
+        elif line is None:
             faults.append(f"{name}: is not in plots/quotes.toml")
         else:
             new = attempt(name, old, lambda: quoted(results, line))

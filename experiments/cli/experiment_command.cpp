@@ -15,13 +15,19 @@ void add_experiment_command(CLI::App& app, Chosen& chosen) {
       ->required();
   command
       ->add_option("--scale", options->scale,
-                   "A scale of the study: smoke (seconds), host (minutes), paper")
+                   "A scale of the study: smoke (seconds), quick, host (minutes), full")
       ->capture_default_str()
       ->type_name("SCALE");
   command->add_option("--out", options->directory, "Directory of raw/, tables/ and oracle/")
       ->capture_default_str();
   command->add_flag("--resume", options->resumes,
                     "Keep existing records and measure only what is missing");
+  command
+      ->add_option("--rounds", options->rounds,
+                   "Stop after so many rounds of repetitions, and run no other part of the study; "
+                   "--resume goes on. Rounds that are spread over hours outlast a busy neighbour")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
   command->add_flag("--dry-run", options->is_dry, "Print the plan and measure nothing");
   command->footer("Example: dssbench experiment table1_host --scale smoke --out "
                   "smoke-results\nExit code 1 if a cell failed or was wrong.");

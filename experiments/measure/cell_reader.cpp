@@ -90,7 +90,7 @@ void add_whole_runs(int cores, CellStudy& study) {
   std::vector<Cell> whole;
   for (const Cell& cell : study.cells)
     if (std::ranges::find(study.scale.whole_once, cell.variant) != study.scale.whole_once.end() &&
-        cell.steps < cell.full_steps && !cell.is_oversubscribed(cores)) {
+        cell.steps < cell.full_steps && !cell.is_oversubscribed(cores) && cell.skipped.empty()) {
       whole.push_back(cell);
       whole.back().steps = cell.full_steps;
       whole.back().is_whole_once = true;

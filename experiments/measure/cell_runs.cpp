@@ -58,7 +58,8 @@ public:
     take_over(file_.present());
   }
 
-  std::vector<Record> measure() {
+  /// @param rounds  as of run_cells
+  std::vector<Record> measure(long rounds) {
     for (CellState& state : cells_)
       if (!state.cell->skipped.empty() && state.records.empty())
         record(state, failure_record(place(*state.cell, 0, 0), state.cell->skipped_status(),
@@ -69,8 +70,11 @@ public:
     }
     for (long repetition = 0; repetition < study_.scale.max_repetitions && is_more_wanted();
          ++repetition) {
+      const std::size_t before = all_records_.size();
       if (!round(repetition)) break;
       update_convergence();
+      // A round that an earlier run measured adds nothing.
+      if (all_records_.size() > before && --rounds == 0) break;
     }
     if (const std::string report = patience_.report(); !report.empty()) {
       progress_.note(study_.name + ": " + report);
@@ -272,10 +276,11 @@ void require_same_scale(const std::string& raw, const CellStudy& study) {
 } // namespace
 
 std::vector<Record> run_cells(const CellStudy& study, const StudyPaths& paths, bool resume,
-                              const std::string& program, CellChecks& checks, Progress& progress) {
+                              const std::string& program, CellChecks& checks, long rounds,
+                              Progress& progress) {
   if (!resume) require_same_scale(paths.raw, study);
   make_directories(paths);
-  return CellRuns(study, paths, resume, program, checks, progress).measure();
+  return CellRuns(study, paths, resume, program, checks, progress).measure(rounds);
 }
 
 } // namespace dss

@@ -16,9 +16,11 @@ namespace dss {
 /// other cells continue.
 /// @param program  path of the program to run for each repetition: this program itself, except in
 /// tests
+/// @param rounds  stop after so many rounds; 0: measure all
 /// @return all records of the file, including those of other scales
 /// @throws InputError if nothing can be recorded
 std::vector<Record> run_cells(const CellStudy& study, const StudyPaths& paths, bool resume,
-                              const std::string& program, CellChecks& checks, Progress& progress);
+                              const std::string& program, CellChecks& checks, long rounds,
+                              Progress& progress);
 
 } // namespace dss

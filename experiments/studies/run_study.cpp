@@ -65,7 +65,8 @@ int run_study(Study& study, const StudyHead& head, const StudyOptions& options) 
   }
   make_directories(paths);
   Progress progress;
-  const StudyResult result = study.run({options.directory, paths, options.resumes, progress});
+  const StudyResult result =
+      study.run({options.directory, paths, options.resumes, options.rounds, progress});
   for (const NamedTable& named : result.tables)
     write_csv(study_paths(options.directory, named.name).table, without_empty_columns(named.table));
   fmt::print("{}\nTable: {}\n", result.text,
@@ -77,9 +78,14 @@ int run_study(Study& study, const StudyHead& head, const StudyOptions& options) 
 int run_study_file(const std::string& name_or_path, const StudyOptions& options) {
   const StudyFile file = open_study(name_or_path, options.scale, required_keys);
   const std::vector<std::unique_ptr<Study>> studies = read_studies(file);
+  const bool has_rounds =
+      std::ranges::any_of(studies, [](const auto& study) { return study->has_rounds(); });
+  if (options.rounds > 0 && !has_rounds)
+    throw InputError(fmt::format("--rounds: {} is not measured in rounds", file.name));
   int code = exit_success;
   for (const auto& study : studies)
-    code = std::max(code, run_study(*study, {file.name, file.title, options.scale}, options));
+    if (options.rounds == 0 || study->has_rounds())
+      code = std::max(code, run_study(*study, {file.name, file.title, options.scale}, options));
   const bool has_records =
       std::ranges::any_of(studies, [](const auto& study) { return study->keeps_records(); });
   if (!options.is_dry && !has_records)

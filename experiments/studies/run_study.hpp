@@ -13,6 +13,7 @@ struct StudyOptions {
   std::string directory = "results"; ///< directory of raw/, tables/ and oracle/
   bool resumes = false;
   bool is_dry = false; ///< only print the plan
+  long rounds = 0;     ///< stop after so many rounds of repetitions; 0: measure all
 };
 
 /// Name, title and scale of a study, as its output shows them.

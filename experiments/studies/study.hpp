@@ -18,6 +18,7 @@ struct StudyRun {
   std::string directory; ///< directory of raw/, tables/ and oracle/
   StudyPaths paths;      ///< paths of the study's own files
   bool resumes = false;  ///< keep existing records
+  long rounds = 0;       ///< stop after so many rounds of repetitions; 0: measure all
   Progress& progress;
 
   std::function<void(const std::string&)> note() const {
@@ -55,6 +56,8 @@ public:
   virtual StudyResult run(const StudyRun& how) = 0;
   /// True if the study itself writes raw/NAME.csv and the circumstances of these records.
   virtual bool keeps_records() const { return false; }
+  /// True if the study measures in rounds, and can stop after some of them.
+  virtual bool has_rounds() const { return false; }
 };
 
 /// A study that makes one table. Its kind gives four functions: `read` (StudyFile -> its own type),

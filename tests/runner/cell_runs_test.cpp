@@ -27,7 +27,7 @@ protected:
     study.scale.patience_s = 10;
     study.cells = {cell("scalar", 1)};
   }
-  CellSample measured(int disturbed) {
+  CellSample measured(int disturbed, long rounds = 0, bool resume = false) {
     const std::string script = file("program");
     std::ofstream(script) << "#!/bin/sh\ncd " << directory.string() << "\n"
                           << "echo run >> runs\n"
@@ -39,7 +39,7 @@ protected:
     NoChecks checks;
     Progress progress;
     const StudyPaths paths = study_paths(directory.string(), study.name);
-    records = run_cells(study, paths, false, script, checks, progress);
+    records = run_cells(study, paths, resume, script, checks, rounds, progress);
     std::ifstream stream(paths.context);
     context.assign(std::istreambuf_iterator<char>(stream), {});
     return samples_of(records).at(0);
@@ -55,6 +55,12 @@ TEST_F(DisturbedRuns, AreRepeatedUntilTheyAreCleanAndTheStudySaysHowOften) {
   EXPECT_EQ(sample.contaminated, 0);
   EXPECT_EQ(records.size(), 2u + 3) << "all attempts are recorded";
   EXPECT_NE(context.find("repeated 3 disturbed repetitions"), std::string::npos) << context;
+}
+
+TEST_F(DisturbedRuns, RoundsCanBeSpreadOverSeveralRunsOfTheStudy) {
+  EXPECT_EQ(measured(0, 1).repetitions.size(), 1u);
+  EXPECT_EQ(measured(0, 1, true).repetitions.size(), 2u);
+  EXPECT_EQ(records.size(), 2u);
 }
 
 TEST_F(DisturbedRuns, AreRepeatedAtMostAsOftenAsTheStudySays) {

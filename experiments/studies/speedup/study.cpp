@@ -18,11 +18,12 @@ public:
 
   StudyResult run(const StudyRun& how) override {
     OracleChecks checks(study_, how.paths.oracle_directory, how.resumes, how.note());
-    const Table table = derive_table(
-        study_, run_cells(study_, how.paths, how.resumes, this_program, checks, how.progress));
+    const Table table = derive_table(study_, run_cells(study_, how.paths, how.resumes, this_program,
+                                                       checks, how.rounds, how.progress));
     return {{{study_.name, table}}, table_text(study_, table), is_without_failures(table)};
   }
   bool keeps_records() const override { return true; }
+  bool has_rounds() const override { return true; }
 
 private:
   const SpeedupStudy study_;

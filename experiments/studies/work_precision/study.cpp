@@ -22,7 +22,7 @@ public:
   StudyResult run(const StudyRun& how) override {
     SolutionChecks checks(study_, how.paths.oracle_directory, how.resumes, how.note());
     const std::vector<Record> records =
-        run_cells(study_, how.paths, how.resumes, this_program, checks, how.progress);
+        run_cells(study_, how.paths, how.resumes, this_program, checks, how.rounds, how.progress);
     const Table points = precision_table(study_, records),
                 cheapest = cheapest_table(study_, points);
     const std::string budget =
@@ -36,6 +36,7 @@ public:
             is_without_failures(points)};
   }
   bool keeps_records() const override { return true; }
+  bool has_rounds() const override { return true; }
 
 private:
   const PrecisionStudy study_;
