@@ -25,7 +25,8 @@ void add_experiment_command(CLI::App& app, Chosen& chosen) {
   command
       ->add_option("--rounds", options->rounds,
                    "Stop after so many rounds of repetitions, and run no other part of the study; "
-                   "--resume goes on. Rounds that are spread over hours outlast a busy neighbour")
+                   "--resume goes on. If other studies run in between, a busy neighbour disturbs "
+                   "only some of the rounds")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
   command->add_flag("--dry-run", options->is_dry, "Print the plan and measure nothing");

@@ -40,7 +40,10 @@ class Record:
         times, longest_s = self._read_times(path.with_suffix(".csv"))
         self.first, self.last, self.count = times[0], times[-1], len(times)
         resumptions = sorted(pandas.to_datetime(text.get("resumed_utc", []), utc=True))
-        self.kept = kept_of(times, resumptions, longest_s)  # rows before the last pause
+        # Rows before the last pause. Only the same program on the same machine resumes a study that
+        # names its sources: a reproduction measures some studies in parts.
+        least_pause = SESSION_GAP if self.sources else datetime.timedelta(0)
+        self.kept = kept_of(times, resumptions, longest_s, least_pause)
         self.kept_until = times[self.kept - 1] if self.kept else None
         self.resumed = times[self.kept] if self.kept else None
 
@@ -78,8 +81,8 @@ class Record:
         return f"commit {self.commit[:9] or 'unknown'}{changes}, {day(time or self.first)}"
 
 
-def kept_of(times, resumptions, longest_s):
-    """The number of repetitions that the last --resume kept.
+def kept_of(times, resumptions, longest_s, least_pause=datetime.timedelta(0)):
+    """The number of repetitions that the last --resume kept, after a pause of at least so long.
 
     Newer records say when they were resumed. In older ones a long pause shows it.
     """
@@ -89,7 +92,8 @@ def kept_of(times, resumptions, longest_s):
         pause = PAUSE + 3 * datetime.timedelta(seconds=float(longest_s))
         breaks = [place for place in range(1, len(times))
                   if times[place] - times[place - 1] > pause]
-    return next((place for place in reversed(breaks) if 0 < place < len(times)), 0)
+    return next((place for place in reversed(breaks) if 0 < place < len(times)
+                 and times[place] - times[place - 1] >= least_pause), 0)
 
 
 class Ages:

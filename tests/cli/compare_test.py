@@ -50,6 +50,40 @@ class Compare(ProgramTest):
             self.assertIn("no claim: wrong", result.stdout)
             self.assertNotIn("faster", result.stdout)
 
+    def test_compare_says_whether_speedups_repeat_themselves(self):
+        head = ("label,set,precision,status,speedup_vs_x,speedup_vs_x_low,speedup_vs_x_high,"
+                "factor_y,factor_y_low,factor_y_high\n")
+
+        def table(name, *speedups, more=""):
+            rows = [f"cell,n=5,f{n},ok,{s},{0.9 * s},{1.1 * s},,,\n"
+                    for n, s in enumerate(speedups)]
+            # a base over itself, and a second row of a cell without a speed-up
+            return self.write(name, head + "base,n=5,f0,ok,1,1,1,,,\n" + "".join(rows)
+                              + "cell,n=5,f0,once,,,,,,\n" + more)
+
+        first = table("first.csv", 2, 10, 30)
+        result = dssbench("compare", first, table("same.csv", 2.1, 11.5, 30))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 of 3 medians lie in each other's intervals, 3 of 3 intervals overlap",
+                      result.stdout)
+        self.assertIn("5.0 % (median), at most by 15.0 %: the result repeats itself",
+                      result.stdout)
+        result = dssbench("compare", first, table("other.csv", 2, 10, 40))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("2 of 3 intervals overlap", result.stdout)
+        self.assertIn("does not repeat itself", result.stdout)
+        self.assertIn("apart", result.stdout)
+        # a factor counts, and so does what is missing
+        chain = table("chain.csv", 2, 10, more="stage,,f64,ok,,,,3,2.9,3.1\n")
+        self.assertEqual(dssbench("compare", chain, chain).returncode, 0)
+        result = dssbench("compare", chain, table("failed.csv", 2, 10))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("only in OLD", result.stdout)
+        self.assert_refused(2, ["no speed-up with an interval in common"], "compare", first,
+                            self.write("empty.csv", head))
+        self.assert_refused(2, ["two rows are"], "compare", first,
+                            table("twice.csv", 2, more="cell,n=5,f0,ok,2,1.9,2.1,,,\n"))
+
     def test_compare_refuses_what_is_no_result(self):
         self.assert_refused(2, ["x.csv", '"cell"'], "compare", self.write("x.csv", "a,b\n1,2\n"),
                             self.path("x.csv"))

@@ -85,6 +85,26 @@ class Quotes(unittest.TestCase):
         self.assertIn("no_such_name: is not in plots/quotes.toml", result.stderr)
         self.assertEqual(result.returncode, 1)
 
+    def test_a_trial_is_quoted_by_its_name(self):
+        (self.directory / "trials" / "tables").mkdir(parents=True)
+        (self.directory / "trials" / "tables" / "trials.csv").write_text(
+            "name,figure\na,0.9 to 1.1\ntwice,1\ntwice,2\n", encoding="utf-8")
+        text, faults = quotes.filled("<!--trial_a-->5<!--/--> <!--trial_b-->6<!--/--> "
+                                     "<!--trial_twice-->7<!--/-->", Results(self.directory), {})
+        self.assertEqual(text, "<!--trial_a-->0.9 to 1.1<!--/--> <!--trial_b-->6<!--/--> "
+                               "<!--trial_twice-->7<!--/-->")
+        self.assertEqual(faults, ["trial_b: trials.csv has 0 rows b",
+                                  "trial_twice: trials.csv has 2 rows twice"])
+
+    def test_every_trial_is_quoted_and_says_where_it_was_measured(self):
+        pages = "".join(path.read_text(encoding="utf-8") for path in ROOT.rglob("*.md")
+                        if "build" not in path.relative_to(ROOT).parts)
+        frame = Results(ROOT / "results" / "trials").table("trials", "name", "figure", "what",
+                                                           "machine", "commit", "date")
+        self.assertFalse(frame.isna().any().any())
+        for name in frame["name"]:
+            self.assertIn(f"<!--trial_{name}-->", pages)
+
     def test_every_quotation_of_the_list_is_used(self):
         pages = "".join(path.read_text(encoding="utf-8") for path in ROOT.rglob("*.md")
                         if "build" not in path.relative_to(ROOT).parts)

@@ -12,12 +12,13 @@ import report
 import sample
 
 try:
-    import pandas  # noqa: F401
+    import pandas
     from matplotlib.figure import Figure
 except ImportError as missing:
     report.skip_all(f"this python has no {missing.name}")
 sys.path.insert(0, str(report.ROOT / "plots"))
 import body_picture  # noqa: E402
+from tables import age  # noqa: E402
 
 
 def read(path):
@@ -101,6 +102,16 @@ class ReportTest(unittest.TestCase):
         self.assertIn("4 of 7 records are", self.section("chain"))
         self.assertIn("kept by --resume", self.section("chain"))
         self.assertNotIn("old", self.section("table-1-host")[:400])
+
+    def test_a_study_that_a_reproduction_measures_in_parts_is_not_old(self):
+        times = [pandas.Timestamp("2030-01-01T12:00Z") + pandas.Timedelta(minutes=minutes)
+                 for minutes in (0, 1, 20, 21, 40)]
+        parts = [times[2] - pandas.Timedelta(seconds=5), times[4] - pandas.Timedelta(seconds=5)]
+        self.assertEqual(age.kept_of(times, parts, 1), 4)
+        self.assertEqual(age.kept_of(times, parts, 1, age.SESSION_GAP), 0)
+        times[4] += pandas.Timedelta(hours=3)
+        self.assertEqual(age.kept_of(times, [parts[0], times[4] - pandas.Timedelta(seconds=5)], 1,
+                                     age.SESSION_GAP), 4)
 
     def test_a_table_without_a_record_is_of_unknown_age_whatever_the_time_of_its_file(self):
         directory = self.directory / "unrecorded"
