@@ -20,6 +20,12 @@ def fill(*arguments):
                           text=True, check=False)
 
 
+def all_pages():
+    """The text of all pages of this tree."""
+    return "".join(path.read_text(encoding="utf-8") for path in ROOT.rglob("*.md")
+                   if "build" not in path.relative_to(ROOT).parts)
+
+
 class Quotes(unittest.TestCase):
     def setUp(self):
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="dssbench-quotes-"))
@@ -97,8 +103,7 @@ class Quotes(unittest.TestCase):
                                   "trial_twice: trials.csv has 2 rows twice"])
 
     def test_every_trial_is_quoted_and_says_where_it_was_measured(self):
-        pages = "".join(path.read_text(encoding="utf-8") for path in ROOT.rglob("*.md")
-                        if "build" not in path.relative_to(ROOT).parts)
+        pages = all_pages()
         frame = Results(ROOT / "results" / "trials").table("trials", "name", "figure", "what",
                                                            "machine", "commit", "date")
         self.assertFalse(frame.isna().any().any())
@@ -106,8 +111,7 @@ class Quotes(unittest.TestCase):
             self.assertIn(f"<!--trial_{name}-->", pages)
 
     def test_every_quotation_of_the_list_is_used(self):
-        pages = "".join(path.read_text(encoding="utf-8") for path in ROOT.rglob("*.md")
-                        if "build" not in path.relative_to(ROOT).parts)
+        pages = all_pages()
         for name in quotes.read_quotes():
             self.assertIn(f"<!--{name}-->", pages)
 

@@ -15,8 +15,7 @@ using fixture::rk4;
 /// Balance of a run by the oracle.
 /// @param between  steps between looks
 /// @param change   what is done to the state before a look after `step` steps; for constant
-/// signals,
-///     because time restarts
+///     signals, because time restarts
 EnergyShares balance_of(const Problem& problem, long steps, long between, bool follows_dampers,
                         const std::function<void(long, std::vector<double>&)>& change = {}) {
   Oracle<double> oracle(problem, rk4, problem.dt);
