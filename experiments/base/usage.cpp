@@ -74,14 +74,18 @@ UsageMeter::Reading UsageMeter::reading() {
   now.usage.steal_s = times.steal_s;
   now.idle_s = times.idle_s;
   now.processors = times.processors;
-  now.usage.wait_s = queue_wait_s();
   return now;
 }
 
-UsageMeter::UsageMeter() : start_(reading()) { read_processor(start_.usage); }
+UsageMeter::UsageMeter() {
+  const double wait_s = queue_wait_s();
+  start_ = reading();
+  start_.usage.wait_s = wait_s;
+}
 
 Usage UsageMeter::read() const {
-  const Reading now = reading();
+  Reading now = reading();
+  now.usage.wait_s = queue_wait_s();
   const Usage &end = now.usage, &start = start_.usage;
   Usage used{end.cpu_s - start.cpu_s, end.wait_s - start.wait_s, end.steal_s - start.steal_s,
              std::numeric_limits<double>::quiet_NaN(),

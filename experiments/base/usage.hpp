@@ -30,14 +30,15 @@ public:
   Usage read() const;
 
 private:
-  /// What the counters say, and the time [s] that the processors had since the machine started:
-  /// they ran this process, something else or nothing.
+  /// What the counters say at a moment. Between two readings the processors ran this process,
+  /// something else or nothing.
   struct Reading {
     Usage usage;
     double idle_s = 0; ///< of all processors
     int processors = 0;
     std::chrono::steady_clock::time_point when;
   };
+  /// All but the time in run queues.
   static Reading reading();
 
   Reading start_;

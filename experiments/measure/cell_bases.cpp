@@ -39,9 +39,17 @@ bool is_scaling_base(const CellStudy& study, const Cell& cell) {
   });
 }
 
+/// True if the study has a second cell like this one.
+static bool has_twin(const CellStudy& study, const Cell& cell) {
+  Cell twin = cell;
+  twin.is_twin = true;
+  return std::ranges::any_of(study.cells,
+                             [&](const Cell& other) { return other.key() == twin.key(); });
+}
+
 bool is_partner(const CellStudy& study, const Cell& cell) {
   const bool is_base = std::ranges::find(study.bases, cell.variant) != study.bases.end();
-  return cell.is_twin || (is_base && cell.threads == 1 && cell.ranks == 1) ||
+  return has_twin(study, cell) || (is_base && cell.threads == 1 && cell.ranks == 1) ||
          is_scaling_base(study, cell);
 }
 

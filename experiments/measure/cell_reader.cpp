@@ -78,7 +78,9 @@ void add_twins(const std::string& variant, CellStudy& study) {
     const bool has_one = std::any_of(twins.begin(), twins.end(), [&](const Cell& twin) {
       return twin.problem_key() == cell.problem_key();
     });
-    if (cell.variant != variant || cell.ranks > 1 || !cell.skipped.empty() || has_one) continue;
+    if (cell.variant != variant || cell.ranks > 1 || cell.is_whole_once || !cell.skipped.empty() ||
+        has_one)
+      continue;
     twins.push_back(cell);
     twins.back().is_twin = true;
   }

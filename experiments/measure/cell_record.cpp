@@ -122,7 +122,7 @@ void put_identity(const RecordPlace& place, Record& row) {
 }
 
 /// Cells that others are compared with take twice as many samples: every speed-up depends on them.
-long sample_count(const CellStudy& study, const Cell& cell) {
+static long sample_count(const CellStudy& study, const Cell& cell) {
   const long samples = study.scale.samples;
   if (samples == 1 || !cell.is_compared(usable_cores())) return 1;
   return is_partner(study, cell) ? 2 * samples : samples;

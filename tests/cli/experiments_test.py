@@ -56,6 +56,15 @@ class Experiments(TinyStudyTest):
         self.assertEqual(self.experiment("--resume").returncode, 0)
         self.assertEqual(self.read("out/raw/tiny.csv").splitlines(keepends=True), resumed)
 
+    def test_rounds_can_be_spread_over_calls(self):
+        self.study()
+        for rounds, records in (("1", 3), ("5", 3 * 2)):
+            resume = () if rounds == "1" else ("--resume",)
+            self.assertEqual(self.experiment("--rounds", rounds, *resume).returncode, 0)
+            self.assertEqual(len(self.rows("raw")), records)
+        self.assert_refused(2, ["--rounds", "not measured in rounds"], "experiment", "failures",
+                            "--scale", "smoke", "--rounds", "1", "--out", self.path("out"))
+
     def scene_study(self, force):
         with open(os.path.join(SCENES, "two_elements.json"), encoding="utf-8") as file:
             scene = json.load(file)

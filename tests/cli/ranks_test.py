@@ -78,6 +78,13 @@ class Bits(ProgramTest):
             for key in ("state_digest", "steps", "rejected_steps", "least_step_s"):
                 self.assertEqual(other[key], one[key], (halo, key))
 
+    def test_samples_have_the_bits_of_the_first_run_with_equal_and_adaptive_steps(self):
+        adaptive = (*PLATE, "--integrator", "dopri5", "--rtol", "1e-5")
+        for run in (PLATE, adaptive):
+            found = record(*run, "--ranks", "2", "--samples", "3")
+            self.assertEqual((found["status"], found["samples"]), ("ok", 3), run)
+            self.assertEqual(found["state_digest"], record(*run)["state_digest"], run)
+
     def test_states_equal_those_of_one_process_with_each_strategy(self):
         # on ranks, auto takes only proven models
         scenes = (PLATE, ("run", "l_bracket", "--steps", "30", "--model", "spatial"))

@@ -114,6 +114,18 @@ TEST_F(StudyOfRanks, SlowVariantsRunOnceWithAllStepsIfAsked) {
   EXPECT_EQ(on_two.cells[3].ranks, 2);
 }
 
+TEST_F(StudyOfRanks, CellsThatOthersAreComparedWithTakeTwiceAsManySamples) {
+  study["scales"]["smoke"]["samples"] = 3;
+  study["base"] = {variant};
+  study["twin"] = "reference";
+  const SpeedupStudy loaded = load({with({{"variants", {variant, "reference", "scalar"}}})});
+  ASSERT_EQ(loaded.cells.size(), 4u);
+  const std::size_t samples[] = {6, 6, 3, 6}; // base, the original of the twin, another, the twin
+  for (std::size_t n = 0; n < 4; ++n)
+    EXPECT_TRUE(contains(run_arguments(loaded, loaded.cells[n], {}), std::to_string(samples[n])))
+        << loaded.cells[n].key();
+}
+
 TEST_F(StudyOfRanks, WrongKeysAreRefusedWithTheirPlace) {
   expect_refused({{"ranks", {1, "two"}}}, {"ranks.json", "/cells/0/ranks/1", "number of ranks"});
   expect_refused({{"ranks", {0}}}, {"/cells/0/ranks/0", "0"});

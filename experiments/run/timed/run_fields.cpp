@@ -192,7 +192,8 @@ const RunField fields[] = {
      [](R r) { return Json(r.wall_s); }},
     {"stages", "stages", "", "force evaluations a step", [](R r) { return Json(r.stages); }},
     {"samples", "samples", "",
-     "samples that one repetition took; the columns from wall_s on are of the fastest",
+     "samples that one repetition took; wall_s, runs, sample_s, element_steps_per_s and cpu_s to "
+     "contaminated are of the fastest, all others of the first run",
      [](R r) { return Json(r.samples); }},
     {"runs", "runs", "", "runs of the sample; wall_s is their mean",
      [](R r) { return Json(r.runs); }},
@@ -200,7 +201,8 @@ const RunField fields[] = {
      [](R r) { return Json(r.sample_s()); }},
     {"first_step_s", "first_step_s", "s", "making the executor, and the very first step",
      [](R r) { return Json(r.first_step_s); }, median},
-    {"cpu_s", "cpu_s", "s", "CPU time of all threads over the same region as wall_s",
+    {"cpu_s", "cpu_s", "s",
+     "CPU time of all threads while the steps advance: wall_s, and making the loads' values",
      [](R r) { return Json(r.usage.cpu_s / double(r.runs)); }},
     {"wait_s", "wait_s", "s",
      "time that threads were runnable and had no core; empty where the kernel does not tell",
@@ -209,7 +211,9 @@ const RunField fields[] = {
      "time that the hypervisor took from busy processors of the machine, in ticks of 10 ms",
      [](R r) { return Json(r.usage.steal_s / double(r.runs)); }},
     {"others_s", "others_s", "s",
-     "time that everything else on the machine ran, to some 0.01 s; empty where it is not known",
+     "time that everything else on the machine ran, to some 0.01 s; ranks on several machines "
+     "count "
+     "one another; empty where it is not known",
      [](R r) { return Json(r.usage.others_s / double(r.runs)); }},
     {"involuntary_switches", "involuntary_switches", "", "times that the kernel took a core away",
      [](R r) { return Json(r.usage.involuntary_switches); }},

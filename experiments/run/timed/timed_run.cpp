@@ -104,16 +104,18 @@ void TimedRun::take_samples(long samples, double least_s) {
   if (taken == samples) return;
   for (; taken < samples; ++taken) {
     const RunResult again = sample(least_s);
+    if (state_digest(*executor_, problem_.lattice.element_count, plan_.precision) !=
+        result_.digest) {
+      result_.status = "wrong";
+      result_.reason = "the bits of a later run from the same state are not those of the first";
+      return;
+    }
     // Checks of the model were timed only in the first run.
     const double wall_s = of_root(again.wall_s) + result_.model_report.look_s;
     if (taken > 0 && wall_s >= fastest_s) continue;
     fastest_s = wall_s;
     result_.wall_s = wall_s, result_.usage = again.usage, result_.runs = again.runs;
   }
-  if (state_digest(*executor_, problem_.lattice.element_count, plan_.precision) == result_.digest)
-    return;
-  result_.status = "wrong";
-  result_.reason = "the bits of a second run from the same state are not those of the first";
 }
 
 std::unique_ptr<Executor> TimedRun::created(Model model) {
@@ -161,7 +163,9 @@ std::vector<long> TimedRun::stops() const {
 
 bool TimedRun::advance_to(long step, long stop, RunResult& result) {
   bool is_finite = true;
-  const UsageMeter usage; // of the same region as the clock: the ratio CPU / wall is judged
+  // Not for each chunk: reading the queues would cost as much as the chunk of a small scene. So it
+  // also counts the signals' rows and the wait for the start of other ranks.
+  const UsageMeter usage;
   while (step < stop && is_finite) {
     const bool is_very_first = !std::exchange(has_begun_, true);
     const long count = std::min(is_very_first ? 1 : signal_steps, stop - step);
@@ -217,12 +221,13 @@ Usage TimedRun::of_all_ranks(Usage usage) {
     const std::vector<double> of_ranks = gathered(value);
     return std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0);
   };
+  // Each rank counts the other ranks among what ran beside it on its machine.
+  const double machine_s = std::ranges::max(gathered(usage.others_s + usage.cpu_s));
   usage.cpu_s = sum(usage.cpu_s);
   usage.wait_s = sum(usage.wait_s);
   usage.involuntary_switches = long(sum(double(usage.involuntary_switches)));
-  // Each rank reads those of its machine.
   usage.steal_s = std::ranges::max(gathered(usage.steal_s));
-  usage.others_s = std::ranges::max(gathered(usage.others_s));
+  usage.others_s = machine_s - usage.cpu_s;
   return usage;
 }
 
@@ -252,6 +257,7 @@ bool TimedRun::adapt_to(long stop) {
 
 double TimedRun::adapt_again(Usage& usage) {
   AdaptiveSteps adaptive = adaptive_steps();
+  if (plan_.plugin->is_distributed) gather(*executor_, 0); // as in advance_to
   const UsageMeter meter;
   for (const long stop : stops()) adaptive.advance_to(double(stop) * plan_.dt);
   usage += meter.read();

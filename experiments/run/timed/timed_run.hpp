@@ -43,7 +43,8 @@ public:
   /// Takes so many samples of the same run, and makes the fastest the time of the result: other
   /// work only slows. Runs of a sample take at least `least_s` seconds together. The first run,
   /// which paused for inspections, is a sample if it took so long. Later runs pause nowhere if
-  /// their steps are equal.
+  /// their steps are equal. After a change of the model there are no further samples: their start
+  /// would not be that of the first. Sets the status of the result if the bits of a run differ.
   void take_samples(long samples, double least_s);
 
   /// The energy balance of the run, after run(). Short runs of small scenes are computed once more,
