@@ -28,6 +28,9 @@ constexpr int lanes = int(sizeof(Pack<T>) / sizeof(T));
 template <class T>
 constexpr LaneMask all_lanes = LaneMask((1u << lanes<T>)-1);
 
+/// Brings a cache line into L2.
+inline void fetch(const char* line) { __builtin_prefetch(line, 0, 2); }
+
 /// Scalar a * b + c: fused exactly where the module's instruction set has FMA (never a call of the
 /// C library's software fma).
 template <class T>

@@ -2,6 +2,8 @@
 /// Operands of the fused row kernel: plain data that the engine fills and the kernel reads.
 #include "kernels/simd/simd.hpp"
 
+#include <compare>
+
 namespace dss {
 
 #include "kernels/stage_row/row_action.h"
@@ -10,6 +12,7 @@ namespace dss {
 /// row, `below` the face to the lower one.
 struct PackMasks {
   simd::LaneMask link_x = 0, link_y = 0, link_z = 0, below_y = 0, below_z = 0;
+  auto operator<=>(const PackMasks&) const = default;
 };
 
 /// Constants of a body, in the form of the kernels.
@@ -51,7 +54,10 @@ struct RowTask {
   const BodyConstants<T>* body = nullptr;
   const Applied<T>* applied = nullptr; ///< null for most rows
   const T* signals = nullptr;          ///< frame acceleration x, y, z, then the loads' values
-  const T* in = nullptr;               ///< input of the stage; one readable pack follows the row
+  /// A row of a later task, brought into L2 in parts along with the packs of this one; null: none.
+  const char* fetch = nullptr;
+  int fetch_lines = 0;   ///< cache lines a pack
+  const T* in = nullptr; ///< input of the stage; one readable pack follows the row
   const T *upper_y = nullptr, *upper_z = nullptr;
   T *carry_y = nullptr, *carry_z = nullptr; ///< link forces and couples for the upper rows
   /// What the lower rows left; may be the same buffers as carry_y and carry_z.

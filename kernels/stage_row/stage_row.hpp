@@ -48,19 +48,24 @@ struct StageRow {
   /// README.md has the measurements.
   static constexpr bool is_parked =
       P::axes == 3 && P::fields == 13 && !terms.is_material && !terms.is_bending && W > 1;
-  /// Plain packs have every link in the plane and no applied wrench. They take a copy of the loop's
-  /// body without branches. Spatial rows that are not parked are slower with it: straight code over
-  /// 13 fields spills more (README.md).
+  /// Plain packs have every link in the plane, or across all faces, and no applied wrench. They
+  /// take a copy of the loop's body without branches. Spatial rows that are not parked are slower
+  /// with it: straight code over 13 fields spills more (README.md).
   static constexpr bool has_plain_path = P::axes < 3 || P::fields < 13 || is_parked;
   /// With few registers, a fence for the compiler stands before the other path. Otherwise the
   /// compiler moves what both paths load to a place before the branch, and the plain path spills
   /// more. Scalar rows do not all gain from it (README.md).
   static constexpr bool has_path_fence =
       has_plain_path && !is_parked && W > 1 && simd::registers < 32;
-  static bool has_all_links(const PackMasks& masks) {
-    if constexpr (P::axes == 1) return masks.link_x == simd::all_lanes<T>;
-    if (P::axes == 3 && (masks.link_z | masks.below_z) != 0) return false;
-    return (masks.link_x & masks.link_y & masks.below_y) == simd::all_lanes<T>;
+  /// Copies of the loop's body.
+  enum path { general_path, plane_path, solid_path };
+  static path path_of(const PackMasks& masks) {
+    const bool has_x = masks.link_x == simd::all_lanes<T>;
+    if constexpr (P::axes == 1) return has_x ? plane_path : general_path;
+    if ((masks.link_y & masks.below_y) != simd::all_lanes<T>) return general_path;
+    if (P::axes == 2 || (masks.link_z | masks.below_z) == 0)
+      return has_x ? plane_path : general_path;
+    return (masks.link_z & masks.below_z) == simd::all_lanes<T> ? solid_path : general_path;
   }
 
   static element load_element(const T* p) {
@@ -264,10 +269,16 @@ struct StageRow {
     alignas(64) T places[2][std::size_t(parked_size)];
     if constexpr (is_parked) park(places[0], next);
     carried previous{zero<vec>(), zero<spin>()};
-    const auto one_pack = [&]<bool is_plain>(const int pack, const bool is_applied,
-                                             std::bool_constant<is_plain>) {
+    const char* fetch = task.fetch;
+    const int fetch_lines = task.fetch_lines;
+    const auto one_pack = [&]<path taken>(const int pack, const bool is_applied,
+                                          std::integral_constant<path, taken>) {
+      constexpr bool is_plain = taken != general_path;
       const PackMasks& masks = all_masks[pack];
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * stride;
+      // This loop also keeps the compiler from moving what the paths share to a place before their
+      // branch, where it would spill more.
+      for (int lines = fetch_lines; lines > 0; --lines, fetch += 64) simd::fetch(fetch);
       prepared i = next;
       i.e = load_element(in + place);
       next = prepare(in + place + stride);
@@ -280,14 +291,15 @@ struct StageRow {
       };
       if constexpr (is_parked) park(places[~pack & 1], next);
       read_again();
-      wrench sum = links_x<is_plain>(i, next, masks.link_x, previous);
+      wrench sum = links_x<taken == plane_path>(i, next, masks.link_x, previous);
       read_again();
       if constexpr (P::axes > 1)
         add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack,
                              stride, sum);
-      if constexpr (P::axes > 2 && !is_plain)
-        add_across<false>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack, stride,
-                          sum);
+      if constexpr (taken == solid_path) read_again();
+      if constexpr (P::axes > 2 && taken != plane_path)
+        add_across<is_plain>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack,
+                             stride, sum);
       sum = P::wrench_finished(sum, i, laws[0], tie, flags);
       if (is_applied) apply_wrenches(pack, sum);
       if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);
@@ -298,12 +310,15 @@ struct StageRow {
     };
     for (int pack = 0; pack < packs; ++pack) {
       const bool is_applied = unsigned(pack - applied_first) < unsigned(applied_packs);
-      if (has_plain_path && has_all_links(all_masks[pack]) && !is_applied && !is_accelerated)
-          [[likely]] {
-        one_pack(pack, false, std::true_type{});
+      const path taken = has_plain_path && !is_applied && !is_accelerated ? path_of(all_masks[pack])
+                                                                          : general_path;
+      if (taken == plane_path) {
+        one_pack(pack, false, std::integral_constant<path, plane_path>{});
+      } else if (P::axes == 3 && taken == solid_path) {
+        one_pack(pack, false, std::integral_constant<path, solid_path>{});
       } else {
         if constexpr (has_path_fence) std::atomic_signal_fence(std::memory_order_acq_rel);
-        one_pack(pack, is_applied, std::false_type{});
+        one_pack(pack, is_applied, std::integral_constant<path, general_path>{});
       }
     }
   }

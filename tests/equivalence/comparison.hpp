@@ -94,9 +94,12 @@ struct VariantRun {
   Precision precision = Precision::f64;
   int threads = 1;
   double dt = problem.dt;
+  int tile = 0;
 
   std::unique_ptr<Executor> executor() const {
-    return plugin.create({problem, method, model, precision, dt, threads});
+    Setup setup{problem, method, model, precision, dt, threads};
+    setup.tile = tile;
+    return plugin.create(setup);
   }
   State derivative(const State& state) const {
     const auto run = executor();

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <span>
 #include <tuple>
 
 namespace dss::test {
@@ -189,6 +190,28 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
     }
 }
 
+TEST_P(EveryVariant, has_bitwise_equal_states_for_tiles_of_any_size_and_threads) {
+  if (!plugin.has_tiles) GTEST_SKIP() << "has no tiles";
+  // Ranks and devices take one of each; what they add to the schedule does not depend on tiles.
+  const bool is_brief = is_composed(plugin);
+  const std::vector<Problem> problems{fixture::make_sponge(13, 7, 8, LinkLaw::paper, 1),
+                                      fixture::make_sponge(21, 4, 11, LinkLaw::material, 2)};
+  for (const Problem& problem : std::span(problems).first(is_brief ? 1 : 2))
+    for (const auto& [method, precision] : brief_schemes()) {
+      if (is_brief && (method.name != std::string("rk4") || precision != Precision::f64)) continue;
+      const State state = rounded(fixture::random_state(problem, 3, 2e-4, 0.02, 0.01), precision);
+      VariantRun run{plugin, problem, method, Model::spatial, precision};
+      const State whole = run.after(state, 20);
+      for (run.threads = 1; run.threads <= 3; run.threads += 2)
+        for (const int tile : is_brief ? std::vector{2} : std::vector{1, 2, 3, 5, 1000}) {
+          run.tile = tile;
+          EXPECT_EQ(differing_bits(whole, run.after(state, 20), precision), 0u)
+              << name(precision) << ' ' << method.name << ", tile " << tile << ", " << run.threads
+              << " threads";
+        }
+    }
+}
+
 /// Teams of threads are cut in the middle, where there are a load, a base acceleration and clamps.
 Problem driven(Problem problem) {
   const std::size_t middle = problem.lattice.element_count / 2;
@@ -307,10 +330,13 @@ Outcome advance_until_failure(Executor& run, const Problem& problem, const Metho
 
 TEST_P(EveryVariant, reports_the_same_first_failure_however_many_steps_and_threads) {
   std::vector<Problem> problems{fixture::make_block(9, 7, 1, LinkLaw::paper)};
-  if (!is_composed(plugin)) problems.push_back(long_blocks().front());
+  if (!is_composed(plugin)) {
+    problems.push_back(fixture::make_block(9, 8, 5, LinkLaw::paper)); // swept along y
+    problems.push_back(long_blocks().front());
+  }
   for (const Problem& problem : problems)
     for (const Method& method : methods()) {
-      if (&problem != &problems.front() && !method.is_in_place())
+      if (&problem == &problems.back() && problems.size() > 1 && !method.is_in_place())
         continue; // other methods make one step a pass
       const double dt =
           8 * stable_step(problem, *find_method("rk4")).dt; // above the limit of every method

@@ -41,6 +41,9 @@ struct Setup {
   std::string members{};
   /// Others than quaternions need a plug-in with has_all.
   Rotation rotation = Rotation::quaternion;
+  /// Rows across of a tile of the wavefront; 0: as many as suit the caches. Others than 0 need a
+  /// plug-in with has_tiles.
+  int tile = 0;
 };
 
 /// Checksum of the sizes of all types that program and module exchange. It differs if the module
@@ -79,6 +82,7 @@ struct Plugin {
   /// Has implicit methods and every Rotation too. Other variants have explicit methods and
   /// quaternions.
   bool has_all = false;
+  bool has_tiles = false; ///< takes Setup::tile
   /// Rotation of a run that asks for none.
   Rotation rotation = Rotation::quaternion;
   std::size_t layout = plugin_layout;
@@ -86,7 +90,7 @@ struct Plugin {
 
 /// Raise this with every change of Plugin, Executor or a type that they receive (Method, Problem,
 /// Model).
-constexpr int plugin_abi = 12;
+constexpr int plugin_abi = 13;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

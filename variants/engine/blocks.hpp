@@ -1,7 +1,7 @@
 #pragma once
 /// All blocks of rows of an executor, including the remote blocks of a part, and the places of rows
 /// in them.
-#include "variants/engine/wavefront.hpp"
+#include "variants/engine/block.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -15,12 +15,13 @@ public:
   /// @param cuts    first row of each own block, then the end of the last
   /// @param fields  numbers that a pack holds for each element
   /// @param steps   steps of a pass
-  void make(const PackedRows<T, W>& packed, const Method& method, const std::vector<int>& cuts,
-            int fields, int steps) {
-    const int rows = int(packed.rows.size()), halo = steps * method.stages * packed.reach;
+  /// @param stages  of a step
+  void make(const PackedRows<T, W>& packed, const std::vector<int>& cuts, int fields, int steps,
+            int stages) {
+    const int rows = int(packed.rows.size()), halo = steps * stages * packed.reach;
     if (packed.own_begin > 0) blocks_.emplace_back(packed, 0, packed.own_begin, fields, halo);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-      blocks_.emplace_back(packed, method, cuts[b], cuts[b + 1], fields, halo, steps);
+      blocks_.emplace_back(packed, cuts[b], cuts[b + 1], fields, halo, steps);
     if (packed.own_end < rows) blocks_.emplace_back(packed, packed.own_end, rows, fields, halo);
   }
   std::vector<Block<T, W>>& all() { return blocks_; }

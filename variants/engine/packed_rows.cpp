@@ -64,8 +64,6 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
     packs_across = std::max(packs_across, packed.first_pack + packed.packs);
     max_packs = std::max(max_packs, packed.packs);
   }
-  masks_.resize(packs);
-  for (PackedRow<T>& row : rows) row.masks = &masks_[row.pack_offset];
   mark_links();
   apply_loads(problem);
   apply_extra_links(problem);
@@ -179,8 +177,9 @@ void PackedRows<T, W>::mark_links() {
     const auto links_to = [&](int other, int x) {
       return other >= 0 && lattice.is_present(lattice.rows[std::size_t(other)], x);
     };
+    std::vector<PackMasks> of_row(std::size_t(rows[r].packs));
     each_cell(lattice, row, [&](std::size_t, int x) {
-      PackMasks& masks = masks_[rows[r].pack_offset + std::size_t(x / W - rows[r].first_pack)];
+      PackMasks& masks = of_row[std::size_t(x / W - rows[r].first_pack)];
       const auto bit = simd::LaneMask(1u << (x % W));
       if (lattice.is_present(row, x + 1)) masks.link_x |= bit;
       if (links_to(row.upper_y, x)) masks.link_y |= bit;
@@ -188,6 +187,7 @@ void PackedRows<T, W>::mark_links() {
       if (links_to(row.lower_y, x)) masks.below_y |= bit;
       if (links_to(row.lower_z, x)) masks.below_z |= bit;
     });
+    rows[r].masks = masks_.insert(std::move(of_row)).first->data();
   }
 }
 
@@ -257,8 +257,8 @@ void PackedRows<T, W>::apply_clamps(const Problem& problem) {
 
 template <class T, int W>
 std::size_t PackedRows<T, W>::bytes() const {
-  std::size_t sum = rows.size() * sizeof(PackedRow<T>) + masks_.size() * sizeof(PackMasks) +
-                    applied_index_.size() * sizeof(int);
+  std::size_t sum = rows.size() * sizeof(PackedRow<T>) + applied_index_.size() * sizeof(int);
+  for (const auto& masks : masks_) sum += masks.size() * sizeof(PackMasks);
   for (const auto& row : applied_) {
     sum += sizeof(AppliedRow) + row->free_lanes.size() * sizeof(simd::LaneMask);
     for (const Buffer<T>& values : row->values) sum += values.bytes();

@@ -6,6 +6,7 @@
 #include "variants/engine/kernel_set.hpp"
 
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace dss {
@@ -98,7 +99,8 @@ private:
   std::vector<bool> has_halo_; ///< rows with a halo element
   std::vector<RowShape> shapes_;
   std::vector<BodyConstants<T>> bodies_;
-  std::vector<PackMasks> masks_;
+  /// Equal rows share them, so that they stay in L1.
+  std::set<std::vector<PackMasks>> masks_;
   std::vector<int> applied_index_; ///< from row to index in applied_, or -1
   std::vector<std::unique_ptr<AppliedRow>> applied_;
   std::vector<Buffer<T>> extra_;

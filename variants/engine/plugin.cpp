@@ -12,6 +12,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .is_threaded = true,
                                       .is_distributed = false,
                                       .create = dss::create_row_executor,
-                                      .kernels = dss::compiled_kernels};
+                                      .kernels = dss::compiled_kernels,
+                                      .has_tiles = true};
   return &plugin;
 }

@@ -17,8 +17,10 @@ RowExecutor<T>::RowExecutor(const Setup& setup)
       rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows)
     row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
-  if (setup_.method.has_error_stage || !setup_.problem.extra_links.empty() ||
-      (part_ != nullptr && part_->is_every_stage))
+  const bool is_staged = setup_.method.has_error_stage || !setup_.problem.extra_links.empty() ||
+                         (part_ != nullptr && part_->is_every_stage);
+  if (is_staged) refuse_tile(setup_);
+  if (is_staged)
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(),
                     setup_.threads, part_);
   else
@@ -37,12 +39,15 @@ void RowExecutor<T>::make_blocks() {
                                                edge - packed_.own_begin >= 2 * halo)
     cuts = {packed_.own_begin, edge, packed_.own_end};
   steps_a_pass_ = steps_a_pass(packed_, method, cuts);
-  blocks_.make(packed_, method, cuts, stored_fields(), steps_a_pass_);
+  blocks_.make(packed_, cuts, stored_fields(), steps_a_pass_, method.stages);
   std::vector<Block<T>>& blocks = blocks_.all();
+  form_.is_by_rows = is_part();
+  form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, {cuts[0], cuts[1]},
+                           form_.is_by_rows, setup_.tile);
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (!blocks[b].is_remote())
       steps_.emplace_back(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem),
-                          blocks, b, steps_a_pass_);
+                          blocks, b, PassShape{steps_a_pass_, form_});
 }
 
 template <class T>
@@ -275,7 +280,8 @@ std::string RowExecutor<T>::schedule() const {
                ? "stage by stage: halos are exchanged in between"
                : "stage by stage: extra links break the order of rows";
   return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place" +
-         (steps_a_pass_ > 1 ? ", " + std::to_string(steps_a_pass_) + " steps a pass" : "");
+         (steps_a_pass_ > 1 ? ", " + std::to_string(steps_a_pass_) + " steps a pass" : "") +
+         (form_.tile != no_tiles ? ", tiles of " + std::to_string(form_.tile) + " rows" : "");
 }
 
 template <class T>

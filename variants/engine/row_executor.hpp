@@ -6,6 +6,7 @@
 #include "variants/engine/blocks.hpp"
 #include "variants/engine/staged.hpp"
 #include "variants/engine/state_rows.hpp"
+#include "variants/engine/wavefront.hpp"
 
 #include <optional>
 
@@ -72,6 +73,7 @@ private:
   Blocks<T> blocks_;                    ///< of the wavefront
   std::vector<WavefrontStep<T>> steps_; ///< of the wavefront, one for each own block
   int threads_ = 1, steps_a_pass_ = 1;
+  SweepForm form_;
   std::optional<StagedRows<T>> staged_; ///< stage by stage, in place of blocks_ and steps_
   int parity_ = 0;
   bool is_started_ = false; ///< leapfrog: the stored velocities are those of the last half step

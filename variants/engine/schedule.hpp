@@ -1,17 +1,16 @@
 #pragma once
 /// Blocks of rows, one for each thread, and the row tasks that all schedules consist of.
-#include "solver/numerics/method.hpp"
 #include "variants/engine/packed_rows.hpp"
 
-#include <array>
 #include <vector>
 
 namespace dss {
 
-/// Carry buffers of one stage of one block. They hold the link forces that a row leaves for its
-/// upper neighbours: across y the next row, across z a row at most `reach` rows ahead. A row reads
-/// what its lower neighbour left before it writes its own forces to the same place. So one row is
-/// enough across y, and a ring of `reach` rows across z.
+/// Carry buffers of one stage, for rows that are computed in the order of their numbers. They hold
+/// the link forces that a row leaves for its upper neighbours: across y the next row, across z a
+/// row at most `reach` rows ahead. A row reads what its lower neighbour left before it writes its
+/// own forces to the same place. So one row is enough across y, and a ring of `reach` rows across
+/// z.
 template <class T>
 class CarryRings {
 public:
@@ -22,7 +21,7 @@ public:
         row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
         data_(std::size_t(1 + rows_z_) * row_size_, packed.memory) {}
   /// Ring rows start at pack 0 of the body's grid, so that rows with different first packs agree.
-  T* y() { return data_.data(); }
+  T* y(int) { return data_.data(); }
   T* z(int row) { return data_.data() + std::size_t(1 + row % rows_z_) * row_size_; }
   std::size_t bytes() const { return data_.bytes(); }
 
@@ -35,18 +34,17 @@ private:
 /// Fills the part of a task that depends on the row and its neighbours: masks, constants, input
 /// rows, carry buffers.
 /// @param fields  numbers that a pack of an input row holds for each element
+/// @param carry   y(row) and z(row) are the buffers for the links that a row leaves
 /// @param input   function from a row's number to the address of its input
-template <class T, int W, class Input>
-void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fields,
-             CarryRings<T>& carry, Input&& input) {
+template <class T, int W, class Carry, class Input>
+void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fields, Carry&& carry,
+             Input&& input) {
   const PackedRow<T>& p = packed.rows[std::size_t(row)];
   const Row& r = packed.lattice.rows[std::size_t(row)];
   const std::ptrdiff_t pack_size = std::ptrdiff_t(fields) * W;
   const std::ptrdiff_t carry_offset = std::ptrdiff_t(p.first_pack) * p.shape.carry_components * W;
   const auto aligned = [&](int upper) -> const T* {
-    return upper < 0 ? nullptr
-                     : input(upper) +
-                           (p.first_pack - packed.rows[std::size_t(upper)].first_pack) * pack_size;
+    return input(upper) + (p.first_pack - packed.rows[std::size_t(upper)].first_pack) * pack_size;
   };
   task.packs = p.packs;
   task.stride = int(pack_size);
@@ -54,9 +52,8 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   task.body = p.body;
   task.applied = p.applied;
   task.in = input(row);
-  task.upper_y = aligned(r.upper_y);
-  task.carry_y = carry.y() + carry_offset;
-  if (r.lower_y >= 0) task.from_y = carry.y() + carry_offset;
+  if (r.upper_y >= 0) task.upper_y = aligned(r.upper_y), task.carry_y = carry.y(row) + carry_offset;
+  if (r.lower_y >= 0) task.from_y = carry.y(r.lower_y) + carry_offset;
   if (r.upper_z >= 0) task.upper_z = aligned(r.upper_z), task.carry_z = carry.z(row) + carry_offset;
   if (r.lower_z >= 0) task.from_z = carry.z(r.lower_z) + carry_offset;
 }

@@ -1,8 +1,18 @@
 #include "variants/engine/staged.hpp"
 
+#include "solver/error.hpp"
 #include "variants/engine/packs.hpp"
 
+#include <fmt/format.h>
+
 namespace dss {
+
+void refuse_tile(const Setup& setup) {
+  if (setup.tile > 0)
+    throw InputError(
+        fmt::format("--tile {}: {} is computed stage by stage, without tiles; give none",
+                    setup.tile, setup.problem.name));
+}
 
 template <class T, int W>
 StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method,

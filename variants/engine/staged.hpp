@@ -2,6 +2,7 @@
 /// The schedule "stage by stage". It serves scenes whose extra links break the order of rows, parts
 /// whose halo is exchanged after every stage, and adaptive steps. Every stage keeps all rows. The
 /// threads of a team meet twice in a stage.
+#include "variants/api/api.hpp"
 #include "variants/api/halo.hpp"
 #include "variants/engine/step_error.hpp"
 #include "variants/engine/wavefront.hpp"
@@ -9,6 +10,10 @@
 #include <algorithm>
 
 namespace dss {
+
+/// This schedule has no tiles.
+/// @throws InputError if one was asked for
+void refuse_tile(const Setup& setup);
 
 /// Extra links, which are links outside the grid. They are evaluated one by one, always in the same
 /// order, into the wrench rows that the row kernels add.

@@ -1,9 +1,12 @@
 #include "variants/engine/wavefront.hpp"
 
+#include "solver/error.hpp"
+#include "variants/engine/caches.hpp"
 #include "variants/engine/packs.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace dss {
 
@@ -45,106 +48,43 @@ int steps_a_pass(const PackedRows<T, W>& packed, const Method& method,
   return steps;
 }
 
-template <class T>
-std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage,
-                                          int lanes, double dt) {
-  if (method.has_error_stage) dt = 1;
-  std::vector<StageUpdate<T>> updates;
-  for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
-    StageUpdate<T> update;
-    double first = 0;
-    for (std::size_t m = 1; m <= s; ++m) {
-      const double alpha = method.alpha[s][m];
-      if (alpha == 0) continue;
-      update.increments.push_back({int(m) - 1, T(first == 0 ? alpha : alpha / first)});
-      if (first == 0) first = alpha;
-    }
-    update.is_last = int(s) + 1 == method.stages;
-    update.action = action_of(method, storage, update.increments.size(), update.is_last);
-    // StepMaxima tells whether the result is finite.
-    if (method.has_error_stage) update.is_last = false;
-    update.low = storage.first_low() * lanes;
-    if (storage.is_predicted())
-      update.smoothing = T(method.smoothing), update.steps_ahead = T((1 - method.smoothing) / 2);
-    update.beta = T(dt * method.beta[s] / (first == 0 ? 1 : first));
-    if (update.increments.size() > RowTask<T>::most_increments)
-      throw std::logic_error("method with more increments than a row task holds");
-    updates.push_back(std::move(update));
-  }
-  return updates;
-}
-
-int last_reader(const Method& method, int s) {
-  for (int reader = method.stages - 1; reader > s + 1; --reader)
-    if (method.alpha[std::size_t(reader)][std::size_t(s) + 1] != 0) return reader;
-  return s + 1;
-}
-
 template <class T, int W>
-Block<T, W>::Block(const PackedRows<T, W>& packed, const Method& method, int first, int last,
-                   int fields, int halo, int steps)
-    : begin(first), end(last), stored_begin(steps == 1 ? begin : std::max(0, begin - halo)),
-      stored_end(steps == 1 ? end : std::min(int(packed.rows.size()), end + halo)),
-      packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)),
-      row_size_(std::size_t(packed.max_packs + 1) * pack_size_), halo_(halo) {
-  // One pack more: rows look one pack ahead.
-  state_ = Buffer<T>((packed.packs_of(stored_begin, stored_end) + 1) * pack_size_, packed.memory);
-  make_published();
-  for (int s = 0; s < steps * method.stages; ++s) carry.emplace_back(packed);
-  for (int stage = 0; stage + 1 < method.stages; ++stage) {
-    // Stage s writes Y_{s + 1}, and its last reader runs (reader - s) reaches behind. Priming, the
-    // computation of the links before a block's first row, reads two reaches back.
-    const int reaches = std::max(last_reader(method, stage) - stage, begin > 0 ? 2 : 1);
-    const int rows = std::min(reaches * packed.reach + 1, int(packed.rows.size()));
-    rings_.emplace_back(std::size_t(rows) * row_size_ + pack_size_, packed.memory);
-    ring_rows_.emplace_back();
-    for (int r = 0; r < int(packed.rows.size()); ++r)
-      ring_rows_.back().push_back(rings_.back().data() + std::size_t(r % rows) * row_size_);
-  }
-}
-
-template <class T, int W>
-Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fields, int halo)
-    : begin(first), end(last), stored_begin(first), stored_end(first), packed_(&packed),
-      pack_size_(std::size_t(fields) * std::size_t(W)), row_size_(0), halo_(halo) {
-  make_published();
-}
-
-template <class T, int W>
-void Block<T, W>::make_published() {
-  std::size_t packs = 0;
-  for (int r = begin; r < end; ++r) {
-    published_offset_.push_back(packs * pack_size_);
-    if (is_published(r)) packs += std::size_t(packed_->rows[std::size_t(r)].packs);
-  }
-  for (auto& copy : published_)
-    copy = Buffer<T>(packs == 0 ? 0 : (packs + 1) * pack_size_, packed_->memory);
-}
-
-template <class T, int W>
-void Block<T, W>::publish(int r, int parity) {
-  std::copy_n(row(r), row_length(r), published(r, parity));
-}
-
-template <class T, int W>
-std::size_t Block<T, W>::bytes() const {
-  std::size_t sum = state_.bytes() + published_[0].bytes() + published_[1].bytes();
-  for (const auto& ring : rings_) sum += ring.bytes();
-  for (const auto& rings : carry) sum += rings.bytes();
-  for (const auto& rows : ring_rows_) sum += rows.size() * sizeof(T*);
-  return sum;
+int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
+                int steps, SweepRows rows, bool is_by_rows, int asked) {
+  // Planes of rows between the first and the last touch of a row: of the state and of the links one
+  // for each sweep, of the output of a stage those up to its last reader.
+  const int sweeps = steps * method.stages;
+  double planes = sweeps * (1 + double(packed.carry_size) / (storage.stored() * W));
+  for (int stage = 0; stage + 1 < method.stages; ++stage) planes += method.stages - 1 - stage;
+  const double across_bytes = planes * double(packed.max_packs) * storage.stored() * W * sizeof(T);
+  const int across = most_rows_across(packed.lattice, rows, is_by_rows);
+  if (asked >= across) return no_tiles;
+  if (asked > 0 && asked * across_bytes > double(l3_bytes()))
+    throw InputError(fmt::format(
+        "--tile {}: between its sweeps, {:.0f} MB of rows would leave the caches; give at most {}",
+        asked, 1e-6 * asked * across_bytes, int(double(l3_bytes()) / across_bytes)));
+  if (asked > 0) return asked;
+  const double fit = double(tile_bytes()) / across_bytes;
+  if (across <= fit) return no_tiles;
+  const int tiles = int(std::ceil(across / std::max(fit, 1.0)));
+  return (across + tiles - 1) / tiles;
 }
 
 template <class T, int W>
 WavefrontStep<T, W>::WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt,
                                    const RowStorage& storage, std::size_t signal_count,
-                                   std::vector<Block<T, W>>& blocks, std::size_t index, int steps)
-    : packed_(packed), fields_(storage.stored()), stages_(method.stages), steps_(steps),
-      block_(blocks[index]), signals_(signal_count, steps * method.stages) {
+                                   std::vector<Block<T, W>>& blocks, std::size_t index,
+                                   PassShape shape)
+    : packed_(packed), fields_(storage.stored()), stages_(method.stages), steps_(shape.steps),
+      row_size_(std::size_t(packed.max_packs) * std::size_t(fields_ * W)),
+      links_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
+      block_(blocks[index]), signals_(signal_count, steps_ * method.stages) {
   find_published_rows(blocks);
   const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, storage, W, dt);
-  sweeps_[0] = make_sweeps(updates, 0);
-  if (blocks.size() > 1 && steps == 1) sweeps_[1] = make_sweeps(updates, 1);
+  const std::vector<PassTask> tasks = order(shape.form);
+  make_places(tasks, updates);
+  tasks_[0] = make_tasks(tasks, updates, 0);
+  if (blocks.size() > 1 && steps_ == 1) tasks_[1] = make_tasks(tasks, updates, 1);
 }
 
 template <class T, int W>
@@ -167,83 +107,145 @@ void WavefrontStep<T, W>::fetch_halo(int parity) {
 }
 
 template <class T, int W>
-auto WavefrontStep<T, W>::make_sweeps(const std::vector<StageUpdate<T>>& updates, int parity)
-    -> std::vector<Sweep> {
-  std::vector<Sweep> sweeps;
-  const int count = steps_ * stages_;
+std::vector<PassTask> WavefrontStep<T, W>::order(SweepForm form) const {
+  const int count = steps_ * stages_, rows = int(packed_.rows.size());
+  std::vector<SweepRows> sweeps;
   for (int n = 0; n < count; ++n) {
-    const int s = n % stages_, halo = (count - 1 - n) * packed_.reach;
-    const bool is_last = s + 1 == stages_;
-    Sweep sweep{std::max(0, block_.begin - halo),
-                std::min(int(packed_.rows.size()), block_.end + halo),
-                {}};
-    sweep.rows.reserve(std::size_t(sweep.end - sweep.begin));
-    for (int r = sweep.begin; r < sweep.end; ++r) {
-      RowTask<T> task;
-      set_row(task, packed_, r, fields_, block_.carry[std::size_t(n)],
-              [&](int row) { return input_row(s, row, parity); });
-      task.signals = signals_.stage(n);
-      T* const base = stepped_row(r, parity);
-      updates[std::size_t(s)].set(task, base, is_last ? base : block_.ring_row(s, r),
-                                  [&](int m) { return block_.ring_row(m, r); });
-      sweep.rows.push_back({packed_.is_computed(r, stages_ - 1 - s), task});
-    }
-    sweeps.push_back(std::move(sweep));
+    const int halo = (count - 1 - n) * packed_.reach;
+    sweeps.push_back({std::max(0, block_.begin - halo), std::min(rows, block_.end + halo)});
   }
-  return sweeps;
+  std::vector<PassTask> tasks = order_pass(packed_.lattice, sweeps, form);
+  for (PassTask& task : tasks)
+    if (task.work == RowWork::stage &&
+        !packed_.is_computed(task.row, stages_ - 1 - task.sweep % stages_))
+      task.work = RowWork::upper_links;
+  return tasks;
+}
+
+template <class T, int W>
+void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order,
+                                      const std::vector<StageUpdate<T>>& updates) {
+  std::vector<std::vector<int>> increments;
+  for (const StageUpdate<T>& update : updates) {
+    increments.emplace_back();
+    for (const auto& [stage, alpha] : update.increments) increments.back().push_back(stage);
+  }
+  places_.emplace(packed_.lattice, order, steps_ * stages_, stages_, increments);
+  // One pack more: rows look one pack ahead.
+  stage_rows_ =
+      Buffer<T>(std::size_t(places_->stage_row_count()) * row_size_ + std::size_t(fields_ * W),
+                packed_.memory);
+  for (const int axis : {1, 2})
+    links_[std::size_t(axis) - 1] =
+        Buffer<T>(std::size_t(places_->links_count(axis)) * links_size_, packed_.memory);
+}
+
+template <class T, int W>
+auto WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order,
+                                     const std::vector<StageUpdate<T>>& updates, int parity)
+    -> std::vector<RowStage> {
+  std::vector<RowStage> tasks;
+  tasks.reserve(order.size());
+  for (const PassTask& what : order) {
+    const int r = what.row, s = what.sweep % stages_;
+    const bool is_last = s + 1 == stages_;
+    RowStage stage{what.work,
+                   what.work == RowWork::stage && is_last && block_.owns(r) &&
+                       block_.is_published(r),
+                   what.sweep,
+                   r,
+                   packed_.rows[std::size_t(r)].kernels,
+                   {}};
+    set_row(stage.task, packed_, r, fields_, SweepLinks{*this, what.sweep},
+            [&](int row) { return input_row(s, row, parity); });
+    stage.task.signals = signals_.stage(what.sweep);
+    if (what.work == RowWork::stage) {
+      T* const base = stepped_row(r, parity);
+      updates[std::size_t(s)].set(stage.task, base, is_last ? base : stage_row(s, r),
+                                  [&](int m) { return stage_row(m, r); });
+    }
+    tasks.push_back(stage);
+  }
+  plan_fetches(order, parity, tasks);
+  return tasks;
+}
+
+template <class T, int W>
+void WavefrontStep<T, W>::watch(int row, std::function<void()> done) {
+  const std::vector<RowStage>& all = tasks_[0];
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (all[n].sweep + 1 == steps_ * stages_ && all[n].row <= row)
+      watched_task_ = std::ptrdiff_t(n);
+  watched_rows_done_ = std::move(done);
 }
 
 template <class T, int W>
 std::size_t WavefrontStep<T, W>::bytes() const {
-  std::size_t sum = (published_rows_[0].size() + published_rows_[1].size()) * sizeof(T*);
-  for (const auto& sweeps : sweeps_)
-    for (const Sweep& sweep : sweeps) sum += sweep.rows.size() * sizeof(RowStage);
-  return sum;
+  return stage_rows_.bytes() + links_[0].bytes() + links_[1].bytes() +
+         (published_rows_[0].size() + published_rows_[1].size()) * sizeof(T*) +
+         (tasks_[0].size() + tasks_[1].size()) * sizeof(RowStage);
 }
 
 template <class T, int W>
 void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parity) {
-  const std::vector<Sweep>& sweeps = sweeps_[sweeps_[1].empty() ? 0 : std::size_t(parity)];
-  const int last = steps * stages_ - 1;
-  // Sweeps that run. After a failure only those of earlier steps, since these may fail too.
-  int count = last + 1;
+  // Sweeps that run. After a failure those up to the end of its step: earlier steps may fail too,
+  // and lower rows of the same step.
+  int count = steps * stages_;
   signals_.set(signals, count);
   fetch_halo(parity);
-  bool is_watched = watched_row_ >= 0;
-  const int lag = packed_.reach, end = sweeps[std::size_t(last)].end + last * lag;
-  for (int t = sweeps[0].begin; t < end; ++t)
-    for (int n = 0; n < count; ++n) {
-      const Sweep& sweep = sweeps[std::size_t(n)];
-      const int r = t - n * lag, s = n % stages_;
-      if (r < sweep.begin || r >= sweep.end) continue;
-      if (r == sweep.begin && r > 0)
-        prime_links(packed_, r, fields_, block_.carry[std::size_t(n)],
-                    [&](int row) { return input_row(s, row, parity); });
-      const RowStage& row = sweep.rows[std::size_t(r - sweep.begin)];
-      if (!row.is_whole) {
-        prime_uppers(packed_, r, row.task);
-      } else if (!packed_.rows[std::size_t(r)].kernels->stage(row.task) && block_.owns(r) &&
-                 packed_.first_failed(r, block_.row(r), fields_)) {
-        block_.failed_row = r, block_.failed_step = n / stages_, count = n;
-      }
-      if (n != last || !block_.owns(r)) continue;
-      if (block_.is_published(r)) block_.publish(r, parity ^ 1);
-      if (r == watched_row_) is_watched = false, watched_row_done_();
+  const std::vector<RowStage>& all = tasks(parity);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const RowStage& stage = all[n];
+    fetch_next(stage);
+    if (stage.sweep < count && !compute(stage) && block_.owns(stage.row) &&
+        packed_.first_failed(stage.row, block_.row(stage.row), fields_)) {
+      const bool is_earlier = count > stage.sweep + 1 || block_.failed_row < 0;
+      block_.failed_row = is_earlier ? stage.row : std::min(block_.failed_row, stage.row);
+      block_.failed_step = stage.sweep / stages_;
+      count = stage.sweep + 1;
     }
-  // A failure ended the pass before this row, but others wait for it.
-  if (is_watched) watched_row_done_();
+    if (stage.is_published && stage.sweep + 1 == steps * stages_)
+      block_.publish(stage.row, parity ^ 1);
+    if (std::ptrdiff_t(n) == watched_task_) watched_rows_done_();
+  }
+}
+
+/// Tasks are read once a pass, so those of a large body are out of the cache by then.
+template <class T, int W>
+void WavefrontStep<T, W>::fetch_next(const RowStage& stage) {
+  const char* const next = reinterpret_cast<const char*>(&stage + 1);
+  for (std::size_t byte = 0; byte < sizeof(RowStage); byte += Memory::line)
+    simd::fetch(next + byte);
+}
+
+template <class T, int W>
+bool WavefrontStep<T, W>::compute(const RowStage& stage) const {
+  const KernelSet<T>& kernels = *stage.kernels;
+  const RowTask<T>& task = stage.task;
+  switch (stage.work) {
+  case RowWork::stage:
+    return kernels.stage(task);
+  case RowWork::upper_links:
+    if (task.upper_y != nullptr) kernels.prime(task, 1);
+    if (task.upper_z != nullptr) kernels.prime(task, 2);
+    break;
+  case RowWork::upper_link_y:
+    kernels.prime(task, 1);
+    break;
+  case RowWork::upper_link_z:
+    kernels.prime(task, 2);
+    break;
+  }
+  return true;
 }
 
 #define DSS_INSTANTIATE(T, W)                                                                      \
   template std::vector<int> cut_rows(const PackedRows<T, W>&, int);                                \
   template int steps_a_pass(const PackedRows<T, W>&, const Method&, const std::vector<int>&);      \
-  template class Block<T, W>;                                                                      \
+  template int choose_tile(const PackedRows<T, W>&, const Method&, const RowStorage&, int,         \
+                           SweepRows, bool, int);                                                  \
   template class WavefrontStep<T, W>;
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE
-template std::vector<StageUpdate<double>> stage_updates(const Method&, const RowStorage&, int,
-                                                        double);
-template std::vector<StageUpdate<float>> stage_updates(const Method&, const RowStorage&, int,
-                                                       double);
 
 } // namespace dss

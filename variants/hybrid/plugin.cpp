@@ -19,8 +19,14 @@ bool has_fma() {
 } // namespace dss
 
 extern "C" const dss::Plugin* dss_plugin() {
-  static const dss::Plugin plugin{dss::plugin_abi,    DSS_VARIANT, DSS_ISA,
-                                  dss::has_fma(),     true,        false,
-                                  dss::create_hybrid, nullptr};
+  static const dss::Plugin plugin{.abi = dss::plugin_abi,
+                                  .name = DSS_VARIANT,
+                                  .isa = DSS_ISA,
+                                  .has_fma = dss::has_fma(),
+                                  .is_threaded = true,
+                                  .is_distributed = false,
+                                  .create = dss::create_hybrid,
+                                  .kernels = nullptr,
+                                  .has_tiles = true};
   return &plugin;
 }

@@ -17,7 +17,15 @@ void end(int exit_code, bool is_in_order) {
 } // namespace dss
 
 extern "C" const dss::Plugin* dss_plugin() {
-  static constexpr dss::Plugin plugin{dss::plugin_abi, DSS_VARIANT, DSS_ISA, true, true, true,
-                                      dss::create,     nullptr,     dss::end};
+  static constexpr dss::Plugin plugin{.abi = dss::plugin_abi,
+                                      .name = DSS_VARIANT,
+                                      .isa = DSS_ISA,
+                                      .has_fma = true,
+                                      .is_threaded = true,
+                                      .is_distributed = true,
+                                      .create = dss::create,
+                                      .kernels = nullptr,
+                                      .end = dss::end,
+                                      .has_tiles = true};
   return &plugin;
 }

@@ -51,7 +51,7 @@ long DeviceProblem<T, W>::lower(long in, int r, int lower, int fields) const {
 
 template <class T, int W>
 int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, int fields,
-                             const T* published) {
+                             const T* published, int sweep) {
   const PackedRow<T>& packed_row = packed.rows[std::size_t(r)];
   Row row{};
   row.in = offset(task.in);
@@ -77,6 +77,7 @@ int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, i
   row.masks = int(packed_row.pack_offset);
   row.fields = fields;
   row.row = r;
+  row.sweep = sweep;
   row.beta = task.beta;
   rows_.push_back(row);
   return int(rows_.size()) - 1;
@@ -282,8 +283,7 @@ void DeviceProblem<T, W>::evaluate_extra_links(const Buffer& row_starts) {
 #define DSS_INSTANTIATE(T, W)                                                                      \
   template class DeviceProblem<T, W>;                                                              \
   template Buffer DeviceProblem<T, W>::table(const std::vector<cl_int2>&) const;                   \
-  template Buffer DeviceProblem<T, W>::table(const std::vector<cl_long>&) const;                   \
-  template Buffer DeviceProblem<T, W>::table(const std::vector<Tables<T>::sweep>&) const;
+  template Buffer DeviceProblem<T, W>::table(const std::vector<cl_long>&) const;
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE
 

@@ -60,9 +60,10 @@ public:
   /// @param action     what to do with it
   /// @param fields     numbers that a pack holds for each element
   /// @param published  null, or where the new state is also stored
+  /// @param sweep      of a pass
   /// @return its place in the table
   int add(const RowTask<T>& task, int row, row_action action, int fields,
-          const T* published = nullptr);
+          const T* published = nullptr, int sweep = 0);
   int next_place() const { return int(rows_.size()); }
   /// Call it when the arena and the tables are complete. Builds the program and gives the device
   /// its memory.

@@ -34,7 +34,8 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .kernels = nullptr,
                            .why_unusable = opencl::why_unusable,
                            .devices = opencl::devices,
-                           .ceilings = opencl::measure_ceilings};
+                           .ceilings = opencl::measure_ceilings,
+                           .has_tiles = true};
 
 } // namespace
 } // namespace dss

@@ -21,6 +21,7 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
   const bool is_staged = layout.has_items || setup_.method.has_error_stage ||
                          !setup_.problem.extra_links.empty() ||
                          (is_part() && part_->is_every_stage);
+  if (is_staged) refuse_tile(setup_);
   if (is_staged)
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(),
                     layout.bands, part_);
@@ -57,6 +58,20 @@ std::vector<int> ResidentExecutor<T, W>::cut_blocks() {
   return cuts;
 }
 
+static row_action device_action(RowWork work, row_action of_stage) {
+  switch (work) {
+  case RowWork::stage:
+    return of_stage;
+  case RowWork::upper_links:
+    return prime_upper;
+  case RowWork::upper_link_y:
+    return prime_y;
+  case RowWork::upper_link_z:
+    return prime_z;
+  }
+  return of_stage;
+}
+
 template <class T, int W>
 void ResidentExecutor<T, W>::make_blocks() {
   const Method& method = setup_.method;
@@ -65,35 +80,24 @@ void ResidentExecutor<T, W>::make_blocks() {
   bands_ = int(cuts.size()) - 1;
   // Several bands would have to copy their halos on the device.
   steps_a_pass_ = bands_ == 1 ? steps_a_pass(packed_, method, cuts) : 1;
-  blocks_.make(packed_, method, cuts, stored_fields(), steps_a_pass_);
+  blocks_.make(packed_, cuts, stored_fields(), steps_a_pass_, method.stages);
   std::vector<Block<T, W>>& blocks = blocks_.all();
-  most_sweeps_ = steps_a_pass_ * method.stages;
+  form_.is_by_rows = is_part();
+  form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, {cuts[0], cuts[1]},
+                           form_.is_by_rows, setup_.tile);
   if (!is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
   for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
     if (blocks[b].is_remote()) continue;
     add_neighbours(cuts, int(band++), halo);
     WavefrontStep<T, W> step(packed_, method, setup_.dt, rows_.storage(),
-                             signal_count(setup_.problem), blocks, b, steps_a_pass_);
+                             signal_count(setup_.problem), blocks, b, {steps_a_pass_, form_});
     for (const int parity : {0, 1}) {
-      int n = 0;
-      const auto is_last = [&] { return n % method.stages == 0; }; // n counts from 1 here
-      step.describe(
-          parity,
-          [&](int begin, int end) {
-            sweeps_.push_back({begin, end, -1, problem_.next_place(), 0});
-            ++n;
-          },
-          [&](int r, const RowTask<T>& task, int axis) {
-            problem_.add(task, r, axis == 1 ? prime_y : prime_z, stored_fields());
-            ++sweeps_.back().prime_count;
-          },
-          [&](int r, bool is_whole, const RowTask<T>& task) {
-            const bool is_published = is_last() && blocks[b].is_published(r) && blocks[b].owns(r);
-            const int place =
-                problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields(),
-                             is_published ? blocks[b].published(r, parity ^ 1) : nullptr);
-            if (sweeps_.back().rows < 0) sweeps_.back().rows = place;
-          });
+      const int begin = problem_.next_place();
+      for (const auto& stage : step.tasks(parity))
+        problem_.add(
+            stage.task, stage.row, device_action(stage.work, stage.task.action), stored_fields(),
+            stage.is_published ? blocks[b].published(stage.row, parity ^ 1) : nullptr, stage.sweep);
+      passes_.push_back({{begin, problem_.next_place()}});
     }
   }
 }
@@ -139,7 +143,7 @@ void ResidentExecutor<T, W>::make_kernels() {
   kernel_ = problem_.kernel(staged_ ? "run_rows" : "run_passes");
   failed_ = problem_.queue.make_buffer(std::size_t(1 + 2 * bands_) * sizeof(cl_int));
   if (!staged_) {
-    sweep_table_ = problem_.table(sweeps_);
+    pass_table_ = problem_.table(passes_);
     neighbour_table_ = problem_.table(neighbours_);
     progress_ = problem_.queue.make_buffer(std::size_t(bands_) * sizeof(cl_int));
     return;

@@ -5,6 +5,7 @@
 #include "variants/api/api.hpp"
 #include "variants/engine/blocks.hpp"
 #include "variants/engine/state_rows.hpp"
+#include "variants/engine/wavefront.hpp"
 #include "variants/opencl/device_rates.hpp"
 #include "variants/opencl/halo_rows.hpp"
 
@@ -48,8 +49,8 @@ public:
 
 private:
   /// Indices of those arguments of run_passes that change between launches (device/passes.cl).
-  static constexpr cl_uint last_pass_argument = DeviceProblem<T, W>::table_arguments + 7,
-                           patience_argument = last_pass_argument + 6,
+  static constexpr cl_uint last_pass_argument = DeviceProblem<T, W>::table_arguments + 6,
+                           patience_argument = last_pass_argument + 5,
                            first_block_argument = patience_argument + 1,
                            block_stride_argument = first_block_argument + 1;
   using Range = typename DeviceProblem<T, W>::Range;
@@ -117,7 +118,8 @@ private:
   StateRows<T, W> rows_;
   Blocks<T, W> blocks_;                    ///< of the wavefront
   std::optional<StagedRows<T, W>> staged_; ///< stage by stage, in place of blocks_
-  int bands_ = 1, steps_a_pass_ = 1, most_sweeps_ = 0;
+  int bands_ = 1, steps_a_pass_ = 1;
+  SweepForm form_; ///< of the wavefront
   /// Parts: the edges that neighbours wait for are blocks of their own, first and last.
   bool is_split_ = false;
   bool has_lower_edge_ = false, has_upper_edge_ = false;
@@ -131,10 +133,10 @@ private:
   /// How often advance() may still try bands that wait for one another. A try fails if the bands
   /// are not computed at the same time.
   int trials_left_ = 0;
-  std::vector<typename Tables<T>::sweep> sweeps_;
   std::vector<std::vector<cl_int2>> lists_; ///< [parity * stages + stage]: list of each band
+  std::vector<cl_int2> passes_;             ///< of each block, [parity]: its tasks
   std::vector<cl_int2> neighbours_;         ///< of each band: the bands whose rows it reads
-  opencl::Buffer sweep_table_, neighbour_table_, failed_, progress_;
+  opencl::Buffer pass_table_, neighbour_table_, failed_, progress_;
   std::vector<opencl::Buffer> list_tables_, row_starts_;
   Kernel kernel_;
   Kernel maxima_kernel_, accept_kernel_; ///< of methods with an error stage

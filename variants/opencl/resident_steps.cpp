@@ -39,11 +39,11 @@ void ResidentExecutor<T, W>::set_pass_arguments(long steps) {
   problem_.queue.write(progress_, 0, std::as_bytes(std::span(none)));
   cl_uint n = DeviceProblem<T, W>::table_arguments;
   for (const opencl::Buffer& table :
-       {sweep_table_, neighbour_table_, problem_.signals(), failed_, progress_})
+       {pass_table_, neighbour_table_, problem_.signals(), failed_, progress_})
     kernel_.set_one(n++, table);
   const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
-  for (const int value : {most_sweeps_, parity_, 0, steps_a_pass_, int(steps), stages,
-                          packed_.reach, width, 0, 0, 1}) // 0: set in run_to
+  for (const int value :
+       {parity_, 0, steps_a_pass_, int(steps), stages, width, 0, 0, 1}) // 0: set in run_to
     kernel_.set_one(n++, cl_int(value));
 }
 

@@ -75,6 +75,9 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (request.threads > 1 && !plan.plugin->is_threaded)
     refuse(fmt::format("--threads {}: variant \"{}\" runs on one thread; give --threads 1",
                        request.threads, plan.plugin->name));
+  if (request.tile > 0 && !plan.plugin->has_tiles)
+    refuse(fmt::format("--tile {}: variant \"{}\" has no tiles; give another --variant, or none",
+                       request.tile, plan.plugin->name));
   if (request.ranks < 1 || request.ranks > 65536)
     refuse(fmt::format("--ranks {}: give 1 to 65536", request.ranks));
   if (const JobRank job = job_rank(); job.is_started && request.ranks != job.ranks)

@@ -120,9 +120,9 @@ void TimedRun::take_samples(long samples, double least_s) {
 
 std::unique_ptr<Executor> TimedRun::created(Model model) {
   const auto start = Clock::now();
-  auto executor = plan_.plugin->create({problem_, *plan_.method, model, plan_.precision, plan_.dt,
-                                        request_.threads, nullptr, &plan_.distribution,
-                                        request_.device, request_.hybrid, plan_.rotation});
+  auto executor = plan_.plugin->create(
+      {problem_, *plan_.method, model, plan_.precision, plan_.dt, request_.threads, nullptr,
+       &plan_.distribution, request_.device, request_.hybrid, plan_.rotation, request_.tile});
   if (!has_begun_) result_.first_step_s = seconds_since(start);
   model_ = model;
   return executor;

@@ -8,29 +8,23 @@ static void publish(device d, global const row_stage* task) {
   }
 }
 
-/* One pass of the wavefront over the rows of a block (variants/engine/wavefront.cpp). Sweep n runs
- * n * lag rows behind the first. */
-static void run_sweeps(device d, global const sweep* own, global const NUMBER* signals,
-                       global int* failed, const int block, const int first_step, int count,
-                       const int stages, const int lag, const int signal_width) {
-  const int end = own[count - 1].end + (count - 1) * lag;
-  for (int t = own[0].begin; t < end; ++t)
-    for (int n = 0; n < count; ++n) {
-      const int r = t - n * lag;
-      if (r < own[n].begin || r >= own[n].end) continue;
-      if (r == own[n].begin)
-        for (int p = 0; p < own[n].prime_count; ++p)
-          run_task(d, d.tasks + own[n].primes + p, signals);
-      global const row_stage* task = d.tasks + own[n].rows + (r - own[n].begin);
-      const bool is_finite = run_task(d, task, signals + n * signal_width);
-      if ((n + 1) % stages == 0) {
-        if (!is_finite && has_failed(d, task)) {
-          record_failure(failed, block, first_step + n / stages, r);
-          count = n; /* only sweeps of earlier steps go on, since these may fail too */
-        }
-        if (task->published >= 0) publish(d, task);
-      }
+/* One pass of the wavefront over the rows of a block (variants/engine/wavefront.cpp): the first
+ * `count` sweeps of the tasks [list.x, list.y). */
+static void run_tasks(device d, const int2 list, global const NUMBER* signals, global int* failed,
+                      const int block, const int first_step, int count, const int stages,
+                      const int signal_width) {
+  for (int n = list.x; n < list.y; ++n) {
+    global const row_stage* task = d.tasks + n;
+    const int sweep = task->sweep;
+    if (sweep >= count) continue;
+    const bool is_finite = run_task(d, task, signals + sweep * signal_width);
+    if ((sweep + 1) % stages != 0) continue;
+    if (!is_finite && has_failed(d, task)) {
+      record_failure(failed, block, first_step + sweep / stages, task->row);
+      count = sweep + 1; /* earlier steps may fail too, and lower rows of this one */
     }
+    if (task->published >= 0) publish(d, task);
+  }
 }
 
 /* Whether all blocks whose rows this one reads have done `passes` passes. Looks at most `patience`
@@ -49,20 +43,19 @@ static bool have_come(volatile global int* progress, const int2 blocks, const in
 
 /* Computes passes of each block, from its progress to last_pass. One launch is enough if all
  * blocks are computed at the same time. */
-kernel void run_passes(TABLES, global const sweep* sweeps, global const int2* neighbours,
+kernel void run_passes(TABLES, global const int2* lists, global const int2* neighbours,
                        global const NUMBER* signals, global int* failed,
-                       volatile global int* progress, const int most_sweeps, const int first_parity,
-                       const int last_pass, const int steps_a_pass, const int steps,
-                       const int stages, const int lag, const int signal_width, const int patience,
-                       const int first_block, const int block_stride) {
+                       volatile global int* progress, const int first_parity, const int last_pass,
+                       const int steps_a_pass, const int steps, const int stages,
+                       const int signal_width, const int patience, const int first_block,
+                       const int block_stride) {
   const device d = DEVICE;
   const int block = first_block + BLOCK * block_stride;
   for (int pass = progress[block]; pass < last_pass; ++pass) {
     const int step = pass * steps_a_pass, parity = (first_parity + pass) & 1;
     if (!have_come(progress, neighbours[block], pass, patience) || failed[0] < step) return;
-    run_sweeps(d, sweeps + (block * 2 + parity) * most_sweeps,
-               signals + step * stages * signal_width, failed, block, step,
-               min(steps_a_pass, steps - step) * stages, stages, lag, signal_width);
+    run_tasks(d, lists[block * 2 + parity], signals + step * stages * signal_width, failed, block,
+              step, min(steps_a_pass, steps - step) * stages, stages, signal_width);
     mem_fence(CLK_GLOBAL_MEM_FENCE);
     atomic_xchg(progress + block, pass + 1);
   }

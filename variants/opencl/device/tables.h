@@ -15,14 +15,10 @@ typedef struct {
   /* action: of enum row_action; shape: of the compiled terms; applied: -1 for most rows */
   int action, shape, body, applied;
   int packs, first_pack, masks, fields, row;
+  int sweep; /* of a pass */
   int is_last, low, increments; /* as in RowTask */
   NUMBER beta, alpha[6];
 } row_stage;
-
-/* One stage of one step over a block's rows [begin, end). */
-typedef struct {
-  int begin, end, rows, primes, prime_count; /* rows, primes: indices of row_stage */
-} sweep;
 
 /* As Applied::Pattern and Applied (kernels/stage_row/row.hpp). */
 typedef struct {

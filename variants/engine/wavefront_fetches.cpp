@@ -1,0 +1,60 @@
+/// Which rows the tasks of a pass bring into the cache ahead of their use.
+#include "variants/engine/caches.hpp"
+#include "variants/engine/fetch_plan.hpp"
+#include "variants/engine/packs.hpp"
+#include "variants/engine/wavefront.hpp"
+
+namespace dss {
+
+// A row of the state is new to a tile when the first stage reads it. What a tile left for the next
+// one is new to it, too.
+template <class T, int W>
+void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int parity,
+                                       std::vector<RowStage>& tasks) {
+  const std::size_t pack_bytes = std::size_t(fields_ * W) * sizeof(T);
+  // What stays in L2 from pass to pass needs no fetch.
+  if (packed_.packs_of(block_.begin, block_.end) * pack_bytes < 2 * l2_bytes()) return;
+  std::vector<FetchPlan::Task> places;
+  for (const RowStage& stage : tasks) places.push_back({stage.task.packs, stage.sweep});
+  FetchPlan plan(std::move(places));
+  LastTiles states(int(packed_.rows.size())), stage_rows(places_->stage_row_count()),
+      links[] = {LastTiles(places_->links_count(1)), LastTiles(places_->links_count(2))};
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    const int tile = order[n].tile, sweep = order[n].sweep, s = sweep % stages_, r = order[n].row;
+    const Row& row = packed_.lattice.rows[std::size_t(r)];
+    const auto bytes = [&](int of) {
+      return std::size_t(packed_.rows[std::size_t(of)].packs) * pack_bytes;
+    };
+    const auto read_state = [&](int of) {
+      if (states.touch(of, tile)) plan.first_read(n, stepped_row(of, parity), bytes(of));
+    };
+    for (const int of : {r, row.upper_y, row.upper_z}) {
+      if (of < 0) continue;
+      if (s == 0)
+        read_state(of);
+      else if (stage_rows.touch(places_->stage_row(s - 1, of), tile))
+        plan.first_read(n, stage_row(s - 1, of), bytes(of));
+    }
+    read_state(r);
+    for (const int axis : {1, 2}) {
+      LastTiles& of_axis = links[axis - 1];
+      const int from = axis == 1 ? row.lower_y : row.lower_z,
+                upper = axis == 1 ? row.upper_y : row.upper_z;
+      if (from >= 0 && of_axis.touch(places_->links(axis, sweep, from), tile))
+        plan.first_read(n, this->links(axis, sweep, from), links_size_ * sizeof(T));
+      if (upper >= 0) of_axis.touch(places_->links(axis, sweep, r), tile);
+    }
+    if (s + 1 < stages_) stage_rows.touch(places_->stage_row(s, r), tile);
+  }
+  for (std::size_t n = 0; n < tasks.size(); ++n)
+    tasks[n].task.fetch = plan.fetches()[n].row,
+    tasks[n].task.fetch_lines = plan.fetches()[n].lines;
+}
+
+#define DSS_INSTANTIATE(T, W)                                                                      \
+  template void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>&, int,               \
+                                                  std::vector<RowStage>&);
+DSS_EACH_PACK(DSS_INSTANTIATE)
+#undef DSS_INSTANTIATE
+
+} // namespace dss
