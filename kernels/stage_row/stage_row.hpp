@@ -52,6 +52,10 @@ struct StageRow {
   /// take a copy of the loop's body without branches. Spatial rows that are not parked are slower
   /// with it: straight code over 13 fields spills more (README.md).
   static constexpr bool has_plain_path = P::axes < 3 || P::fields < 13 || is_parked;
+  /// With few registers, the copy for solids makes the compiler spill more in all copies
+  /// (README.md).
+  static constexpr bool has_solid_path =
+      P::axes == 3 && has_plain_path && (W == 1 || simd::registers >= 32);
   /// With few registers, a fence for the compiler stands before the other path. Otherwise the
   /// compiler moves what both paths load to a place before the branch, and the plain path spills
   /// more. Scalar rows do not all gain from it (README.md).
@@ -60,12 +64,13 @@ struct StageRow {
   /// Copies of the loop's body.
   enum path { general_path, plane_path, solid_path };
   static path path_of(const PackMasks& masks) {
-    const bool has_x = masks.link_x == simd::all_lanes<T>;
-    if constexpr (P::axes == 1) return has_x ? plane_path : general_path;
-    if ((masks.link_y & masks.below_y) != simd::all_lanes<T>) return general_path;
-    if (P::axes == 2 || (masks.link_z | masks.below_z) == 0)
-      return has_x ? plane_path : general_path;
-    return (masks.link_z & masks.below_z) == simd::all_lanes<T> ? solid_path : general_path;
+    constexpr simd::LaneMask all = simd::all_lanes<T>;
+    if constexpr (P::axes == 1) return masks.link_x == all ? plane_path : general_path;
+    if (P::axes == 3 && (masks.link_z | masks.below_z) != 0) {
+      const bool is_inside = (masks.link_y & masks.below_y & masks.link_z & masks.below_z) == all;
+      return has_solid_path && is_inside ? solid_path : general_path;
+    }
+    return (masks.link_x & masks.link_y & masks.below_y) == all ? plane_path : general_path;
   }
 
   static element load_element(const T* p) {
@@ -276,9 +281,10 @@ struct StageRow {
       constexpr bool is_plain = taken != general_path;
       const PackMasks& masks = all_masks[pack];
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * stride;
-      // This loop also keeps the compiler from moving what the paths share to a place before their
-      // branch, where it would spill more.
-      for (int lines = fetch_lines; lines > 0; --lines, fetch += 64) simd::fetch(fetch);
+      // Unlikely, because the compiler then spills less; the loop also keeps it from moving what
+      // the copies share to a place before their branch (README.md).
+      if (fetch_lines > 0) [[unlikely]]
+        for (int line = fetch_lines; line > 0; --line, fetch += 64) simd::fetch(fetch);
       prepared i = next;
       i.e = load_element(in + place);
       next = prepare(in + place + stride);
@@ -314,8 +320,9 @@ struct StageRow {
                                                                           : general_path;
       if (taken == plane_path) {
         one_pack(pack, false, std::integral_constant<path, plane_path>{});
-      } else if (P::axes == 3 && taken == solid_path) {
-        one_pack(pack, false, std::integral_constant<path, solid_path>{});
+      } else if (has_solid_path && taken == solid_path) {
+        if constexpr (has_solid_path)
+          one_pack(pack, false, std::integral_constant<path, solid_path>{});
       } else {
         if constexpr (has_path_fence) std::atomic_signal_fence(std::memory_order_acq_rel);
         one_pack(pack, is_applied, std::integral_constant<path, general_path>{});
