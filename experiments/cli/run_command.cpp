@@ -36,6 +36,16 @@ void require_startable(RunRequest request) {
   decomposition_for(plan.scene.problem, request.decomposition, request.ranks);
 }
 
+/// Parts of ranks and hybrids choose their tiles themselves.
+void require_no_tile_of_parts(const RunRequest& request) {
+  const bool has_parts = request.ranks > 1 || !request.hybrid.empty() ||
+                         request.variant == "hybrid" || request.variant.starts_with("mpi");
+  if (request.tile > 0 && has_parts)
+    throw InputError(fmt::format("--tile {}: ranks and hybrids choose the tiles of their parts; "
+                                 "give none",
+                                 request.tile));
+}
+
 int run(const CLI::App& command, const RunArguments& arguments) {
   RunRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.set);
@@ -43,6 +53,7 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   if (analysis != "dynamic") return run_analysis(analysis, request, arguments.analysis);
   // the user started mpirun
   if (job_rank().ranks > 1 && request.ranks == 1) request.ranks = job_rank().ranks;
+  require_no_tile_of_parts(request);
   if (request.ranks > 1 && !job_rank().is_started) {
     require_startable(request);
     return run_on_ranks(request.ranks, request.threads);
@@ -81,7 +92,7 @@ void add_where_options(CLI::App& command, RunRequest& request, std::vector<std::
   command.add_option("--threads", request.threads, "Threads of the variant")->capture_default_str();
   command
       .add_option("--tile", request.tile,
-                  "Rows across of a tile of the wavefront (default: as many as suit the caches)")
+                  "Width of a tile [rows across the sweep] (default: as many as suit the caches)")
       ->check(CLI::Range(1, 1 << 30));
   command
       .add_option("--ranks", request.ranks,

@@ -101,6 +101,21 @@ class Errors(ProgramTest):
         self.assert_refused(2, ["reference", "--threads 1"], *SMALL, "--variant", "reference",
                             "--threads", "2")
 
+    def test_a_tile_is_refused_where_there_are_none_and_named_where_there_are(self):
+        block = ("run", "block", "--steps", "3")
+        self.assert_refused(2, ["--tile", "0"], *block, "--tile", "0")
+        for more in (("--ranks", "2"), ("--hybrid", "auto"), ("--variant", "hybrid")):
+            self.assert_refused(2, ["--tile 4", "parts"], *block, "--tile", "4", *more)
+        self.assert_refused(2, ["--tile 4", "reference"], *block, "--tile", "4", "--variant",
+                            "reference")
+        self.assert_refused(2, ["--tile 4", "two_bodies", "stage by stage"], "run", "two_bodies",
+                            "--tile", "4", "--variant", "scalar")
+        tiled = dssbench(*block, "--tile", "4", "--variant", "scalar", "--json", "-")
+        whole = dssbench(*block, "--tile", "400", "--variant", "scalar", "--json", "-")
+        self.assertIn("tiles of 4 rows", json.loads(tiled.stdout)["schedule"])
+        self.assertNotIn("tiles", json.loads(whole.stdout)["schedule"])
+        self.assertEqual(*(json.loads(run.stdout)["state_digest"] for run in (tiled, whole)))
+
     def test_the_planar_model_refuses_a_scene_that_leaves_the_plane_with_the_reason(self):
         self.assert_refused(2, ["plate_bending", "load 0", "--model spatial"], "run",
                             "plate_bending", "--set", "n=10", "--model", "planar")
