@@ -205,8 +205,9 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_tiles_of_any_size_and_threads)
       for (run.threads = 1; run.threads <= 3; run.threads += 2)
         for (const int tile : is_brief ? std::vector{2} : std::vector{1, 2, 3, 5, 1000}) {
           run.tile = tile;
-          if (tile == 1 && !is_brief)
+          if (tile == 1 && !is_brief) {
             EXPECT_NE(run.executor()->schedule().find("tiles of 1 rows"), std::string::npos);
+          }
           EXPECT_EQ(differing_bits(whole, run.after(state, 20), precision), 0u)
               << name(precision) << ' ' << method.name << ", tile " << tile << ", " << run.threads
               << " threads";
@@ -343,8 +344,8 @@ TEST_P(EveryVariant, reports_the_same_first_failure_however_many_steps_and_threa
       const double dt =
           8 * stable_step(problem, *find_method("rk4")).dt; // above the limit of every method
       const auto failure = [&](int threads, long at_once, int tile = 0) {
-        Setup setup{problem, method, Model::spatial, Precision::f64, dt,
-                    plugin.is_threaded ? threads : 1};
+        dss::Setup setup{problem,        method, Model::spatial,
+                         Precision::f64, dt,     plugin.is_threaded ? threads : 1};
         setup.tile = plugin.has_tiles && !is_composed(plugin) ? tile : 0;
         const auto run = plugin.create(setup);
         run->write(0, fixture::random_state(problem, 5, 1e-60, 1e-58, 1e-58));

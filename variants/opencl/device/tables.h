@@ -15,7 +15,7 @@ typedef struct {
   /* action: of enum row_action; shape: of the compiled terms; applied: -1 for most rows */
   int action, shape, body, applied;
   int packs, first_pack, masks, fields, row;
-  int sweep; /* of a pass */
+  int sweep;                    /* of a pass */
   int is_last, low, increments; /* as in RowTask */
   NUMBER beta, alpha[6];
 } row_stage;

@@ -13,5 +13,4 @@
 #define BLOCK get_global_id(0)
 #define RECORD_ROW                                                                                 \
   if (step <= failed[1 + 2 * block]) /* the first row of the earliest step */                      \
-    failed[2 + 2 * block] =                                                                        \
-        step < failed[1 + 2 * block] ? row : min(row, failed[2 + 2 * block]);
+    failed[2 + 2 * block] = step < failed[1 + 2 * block] ? row : min(row, failed[2 + 2 * block]);
