@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace dss {
 
@@ -48,6 +49,13 @@ int steps_a_pass(const PackedRows<T, W>& packed, const Method& method,
   return steps;
 }
 
+/// The last stage that reads the output of stage s.
+static int last_reader(const Method& method, int s) {
+  for (int reader = method.stages - 1; reader > s + 1; --reader)
+    if (method.alpha[std::size_t(reader)][std::size_t(s) + 1] != 0) return reader;
+  return s + 1;
+}
+
 template <class T, int W>
 int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
                 int steps, SweepRows rows, bool is_by_rows, int asked) {
@@ -55,10 +63,11 @@ int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowS
   // for each sweep, of the output of a stage those up to its last reader.
   const int sweeps = steps * method.stages;
   double planes = sweeps * (1 + double(packed.carry_size) / (storage.stored() * W));
-  for (int stage = 0; stage + 1 < method.stages; ++stage) planes += method.stages - 1 - stage;
+  for (int stage = 0; stage + 1 < method.stages; ++stage)
+    planes += last_reader(method, stage) - stage;
   const double across_bytes = planes * double(packed.max_packs) * storage.stored() * W * sizeof(T);
   const int across = most_rows_across(packed.lattice, rows, is_by_rows);
-  if (asked >= across) return no_tiles;
+  if (asked >= across || across == 1) return no_tiles;
   if (asked > 0 && asked * across_bytes > double(l3_bytes()))
     throw InputError(fmt::format(
         "--tile {}: between its sweeps, {:.0f} MB of rows would leave the caches; give at most {}",
@@ -173,7 +182,8 @@ auto WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order,
 template <class T, int W>
 void WavefrontStep<T, W>::watch(int row, std::function<void()> done) {
   const std::vector<RowStage>& all = tasks_[0];
-  for (std::size_t n = 0; n < all.size(); ++n)
+  const bool is_known = std::exchange(watched_row_, row) == row;
+  for (std::size_t n = 0; n < all.size() && !is_known; ++n)
     if (all[n].sweep + 1 == steps_ * stages_ && all[n].row <= row)
       watched_task_ = std::ptrdiff_t(n);
   watched_rows_done_ = std::move(done);

@@ -125,7 +125,8 @@ private:
   std::array<Buffer<T>, 2> links_; ///< across y, z
   /// [parity]. One parity is enough if the block stores all rows that it reads.
   std::array<std::vector<RowStage>, 2> tasks_;
-  /// Index of the task after which the watched rows are done; -1: none.
+  int watched_row_ = -1;
+  /// Index of the task after which the watched row and all before it are done; -1: none.
   std::ptrdiff_t watched_task_ = -1;
   std::function<void()> watched_rows_done_;
 };
