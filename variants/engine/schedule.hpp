@@ -59,15 +59,14 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
 }
 
 /// Computes only the links that a row leaves for its upper neighbours.
-template <class T, int W>
-void prime_uppers(const PackedRows<T, W>& packed, int row, const RowTask<T>& task) {
-  const KernelSet<T>& kernels = *packed.rows[std::size_t(row)].kernels;
+template <class T>
+void prime_uppers(const KernelSet<T>& kernels, const RowTask<T>& task) {
   if (task.upper_y != nullptr) kernels.prime(task, 1);
   if (task.upper_z != nullptr) kernels.prime(task, 2);
 }
 
 /// Calls visit(row, task, axis) for the links that rows before `begin` leave for rows from `begin`
-/// on. A block needs them before its first row.
+/// on. A block whose rows are computed in the order of their numbers needs them before its first.
 template <class T, int W, class Input, class Visit>
 void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry,
                 Input&& input, Visit&& visit) {
@@ -84,14 +83,6 @@ void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRing
     if (const int lower = packed.lattice.rows[std::size_t(row)].lower_z;
         lower >= 0 && lower < begin)
       prime(lower, 2);
-}
-/// Computes the links that each_prime visits.
-template <class T, int W, class Input>
-void prime_links(const PackedRows<T, W>& packed, int begin, int fields, CarryRings<T>& carry,
-                 Input&& input) {
-  each_prime(packed, begin, fields, carry, input, [&](int row, const RowTask<T>& task, int axis) {
-    packed.rows[std::size_t(row)].kernels->prime(task, axis);
-  });
 }
 
 /// @return the first row of each of `parts` blocks of own rows with about equally many packs, then

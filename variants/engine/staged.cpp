@@ -92,7 +92,7 @@ void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& sign
     const int r = action.row;
     RowTask<T> task = task_of(thread, stage, r, action.is_whole);
     if (!action.is_whole) {
-      prime_uppers(packed_, r, task);
+      prime_uppers(*packed_.rows[std::size_t(r)].kernels, task);
       continue;
     }
     task.signals = signals.stage(stage);

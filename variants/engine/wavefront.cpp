@@ -236,8 +236,7 @@ bool WavefrontStep<T, W>::compute(const RowStage& stage) const {
   case RowWork::stage:
     return kernels.stage(task);
   case RowWork::upper_links:
-    if (task.upper_y != nullptr) kernels.prime(task, 1);
-    if (task.upper_z != nullptr) kernels.prime(task, 2);
+    prime_uppers(kernels, task);
     break;
   case RowWork::upper_link_y:
     kernels.prime(task, 1);
