@@ -43,18 +43,18 @@ test-aarch64: build
 UNTIMED_STUDIES := error_budget failures continuum
 # Tables of speed-ups are measured in three parts, with other studies in between: a busy neighbour
 # of the machine stays for minutes, and so disturbs only some of their rounds.
-SPREAD := table1 table2 table3
+IN_THREE_PARTS := table1 table2 table3
 PAPER_STUDIES := paper_table1 paper_table2 paper_table3
 STUDIES := chain chain_block chain_bending kernels
-LATER_STUDIES := work_precision advise stability model_ladder statics balance cluster mixed_nodes
+LATER_STUDIES := geometry work_precision advise stability model_ladder statics balance cluster mixed_nodes
 # Five minutes of measuring: the paper's tables and the chain alone.
 ifeq (quick,$(SCALE))
 UNTIMED_STUDIES :=
 STUDIES := chain
 LATER_STUDIES :=
 endif
-ORDER := $(SPREAD:%=begin-%) $(STUDIES:%=study-%) $(SPREAD:%=go-on-%) $(LATER_STUDIES:%=study-%) \
-  $(SPREAD:%=end-%) $(PAPER_STUDIES:%=study-%)
+ORDER := $(IN_THREE_PARTS:%=begin-%) $(STUDIES:%=study-%) $(IN_THREE_PARTS:%=go-on-%) \
+  $(LATER_STUDIES:%=study-%) $(IN_THREE_PARTS:%=end-%) $(PAPER_STUDIES:%=study-%)
 SIDE_BY_SIDE := --no-print-directory -j 2 --output-sync=target
 
 reproduce: TARGETS := --target dssbench

@@ -209,8 +209,46 @@ def continuum_table(results):
     return ["check", "finest grid against theory", "limit by Richardson against theory"], lines
 
 
+def geometry_table(results):
+    """Rates of the bodies of many shapes, and those of a link over those of the plate n = 100."""
+    frame = results.table("geometry", "scene", "set", "variant", "threads", "elements", "links",
+                          "element_steps_per_s", "link_steps_per_s", "label", "status",
+                          optional=["speedup_vs_scalar", "speedup_vs_scalar_low",
+                                    "speedup_vs_scalar_high", "extrapolated_speedup_vs_scalar",
+                                    "extrapolated_speedup_vs_scalar_low",
+                                    "extrapolated_speedup_vs_scalar_high"])
+    frame = frame[~frame["label"].str.contains("A/A")].copy()
+    frame["set"] = frame["set"].fillna("")
+    rates = ["scalar", "avx2", "avx512"]
+
+    def row_of(rows, variant, threads=None):
+        rows = rows[(rows["variant"] == variant) & (rows["status"] == "ok")]
+        one = rows["threads"] == 1
+        rows = rows[one if threads is None else ~one]
+        return None if rows.empty else rows.iloc[0]
+
+    def rate(row):
+        return "" if row is None else f"{1e-6 * row['element_steps_per_s']:.3g}"
+
+    plate = row_of(frame[(frame["scene"] == "plate_paper") & (frame["set"] == "n=100")], "avx512")
+    lines = []
+    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
+        fastest, cores = row_of(rows, "avx512"), row_of(rows, "avx512", "cores")
+        per_link = "" if fastest is None or plate is None else (
+            f"{fastest['link_steps_per_s'] / plate['link_steps_per_s']:.2f}")
+        first = rows.iloc[0]
+        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), f"{int(first['elements'])}",
+                      f"{first['links'] / first['elements']:.2f}",
+                      *(rate(row_of(rows, variant)) for variant in rates), rate(cores), per_link,
+                      "" if fastest is None else speedup_over(fastest, "scalar")])
+    return ["body", "elements", "links an element", *(f"`{name}`" for name in rates),
+            "`avx512`, all cores", "per link, over the plate n = 100",
+            "`avx512` over `scalar`"], lines
+
+
 TABLES = {"chain": chain_table, "continuum": continuum_table, "first": first_table,
-          "gpu": gpu_table, "mix": mix_table, "networks": network_table, "sizes": sizes_table}
+          "geometry": geometry_table, "gpu": gpu_table, "mix": mix_table,
+          "networks": network_table, "sizes": sizes_table}
 
 
 def markdown(head, lines):

@@ -64,6 +64,9 @@ void put_times(const CellStudy& study, const Cell& cell, const CellSample& sampl
       wall.half_width() && *wall.half_width() <= study.scale.half_width ? "yes" : "no";
   row["element_steps_per_s"] =
       number_text(number_in(sample.last, "elements") * double(cell.steps) / wall.median);
+  const double links_per_element =
+      number_in(sample.last, "links") / number_in(sample.last, "elements");
+  row["link_steps_per_s"] = number_text(number_in(row, "element_steps_per_s") * links_per_element);
   if (cell.steps < cell.full_steps) {
     row["extrapolated_wall_s"] =
         number_text(wall.median * double(cell.full_steps) / double(cell.steps));

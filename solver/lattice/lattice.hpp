@@ -17,6 +17,10 @@ struct Row {
   std::size_t first_cell = 0;     ///< index of cell x_begin in Lattice::present
   int lower_y = -1, upper_y = -1; ///< row at y - 1, y + 1 of the same body and z, or -1
   int lower_z = -1, upper_z = -1; ///< row at z - 1, z + 1 of the same body and y, or -1
+
+  /// The neighbour rows across axis 1 (y) or 2 (z).
+  int lower(int axis) const { return axis == 1 ? lower_y : lower_z; }
+  int upper(int axis) const { return axis == 1 ? upper_y : upper_z; }
 };
 
 /// The rows of all bodies, body by body, in each body by z, then y. Every row has a present cell.

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -120,14 +121,55 @@ VoxelGrid read_voxels(const Node& node) {
   return grid_of(mask, key == "file" ? read_layer_file(mask) : read_layers(mask));
 }
 
+void require_element(const Node& node, const VoxelGrid& grid, const char* what) {
+  if (std::find(grid.occupied.begin(), grid.occupied.end(), 1) == grid.occupied.end())
+    node.fail(fmt::format("{} has no element; a body has at least one", what));
+}
+
+/// A box of which a part of the cells are elements, chosen at random. A seed gives the same body on
+/// every machine.
+VoxelGrid read_porous(const Node& node) {
+  ObjectNode porous(node);
+  const Node filling = porous.require("filling");
+  const double part = filling.positive();
+  if (part > 1)
+    filling.fail(
+        fmt::format("{:g} is more than 1; it is the part of the cells that are elements", part));
+  VoxelGrid grid = empty_grid(node, read_point(porous.require("size"), 1));
+  std::mt19937 generator(static_cast<std::uint32_t>(porous.whole_or("seed", 0, 1)));
+  porous.finish();
+  for (std::uint8_t& cell : grid.occupied) cell = double(generator()) < part * 0x1p32;
+  require_element(node, grid, "the porous body");
+  return grid;
+}
+
+/// Struts along the edges of cubes of `cell` elements: where at least two of the three coordinates
+/// lie in a strut.
+VoxelGrid read_struts(const Node& node) {
+  ObjectNode struts(node);
+  VoxelGrid grid = empty_grid(node, read_point(struts.require("size"), 1));
+  const long cell = struts.require("cell").whole(1, max_elements),
+             thickness = struts.require("thickness").whole(1, cell);
+  struts.finish();
+  std::size_t n = 0;
+  for (long z = 0; z < grid.nz; ++z)
+    for (long y = 0; y < grid.ny; ++y)
+      for (long x = 0; x < grid.nx; ++x)
+        grid.occupied[n++] =
+            int(x % cell < thickness) + int(y % cell < thickness) + int(z % cell < thickness) >= 2;
+  return grid;
+}
+
 } // namespace
 
 VoxelGrid read_geometry(const Node& node) {
   ObjectNode shape(node);
-  const std::string key = shape.require_one({"box", "boxes", "voxels"});
+  const std::string key = shape.require_one({"box", "boxes", "voxels", "porous", "struts"});
   const Node what = shape.require(key);
   shape.finish();
   if (key == "boxes") return read_boxes(what);
+  if (key == "porous") return read_porous(what);
+  if (key == "struts") return read_struts(what);
   if (key == "box") {
     const GridPoint size = read_point(what, 1);
     VoxelGrid grid = empty_grid(what, size);
@@ -135,8 +177,7 @@ VoxelGrid read_geometry(const Node& node) {
     return grid;
   }
   VoxelGrid grid = read_voxels(what);
-  if (std::find(grid.occupied.begin(), grid.occupied.end(), 1) == grid.occupied.end())
-    what.fail("the voxel mask has no element (#); a body has at least one");
+  require_element(what, grid, "the voxel mask");
   return grid;
 }
 

@@ -153,6 +153,9 @@ std::string scene_directory() {
 
 std::string scene_path(const std::string& name_or_path) {
   std::error_code error;
+  const std::string directory = scene_directory();
+  const std::string path = fmt::format("{}/{}.json", directory, name_or_path);
+  if (!name_or_path.empty() && fs::exists(path, error)) return path;
   if (name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json")) {
     if (!fs::exists(name_or_path, error))
       throw InputError(fmt::format(
@@ -161,9 +164,6 @@ std::string scene_path(const std::string& name_or_path) {
           name_or_path));
     return name_or_path;
   }
-  const std::string directory = scene_directory();
-  const std::string path = (fs::path(directory) / (name_or_path + ".json")).string();
-  if (!name_or_path.empty() && fs::exists(path, error)) return path;
   const std::vector<std::string> names = scene_names(directory);
   if (names.empty())
     throw InputError(

@@ -33,8 +33,8 @@ struct SceneText : JsonFile {
 /// beside the program's folder.
 std::string scene_directory();
 
-/// File of a scene. A name with a slash or ending in .json is a path. Any other name is searched in
-/// scene_directory().
+/// File of a scene: NAME.json in scene_directory(), where a name may have a folder (bodies/porous).
+/// Any other name with a slash or ending in .json is a path.
 /// @throws InputError with the nearest name
 std::string scene_path(const std::string& name_or_path);
 

@@ -108,8 +108,10 @@ class Errors(ProgramTest):
             self.assert_refused(2, ["--tile 4", "parts"], *block, "--tile", "4", *more)
         self.assert_refused(2, ["--tile 4", "reference"], *block, "--tile", "4", "--variant",
                             "reference")
-        self.assert_refused(2, ["--tile 4", "two_bodies", "stage by stage"], "run", "two_bodies",
+        self.assert_refused(2, ["--tile 4", "two_bodies", "extra links"], "run", "two_bodies",
                             "--tile", "4", "--variant", "scalar")
+        self.assert_refused(2, ["--tile 4", "block", "stage by stage"], *block, "--tile", "4",
+                            "--variant", "scalar", "--integrator", "dopri5", "--rtol", "1e-6")
         tiled = dssbench(*block, "--tile", "4", "--variant", "scalar", "--json", "-")
         whole = dssbench(*block, "--tile", "400", "--variant", "scalar", "--json", "-")
         self.assertIn("tiles of 4 rows", json.loads(tiled.stdout)["schedule"])

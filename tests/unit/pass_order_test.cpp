@@ -1,9 +1,12 @@
 /// The order of a pass, the places of what its tasks leave for one another, and its fetches.
+#include "variants/engine/body_group.hpp"
 #include "variants/engine/fetch_plan.hpp"
 #include "variants/engine/pass_places.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <random>
 
@@ -26,11 +29,14 @@ Lattice scattered_bodies(int nx, int ny, int nz, unsigned seed) {
 }
 
 /// Sweeps over a block of rows and the halo that later sweeps read.
-std::vector<SweepRows> sweeps_of(const Lattice& lattice, int begin, int end, int count) {
+std::vector<SweepRows> sweeps_of(const Lattice& lattice, int begin, int end, int count,
+                                 std::span<const LinkedRows> extra = {}) {
   const int rows = int(lattice.rows.size());
+  int reach = lattice.row_reach();
+  for (const auto& [i, j] : extra) reach = std::max(reach, std::abs(i - j));
   std::vector<SweepRows> sweeps;
   for (int n = 0; n < count; ++n) {
-    const int halo = (count - 1 - n) * lattice.row_reach();
+    const int halo = (count - 1 - n) * reach;
     sweeps.push_back({std::max(0, begin - halo), std::min(rows, end + halo)});
   }
   return sweeps;
@@ -40,7 +46,14 @@ struct Case {
   Lattice lattice;
   std::vector<SweepRows> sweeps;
   SweepForm form;
+  std::vector<LinkedRows> extra;
 };
+
+/// Extra links within the first body, between the bodies, and of a row with itself.
+std::vector<LinkedRows> links_of(const Lattice& lattice) {
+  const int rows = int(lattice.rows.size());
+  return {{0, 4}, {rows - 1, 1}, {rows - 2, 2}, {3, 3}, {rows - 2, 2}};
+}
 
 /// Calls check(case) for blocks, sweeps and tiles of awkward sizes.
 template <class Check>
@@ -48,16 +61,23 @@ void each_case(Check&& check) {
   for (const auto& [ny, nz] : {std::pair{7, 5}, {3, 9}, {11, 1}})
     for (const int count : {1, 2, 4, 8})
       for (const int tile : {no_tiles, 1, 2, 3, 5, 50})
-        for (const bool is_by_rows : {false, true}) {
+        for (const bool is_in_row_order : {false, true}) {
           const Lattice lattice = scattered_bodies(9, ny, nz, unsigned(ny));
           const int rows = int(lattice.rows.size());
-          for (const auto& [begin, end] :
-               {std::pair{0, rows}, {rows / 3, rows}, {0, rows / 2}, {rows / 3, rows / 2}})
-            check(Case{lattice, sweeps_of(lattice, begin, end, count), {tile, is_by_rows}});
+          for (const std::vector<LinkedRows>& extra :
+               {std::vector<LinkedRows>{}, links_of(lattice)})
+            for (const auto& [begin, end] :
+                 {std::pair{0, rows}, {rows / 3, rows}, {0, rows / 2}, {rows / 3, rows / 2}})
+              check(Case{lattice,
+                         sweeps_of(lattice, begin, end, count, extra),
+                         {tile, is_in_row_order},
+                         extra});
         }
 }
 
-std::vector<PassTask> order_of(const Case& c) { return order_pass(c.lattice, c.sweeps, c.form); }
+std::vector<PassTask> order_of(const Case& c) {
+  return order_pass(c.lattice, c.sweeps, c.form, c.extra);
+}
 
 TEST(PassOrder, ComputesEachRowOfASweepOnce) {
   each_case([](const Case& c) {
@@ -75,7 +95,13 @@ TEST(PassOrder, ComputesEachRowOfASweepOnce) {
 }
 
 /// The rows whose output of the sweep before a task reads.
-std::vector<int> rows_read(const PassTask& task, const Row& row) {
+std::vector<int> rows_read(const Case& c, const PassTask& task) {
+  if (task.work == RowWork::extra_sum) return {};
+  if (task.work == RowWork::extra_link) {
+    const LinkedRows& link = c.extra[std::size_t(task.row)];
+    return {link.i, link.j};
+  }
+  const Row& row = c.lattice.rows[std::size_t(task.row)];
   std::vector<int> rows{task.row};
   if (row.upper_y >= 0 && task.work != RowWork::upper_link_z) rows.push_back(row.upper_y);
   if (row.upper_z >= 0 && task.work != RowWork::upper_link_y) rows.push_back(row.upper_z);
@@ -89,12 +115,13 @@ TEST(PassOrder, ComesToARowAfterAllThatItReads) {
     std::map<std::pair<int, int>, std::size_t> done;
     std::map<std::tuple<int, int, int>, bool> is_left;
     for (const PassTask& task : order_of(c)) {
-      const Row& row = c.lattice.rows[std::size_t(task.row)];
       const int before = task.sweep - 1;
-      for (const int read : rows_read(task, row)) {
+      for (const int read : rows_read(c, task)) {
         EXPECT_TRUE((before < 0 || done.contains({before, read})));
         EXPECT_FALSE(done.contains({task.sweep, read})) << "the row is a sweep too far";
       }
+      if (task.is_extra()) continue;
+      const Row& row = c.lattice.rows[std::size_t(task.row)];
       if (task.work == RowWork::stage) {
         done[{task.sweep, task.row}] = 1;
         EXPECT_TRUE((row.lower_y < 0 || is_left[{1, task.sweep, row.lower_y}]));
@@ -106,6 +133,66 @@ TEST(PassOrder, ComesToARowAfterAllThatItReads) {
   });
 }
 
+TEST(PassOrder, AddsUpExtraLinksBeforeTheirRows) {
+  each_case([](const Case& c) {
+    std::map<std::pair<int, int>, int> computed; // by sweep and link
+    const PassTask* before = nullptr;
+    const std::vector<PassTask> order = order_of(c);
+    for (const PassTask& task : order) {
+      const auto has = [&](const LinkedRows& link) {
+        return link.i == task.row || link.j == task.row;
+      };
+      const bool is_linked = std::any_of(c.extra.begin(), c.extra.end(), has);
+      if (task.work == RowWork::extra_link) {
+        EXPECT_EQ((computed[{task.sweep, task.row}]++), 0);
+      } else if (task.work == RowWork::stage && is_linked) {
+        ASSERT_NE(before, nullptr);
+        EXPECT_EQ(before->work, RowWork::extra_sum);
+        EXPECT_EQ(std::pair(before->sweep, before->row), std::pair(task.sweep, task.row));
+        for (std::size_t n = 0; n < c.extra.size(); ++n) {
+          EXPECT_TRUE((!has(c.extra[n]) || computed.contains({task.sweep, int(n)})));
+        }
+      }
+      before = &task;
+    }
+  });
+}
+
+Lattice plates(const std::vector<std::pair<int, int>>& sizes) {
+  Lattice lattice;
+  for (int body = 0; body < int(sizes.size()); ++body) {
+    const auto [ny, nz] = sizes[std::size_t(body)];
+    append_body(lattice, {2, ny, nz, std::vector<std::uint8_t>(std::size_t(2 * ny * nz), 1)}, body);
+  }
+  return lattice;
+}
+
+TEST(BodyGroups, AreShiftedSoThatLinkedRowsAreClose) {
+  const Lattice lattice = plates({{20, 1}, {30, 1}, {5, 1}});
+  // The end of the first to the start of the second; the third is alone.
+  const std::vector<LinkedRows> ends{{19, 20}};
+  const std::vector<BodyGroup> groups = body_groups(lattice, {0, 55}, ends, false);
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].lag(), 1);
+  EXPECT_EQ(groups[0].members()[1].shift, 19);
+  EXPECT_EQ(groups[0].planes(), 49);
+  EXPECT_EQ(groups[0].rows_behind(), 2);
+  EXPECT_FALSE(groups[1].is_linked());
+  // Links that pull apart: each is two planes long, which is the least.
+  const std::vector<LinkedRows> apart{{4, 20}, {0, 20}};
+  EXPECT_EQ(body_groups(lattice, {0, 55}, apart, false).front().lag(), 3);
+}
+
+TEST(BodyGroups, TakeTheDirectionOfTheirLinks) {
+  // Planes along the longer side of each body would put one row of links beside many planes.
+  const Lattice lattice = plates({{20, 4}, {6, 20}});
+  std::vector<LinkedRows> links;
+  for (int z = 0; z < 4; ++z) links.push_back({z * 20, 80 + z * 6});
+  const std::vector<BodyGroup> groups = body_groups(lattice, {0, 200}, links, false);
+  ASSERT_EQ(groups.size(), 1U);
+  EXPECT_EQ(groups[0].lag(), 1);
+}
+
 /// Writes the name of what each task leaves into its place, and looks whether it is still there
 /// when it is read.
 TEST(PassPlaces, KeepWhatIsStillRead) {
@@ -113,23 +200,22 @@ TEST(PassPlaces, KeepWhatIsStillRead) {
   each_case([&](const Case& c) {
     const int sweeps = int(c.sweeps.size()), stages = sweeps == 4 ? 4 : 1;
     const std::vector<PassTask> order = order_of(c);
-    const PassPlaces places(c.lattice, order, sweeps, stages, increments);
+    const PassPlaces places(c.lattice, order, sweeps, stages, increments, c.extra);
     std::map<int, std::pair<int, int>> stage_rows, links[2];
     for (const PassTask& task : order) {
-      const Row& row = c.lattice.rows[std::size_t(task.row)];
       const int stage = task.sweep % stages;
       const auto expect_kept = [&](int read, int r) {
         EXPECT_EQ(stage_rows[places.stage_row(read, r)], std::pair(read, r));
       };
       if (stage > 0)
-        for (const int r : {task.row, row.upper_y, row.upper_z})
-          if (r >= 0) expect_kept(stage - 1, r);
+        for (const int r : rows_read(c, task)) expect_kept(stage - 1, r);
+      if (task.is_extra()) continue;
+      const Row& row = c.lattice.rows[std::size_t(task.row)];
       if (task.work == RowWork::stage)
         for (const int m : increments[std::size_t(stage)]) expect_kept(m, task.row);
       for (const int axis : {1, 2}) {
         auto& of_axis = links[axis - 1];
-        const int lower = axis == 1 ? row.lower_y : row.lower_z,
-                  upper = axis == 1 ? row.upper_y : row.upper_z;
+        const int lower = row.lower(axis), upper = row.upper(axis);
         if (task.work == RowWork::stage && lower >= 0) {
           EXPECT_EQ(of_axis[places.links(axis, task.sweep, lower)],
                     std::pair(int(task.sweep), lower));
@@ -151,7 +237,7 @@ TEST(PassPlaces, OfOneTileAreThoseOfAFewPlanes) {
   Lattice block;
   append_body(block, {8, 20, 40, std::vector<std::uint8_t>(8 * 20 * 40, 1)}, 0);
   const std::vector<SweepRows> sweeps = sweeps_of(block, 0, 20 * 40, 4);
-  const PassPlaces places(block, order_pass(block, sweeps, {}), 4, 4, {{}, {}, {}, {0, 1, 2}});
+  const PassPlaces places(block, order_pass(block, sweeps, {}), 4, 4, {{}, {}, {}, {0, 1, 2}}, {});
   EXPECT_LE(places.stage_row_count(), 6 * 20 + 10); // 3 + 2 + 1 planes
   EXPECT_LE(places.links_count(2), 4 * 20 + 4);
   EXPECT_LE(places.links_count(1), 4 + 4);

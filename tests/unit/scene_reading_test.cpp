@@ -116,6 +116,25 @@ TEST_F(scene_file, with_a_bad_voxel_mask_is_refused) {
   expect_part(refusal(scene_with(R"({"voxels": {"layers": [["..", ".."]]}})")), "no element");
 }
 
+TEST_F(scene_file, makes_a_porous_box_from_its_seed) {
+  const auto lattice = [&](const std::string& more) {
+    return load_scene(scene_with(R"({"porous": {"size": [20, 30, 40], )" + more + "}}"))
+        .problem.lattice;
+  };
+  const Lattice first = lattice(R"("filling": 0.6)");
+  EXPECT_NEAR(double(first.element_count), 0.6 * 24000, 300); // four standard deviations
+  EXPECT_EQ(first.present, lattice(R"("filling": 0.6, "seed": 1)").present);
+  EXPECT_NE(first.present, lattice(R"("filling": 0.6, "seed": 2)").present);
+  EXPECT_EQ(lattice(R"("filling": 1)").element_count, 24000U);
+}
+
+TEST_F(scene_file, makes_struts_along_the_edges_of_cubes) {
+  const Scene scene =
+      load_scene(scene_with(R"({"struts": {"size": [9, 9, 9], "cell": 6, "thickness": 3}})"));
+  // Eight nodes, and twelve struts between two of them.
+  EXPECT_EQ(scene.problem.lattice.element_count, 8U * 27 + 12U * 27);
+}
+
 TEST_F(scene_file, of_a_union_of_boxes_counts_shared_cells_once) {
   const Scene scene = load_scene(scene_with(
       R"({"boxes": [{"from": [0, 0, 0], "size": [3, 2, 1]},

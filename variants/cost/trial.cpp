@@ -31,7 +31,7 @@ public:
         executor_(plugin.create(setup_)),
         work_(element_stages(part_size(whole.problem, decomposition, index, part_.depth), strategy,
                              whole.method.stages)) {
-    while (run_s(steps_) < trial_s && steps_ < 1 << 16) steps_ *= 2;
+    steps_ = trial_steps([this](long steps) { return run_s(steps); });
   }
   Trial(const Trial&) = delete;
   Trial& operator=(const Trial&) = delete;

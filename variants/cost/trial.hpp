@@ -6,6 +6,14 @@
 namespace dss {
 
 inline constexpr double trial_s = 4e-3; ///< shortest duration of one timing [s]
+/// Steps that take at least trial_s, found by doubling.
+/// @param run_s  function from a number of steps to the seconds that they took
+template <class RunSeconds>
+long trial_steps(RunSeconds&& run_s) {
+  long steps = 1;
+  while (run_s(steps) < trial_s && steps < 1 << 16) steps *= 2;
+  return steps;
+}
 inline constexpr std::size_t large_part_elements = 500'000;
 
 /// Speed on one part of a decomposition, for both schedules. The best of several short timings

@@ -18,7 +18,7 @@ public:
   /// @param stages  of a step
   void make(const PackedRows<T, W>& packed, const std::vector<int>& cuts, int fields, int steps,
             int stages) {
-    const int rows = int(packed.rows.size()), halo = steps * stages * packed.reach;
+    const int rows = int(packed.rows.size()), halo = steps * stages * packed.stage_halo;
     if (packed.own_begin > 0) blocks_.emplace_back(packed, 0, packed.own_begin, fields, halo);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
       blocks_.emplace_back(packed, cuts[b], cuts[b + 1], fields, halo, steps);

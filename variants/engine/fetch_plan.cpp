@@ -22,7 +22,7 @@ void FetchPlan::first_read(std::size_t task, const void* row, std::size_t bytes)
     for (std::size_t n = task; n-- > 0;) {
       const long ahead = start_[task] - start_[n];
       if (ahead > most_lead) break;
-      if (ahead < lead || fetches_[n].row != nullptr) continue;
+      if (ahead < lead || tasks_[n].packs == 0 || fetches_[n].row != nullptr) continue;
       if (!is_any_sweep && tasks_[n].sweep != tasks_[task].sweep) continue;
       put(n, begin, bytes);
       return;

@@ -24,7 +24,8 @@ private:
 class FetchPlan {
 public:
   struct Task {
-    int packs, sweep;
+    int packs; ///< 0: the task cannot fetch
+    int sweep;
   };
   /// @param tasks  in their order
   explicit FetchPlan(std::vector<Task> tasks);

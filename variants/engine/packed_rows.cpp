@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace dss {
@@ -228,16 +229,19 @@ void PackedRows<T, W>::apply_loads(const Problem& problem) {
 
 template <class T, int W>
 void PackedRows<T, W>::apply_extra_links(const Problem& problem) {
+  stage_halo = reach;
   if (problem.extra_links.empty()) return;
   extra_.resize(rows.size());
   const int constant_one = int(3 + problem.loads.size());
-  for (const ExtraLink& link : problem.extra_links)
-    for (const std::size_t element : {link.i, link.j}) {
-      const std::size_t r = row_of(lattice, element);
+  for (const ExtraLink& link : problem.extra_links) {
+    const std::size_t linked[] = {row_of(lattice, link.i), row_of(lattice, link.j)};
+    stage_halo = std::max(stage_halo, std::abs(int(linked[0]) - int(linked[1])));
+    for (const std::size_t r : linked) {
       if (!extra_[r].empty()) continue;
       extra_[r] = Buffer<T>(std::size_t(rows[r].packs) * layout.wrench.size() * W, memory);
       applied_row(r).patterns.push_back({extra_[r].data(), constant_one, 0, rows[r].packs});
     }
+  }
 }
 
 template <class T, int W>

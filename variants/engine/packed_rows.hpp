@@ -43,7 +43,8 @@ public:
   const Lattice& lattice;
   const ModelDescriptor& layout;
   std::vector<PackedRow<T>> rows;
-  int reach = 0;        ///< largest distance of two linked elements [rows]
+  int reach = 0;        ///< largest distance of two neighbours in the grid [rows]
+  int stage_halo = 0;   ///< rows that a stage needs beside its own: reach, or an extra link's
   int packs_across = 0; ///< packs of the widest body's grid
   int max_packs = 0;    ///< packs of the longest row
   int carry_size = 0;   ///< numbers of a pack in a carry buffer; the largest over the bodies

@@ -1,88 +1,75 @@
 #include "variants/engine/pass_order.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace dss {
 namespace {
 
-/// Rows of one body by their places: along the direction of the sweeps, and across it.
-class BodyPlanes {
+/// Which extra links a row has, and which of them a sweep has computed already.
+class ExtraWork {
 public:
-  BodyPlanes(const Lattice& lattice, SweepRows rows, bool is_by_rows) {
-    int least[2] = {std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
-    int most[2] = {std::numeric_limits<int>::min(), std::numeric_limits<int>::min()};
-    const auto each = [&](auto&& visit) {
-      for (int r = rows.begin; r < rows.end; ++r)
-        visit(r, lattice.rows[std::size_t(r)].y, lattice.rows[std::size_t(r)].z);
-    };
-    each([&](int, int y, int z) {
-      least[0] = std::min(least[0], y), most[0] = std::max(most[0], y);
-      least[1] = std::min(least[1], z), most[1] = std::max(most[1], z);
-    });
-    const int size_y = most[0] - least[0] + 1, size_z = most[1] - least[1] + 1;
-    const bool is_along_y = is_by_rows ? size_z == 1 : size_y > size_z;
-    along = is_along_y ? size_y : size_z;
-    across = is_along_y ? size_z : size_y;
-    rows_.assign(std::size_t(along) * std::size_t(across), -1);
-    each([&](int r, int y, int z) {
-      const int s = is_along_y ? y - least[0] : z - least[1],
-                c = is_along_y ? z - least[1] : y - least[0];
-      rows_[place(s, c)] = r;
-    });
+  ExtraWork(std::span<const LinkedRows> extra, SweepRows rows, std::size_t sweeps)
+      : first_row_(rows.begin), computed_(sweeps, std::vector<std::uint8_t>(extra.size())) {
+    if (extra.empty()) return;
+    links_of_.resize(std::size_t(rows.end - rows.begin));
+    for (std::size_t n = 0; n < extra.size(); ++n)
+      for (const int row : {extra[n].i, extra[n].j})
+        if (rows.has(row)) add(links_of_[std::size_t(row - first_row_)], int(n));
   }
-  /// @return -1 if there is no such row
-  int row(int s, int c) const {
-    return s < 0 || s >= along || c < 0 || c >= across ? -1 : rows_[place(s, c)];
+  std::span<const int> links_of(int row) const {
+    if (links_of_.empty()) return {};
+    return links_of_[std::size_t(row - first_row_)];
   }
-  int along = 0, across = 0;
+  /// @return whether this is the first time that the sweep asks for the link
+  bool begin(int sweep, int link) {
+    std::uint8_t& is_computed = computed_[std::size_t(sweep)][std::size_t(link)];
+    return std::exchange(is_computed, 1) == 0;
+  }
 
 private:
-  std::size_t place(int s, int c) const {
-    return std::size_t(s) * std::size_t(across) + std::size_t(c);
+  static void add(std::vector<int>& links, int link) {
+    if (links.empty() || links.back() != link) links.push_back(link); // both ends in one row
   }
-  std::vector<int> rows_;
+  int first_row_;
+  std::vector<std::vector<int>> links_of_;          ///< empty if there are no extra links
+  std::vector<std::vector<std::uint8_t>> computed_; ///< [sweep][link]
 };
-
-/// Calls visit(rows) for the rows of each body.
-template <class Visit>
-void each_body(const Lattice& lattice, SweepRows all, Visit&& visit) {
-  for (int begin = all.begin, end = begin; begin < all.end; begin = end) {
-    const int body = lattice.rows[std::size_t(begin)].body;
-    while (end < all.end && lattice.rows[std::size_t(end)].body == body) ++end;
-    visit(SweepRows{begin, end});
-  }
-}
 
 class Order {
 public:
-  Order(const Lattice& lattice, std::span<const SweepRows> sweeps, SweepForm form)
-      : lattice_(lattice), sweeps_(sweeps), form_(form) {}
-  void add_body(SweepRows rows) {
-    const BodyPlanes planes(lattice_, rows, form_.is_by_rows);
-    const int last = int(sweeps_.size()) - 1,
-              tiles = form_.tile == no_tiles ? 1 : (planes.across + form_.tile - 1) / form_.tile;
+  Order(const Lattice& lattice, std::span<const SweepRows> sweeps, int tile,
+        std::span<const LinkedRows> extra)
+      : lattice_(lattice), sweeps_(sweeps), form_tile_(tile),
+        extra_(extra, sweeps.front(), sweeps.size()) {}
+  void add_group(const BodyGroup& group) {
+    const int last = int(sweeps_.size()) - 1, across = group.members().front().planes.across,
+              tiles = form_tile_ == no_tiles || group.is_linked()
+                          ? 1
+                          : (across + form_tile_ - 1) / form_tile_;
     // The mean of the sweeps' edges divides the rows evenly.
-    const auto edge = [&](int t) {
+    const auto edge = [&](long t) {
       return t == 0       ? 0
-             : t == tiles ? planes.across + last
-                          : (planes.across * t + tiles / 2) / tiles + last / 2;
+             : t == tiles ? across + last
+                          : int((across * t + tiles / 2) / tiles) + last / 2;
     };
     for (int t = 0; t < tiles; ++t, ++tile_)
-      for (int k = 0; k < planes.along + last; ++k)
-        if (tiles == 1)
-          add_plane(planes, k, 0, planes.across, 0);
-        else
-          add_plane(planes, k, edge(t), edge(t + 1), 1);
+      for (int k = 0; k < group.planes() + last * group.lag(); ++k)
+        for (const BodyGroup::Member& member : group.members())
+          if (tiles == 1)
+            add_plane(member.planes, k - member.shift, group.lag(), 0, member.planes.across, 0);
+          else
+            add_plane(member.planes, k, 1, edge(t), edge(t + 1), 1);
   }
   std::vector<PassTask> tasks;
 
 private:
-  /// Sweep n has the rows [begin - n skew, end - n skew) of plane k - n.
-  void add_plane(const BodyPlanes& planes, int k, int begin, int end, int skew) {
+  /// Sweep n has the rows [begin, end - n skew) of plane k - n lag, each n skew lower.
+  void add_plane(const BodyPlanes& planes, int k, int lag, int begin, int end, int skew) {
     for (int c = begin; c < end; ++c)
       for (int n = 0; n < int(sweeps_.size()); ++n)
-        if (const int r = planes.row(k - n, c - n * skew); r >= 0 && sweeps_[std::size_t(n)].has(r))
+        if (const int r = planes.row(k - n * lag, c - n * skew);
+            r >= 0 && sweeps_[std::size_t(n)].has(r))
           add(n, r);
   }
   void add(int sweep, int row) {
@@ -91,6 +78,10 @@ private:
     // Rows before the sweep's first leave no links by themselves.
     if (r.lower_y >= 0 && r.lower_y < begin) put(RowWork::upper_link_y, sweep, r.lower_y);
     if (r.lower_z >= 0 && r.lower_z < begin) put(RowWork::upper_link_z, sweep, r.lower_z);
+    const std::span<const int> links = extra_.links_of(row);
+    for (const int link : links)
+      if (extra_.begin(sweep, link)) put(RowWork::extra_link, sweep, link);
+    if (!links.empty()) put(RowWork::extra_sum, sweep, row);
     put(RowWork::stage, sweep, row);
   }
   void put(RowWork work, int sweep, int row) {
@@ -99,24 +90,29 @@ private:
 
   const Lattice& lattice_;
   const std::span<const SweepRows> sweeps_;
-  const SweepForm form_;
+  const int form_tile_;
+  ExtraWork extra_;
   int tile_ = 0;
 };
 
 } // namespace
 
 std::vector<PassTask> order_pass(const Lattice& lattice, std::span<const SweepRows> sweeps,
-                                 SweepForm form) {
-  Order order(lattice, sweeps, form);
-  each_body(lattice, sweeps.front(), [&](SweepRows rows) { order.add_body(rows); });
+                                 SweepForm form, std::span<const LinkedRows> extra) {
+  Order order(lattice, sweeps, form.tile, extra);
+  for (const BodyGroup& group : body_groups(lattice, sweeps.front(), extra, form.is_in_row_order))
+    order.add_group(group);
   return std::move(order.tasks);
 }
 
-int most_rows_across(const Lattice& lattice, SweepRows rows, bool is_by_rows) {
+std::string tiles_text(int tile) {
+  return tile == no_tiles ? "" : ", tiles of " + std::to_string(tile) + " rows";
+}
+
+int most_rows_across(const Lattice& lattice, SweepRows rows, bool is_in_row_order) {
   int most = 0;
-  each_body(lattice, rows, [&](SweepRows body) {
-    most = std::max(most, BodyPlanes(lattice, body, is_by_rows).across);
-  });
+  for (const BodyGroup& group : body_groups(lattice, rows, {}, is_in_row_order))
+    most = std::max(most, group.members().front().planes.across);
   return most;
 }
 

@@ -48,13 +48,27 @@ private:
 } // namespace
 
 PassPlaces::PassPlaces(const Lattice& lattice, std::span<const PassTask> order, int sweeps,
-                       int stages, const std::vector<std::vector<int>>& increments)
-    : lattice_(lattice) {
-  const std::vector<int> none(lattice.rows.size(), nowhere);
-  stage_rows_.assign(std::size_t(stages - 1), none);
-  for (Table& links : links_) links.assign(std::size_t(sweeps), none);
+                       int stages, const std::vector<std::vector<int>>& increments,
+                       std::span<const LinkedRows> extra)
+    : lattice_(lattice), extra_(extra) {
+  find_rows(order);
+  stage_rows_ = empty_table(stages - 1);
+  for (Table& links : links_) links = empty_table(sweeps);
   place_stage_rows(order, stages, increments);
   for (const int axis : {1, 2}) place_links(order, axis);
+}
+
+void PassPlaces::find_rows(std::span<const PassTask> order) {
+  int least = int(lattice_.rows.size()), most = -1;
+  for (const PassTask& task : order) {
+    if (task.is_extra()) continue;
+    const Row& row = lattice_.rows[std::size_t(task.row)];
+    for (const int r : {task.row, row.lower_y, row.lower_z, row.upper_y, row.upper_z})
+      if (r >= 0) least = std::min(least, r), most = std::max(most, r);
+  }
+  for (const auto& [i, j] : extra_) least = std::min({least, i, j}), most = std::max({most, i, j});
+  first_row_ = least;
+  row_count_ = std::size_t(most + 1 - least);
 }
 
 void PassPlaces::place_stage_rows(std::span<const PassTask> order, int stages,
@@ -62,6 +76,11 @@ void PassPlaces::place_stage_rows(std::span<const PassTask> order, int stages,
   // Calls visit(stage, row) for each output of a stage that a task reads.
   const auto each_read = [&](const PassTask& task, auto&& visit) {
     const int stage = task.sweep % stages;
+    if (stage > 0 && task.work == RowWork::extra_link) {
+      visit(stage - 1, extra_[std::size_t(task.row)].i);
+      visit(stage - 1, extra_[std::size_t(task.row)].j);
+    }
+    if (task.is_extra()) return;
     if (stage > 0) {
       visit(stage - 1, task.row);
       for (const int axis : {1, 2})
@@ -70,27 +89,26 @@ void PassPlaces::place_stage_rows(std::span<const PassTask> order, int stages,
     if (task.work == RowWork::stage)
       for (const int m : increments[std::size_t(stage)]) visit(m, task.row);
   };
-  Table last_read(stage_rows_.size(), std::vector<int>(lattice_.rows.size(), nowhere));
+  Table last_read = empty_table(stages - 1);
   for (std::size_t n = 0; n < order.size(); ++n)
-    each_read(order[n], [&](int stage, int row) {
-      last_read[std::size_t(stage)][std::size_t(row)] = int(n);
-    });
+    each_read(order[n],
+              [&](int stage, int row) { last_read[std::size_t(stage)][row_index(row)] = int(n); });
   Rings rings(stage_rows_.size());
   for (std::size_t n = 0; n < order.size(); ++n) {
     const PassTask& task = order[n];
-    const auto stage = std::size_t(task.sweep % stages), row = std::size_t(task.row);
+    const auto stage = std::size_t(task.sweep % stages);
     if (task.work == RowWork::stage && stage < stage_rows_.size()) {
-      const int last = last_read[stage][row];
+      const int last = last_read[stage][row_index(task.row)];
       const bool is_read = last != nowhere;
-      stage_rows_[stage][row] =
-          rings.take(stage, is_read && order[std::size_t(last)].tile != task.tile);
-      if (!is_read) rings.give(stage_rows_[stage][row]);
+      int& place = stage_rows_[stage][row_index(task.row)];
+      place = rings.take(stage, is_read && order[std::size_t(last)].tile != task.tile);
+      if (!is_read) rings.give(place);
     }
     each_read(order[n], [&](int from, int read) {
-      int& last = last_read[std::size_t(from)][std::size_t(read)];
+      int& last = last_read[std::size_t(from)][row_index(read)];
       if (last != int(n)) return;
       last = nowhere; // a task may read a row twice
-      rings.give(stage_rows_[std::size_t(from)][std::size_t(read)]);
+      rings.give(stage_rows_[std::size_t(from)][row_index(read)]);
     });
   }
   stage_row_count_ = rings.number(stage_rows_);
@@ -98,23 +116,25 @@ void PassPlaces::place_stage_rows(std::span<const PassTask> order, int stages,
 
 void PassPlaces::place_links(std::span<const PassTask> order, int axis) {
   const RowWork alone = axis == 1 ? RowWork::upper_link_y : RowWork::upper_link_z;
+  const auto is_whole = [](const PassTask& task) {
+    return task.work == RowWork::stage || task.work == RowWork::upper_links;
+  };
   const auto has_lower = [&](const PassTask& task) {
-    return lower(task.row, axis) >= 0 &&
-           (task.work == RowWork::stage || task.work == RowWork::upper_links);
+    return is_whole(task) && lower(task.row, axis) >= 0;
   };
   Table& links = links_[std::size_t(axis) - 1];
-  Table reader_tile(links.size(), std::vector<int>(lattice_.rows.size(), nowhere));
+  Table reader_tile = empty_table(int(links.size()));
   for (const PassTask& task : order)
     if (has_lower(task))
-      reader_tile[std::size_t(task.sweep)][std::size_t(lower(task.row, axis))] = task.tile;
+      reader_tile[std::size_t(task.sweep)][row_index(lower(task.row, axis))] = task.tile;
   Rings rings(links.size());
   for (const PassTask& task : order) {
-    const auto sweep = std::size_t(task.sweep), row = std::size_t(task.row);
+    const auto sweep = std::size_t(task.sweep);
     // A row reads what is left for it before it leaves its own in the same place.
-    if (has_lower(task)) rings.give(links[sweep][std::size_t(lower(task.row, axis))]);
-    if (upper(task.row, axis) >= 0 &&
-        (task.work == RowWork::stage || task.work == RowWork::upper_links || task.work == alone))
-      links[sweep][row] = rings.take(sweep, reader_tile[sweep][row] != task.tile);
+    if (has_lower(task)) rings.give(links[sweep][row_index(lower(task.row, axis))]);
+    if ((is_whole(task) || task.work == alone) && upper(task.row, axis) >= 0)
+      links[sweep][row_index(task.row)] =
+          rings.take(sweep, reader_tile[sweep][row_index(task.row)] != task.tile);
   }
   links_count_[std::size_t(axis) - 1] = rings.number(links);
 }

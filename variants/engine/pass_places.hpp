@@ -18,8 +18,9 @@ public:
   /// @param stages      stages of a step; sweep n computes stage n % stages
   /// @param increments  of each stage, the stages whose outputs the update reads
   /// @param lattice     of all rows; outlives this object
+  /// @param extra       rows of the extra links; outlive this object
   PassPlaces(const Lattice& lattice, std::span<const PassTask> order, int sweeps, int stages,
-             const std::vector<std::vector<int>>& increments);
+             const std::vector<std::vector<int>>& increments, std::span<const LinkedRows> extra);
   /// Place of the output of a stage of a row; 0 if no task of the pass writes it.
   int stage_row(int stage, int row) const { return at(stage_rows_, stage, row); }
   /// Place of the links that a row leaves across axis 1 (y) or 2 (z) in a sweep; 0 if it leaves
@@ -32,24 +33,28 @@ public:
 
 private:
   using Table = std::vector<std::vector<int>>;
-  static int at(const Table& table, int n, int row) {
-    return std::max(0, table[std::size_t(n)][std::size_t(row)]);
+  int at(const Table& table, int n, int row) const {
+    const int place = row_index(row) < row_count_ ? table[std::size_t(n)][row_index(row)] : nowhere;
+    return std::max(0, place);
   }
+  Table empty_table(int count) const {
+    return Table(std::size_t(count), std::vector<int>(row_count_, nowhere));
+  }
+  /// Of a row that a task of the pass writes or reads.
+  std::size_t row_index(int row) const { return std::size_t(row - first_row_); }
+  void find_rows(std::span<const PassTask> order);
   void place_stage_rows(std::span<const PassTask> order, int stages,
                         const std::vector<std::vector<int>>& increments);
   void place_links(std::span<const PassTask> order, int axis);
-  int upper(int row, int axis) const {
-    const Row& r = lattice_.rows[std::size_t(row)];
-    return axis == 1 ? r.upper_y : r.upper_z;
-  }
-  int lower(int row, int axis) const {
-    const Row& r = lattice_.rows[std::size_t(row)];
-    return axis == 1 ? r.lower_y : r.lower_z;
-  }
+  int upper(int row, int axis) const { return lattice_.rows[std::size_t(row)].upper(axis); }
+  int lower(int row, int axis) const { return lattice_.rows[std::size_t(row)].lower(axis); }
 
   const Lattice& lattice_;
-  Table stage_rows_;           ///< [stage][row]
-  std::array<Table, 2> links_; ///< [axis - 1][sweep][row]
+  const std::span<const LinkedRows> extra_;
+  int first_row_ = 0;          ///< the least row of the tables
+  std::size_t row_count_ = 0;  ///< of the tables
+  Table stage_rows_;           ///< [stage][row - first_row_]
+  std::array<Table, 2> links_; ///< [axis - 1][sweep][row - first_row_]
   int stage_row_count_ = 0;
   std::array<int, 2> links_count_{};
 };

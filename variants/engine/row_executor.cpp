@@ -17,14 +17,34 @@ RowExecutor<T>::RowExecutor(const Setup& setup)
       rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows)
     row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
-  const bool is_staged = setup_.method.has_error_stage || !setup_.problem.extra_links.empty() ||
-                         (part_ != nullptr && part_->is_every_stage);
-  if (is_staged) refuse_tile(setup_);
+  const bool is_staged = !why_staged().empty();
+  if (is_staged) refuse_tile(setup_, "it is computed stage by stage");
+  if (!setup_.problem.extra_links.empty()) refuse_tile(setup_, "extra links join its rows");
   if (is_staged)
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(),
                     setup_.threads, part_);
   else
     make_blocks();
+}
+
+/// Most work for halos, over a block's own, that costs less than to go stage by stage.
+static constexpr double most_halo_work = 0.5;
+
+template <class T>
+std::string_view RowExecutor<T>::why_staged() const {
+  const Method& method = setup_.method;
+  if (method.has_error_stage) return "adaptive steps";
+  if (part_ != nullptr && part_->is_every_stage) return "halos are exchanged in between";
+  if (setup_.problem.extra_links.empty()) return "";
+  if (is_part()) return "extra links may join rows of several parts";
+  const std::vector<int> cuts = cut_rows(packed_, setup_.threads);
+  const std::size_t blocks = cuts.size() - 1,
+                    halo = std::size_t(method.stages) * std::size_t(packed_.stage_halo);
+  // A halo as long as a block would have every row published.
+  const bool is_published_whole = blocks > 1 && halo * blocks >= packed_.rows.size();
+  if (is_published_whole || halo_work(packed_, cuts, method.stages) > most_halo_work)
+    return "extra links join distant rows of several threads";
+  return "";
 }
 
 template <class T>
@@ -41,13 +61,14 @@ void RowExecutor<T>::make_blocks() {
   steps_a_pass_ = steps_a_pass(packed_, method, cuts);
   blocks_.make(packed_, cuts, stored_fields(), steps_a_pass_, method.stages);
   std::vector<Block<T>>& blocks = blocks_.all();
-  form_.is_by_rows = is_part();
-  form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, {cuts[0], cuts[1]},
-                           form_.is_by_rows, setup_.tile);
+  form_.is_in_row_order = is_part();
+  form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, cuts,
+                           form_.is_in_row_order, setup_.tile);
+  const ExtraLinks<T> extra_links(setup_.problem, packed_);
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (!blocks[b].is_remote())
       steps_.emplace_back(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem),
-                          blocks, b, PassShape{steps_a_pass_, form_});
+                          blocks, b, PassShape{steps_a_pass_, form_}, extra_links);
 }
 
 template <class T>
@@ -274,14 +295,10 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
 
 template <class T>
 std::string RowExecutor<T>::schedule() const {
-  if (staged_)
-    return setup_.method.has_error_stage ? "stage by stage: adaptive steps"
-           : setup_.problem.extra_links.empty()
-               ? "stage by stage: halos are exchanged in between"
-               : "stage by stage: extra links break the order of rows";
+  if (staged_) return "stage by stage: " + std::string(why_staged());
   return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place" +
          (steps_a_pass_ > 1 ? ", " + std::to_string(steps_a_pass_) + " steps a pass" : "") +
-         (form_.tile != no_tiles ? ", tiles of " + std::to_string(form_.tile) + " rows" : "");
+         tiles_text(form_.tile) + (setup_.problem.extra_links.empty() ? "" : ", with extra links");
 }
 
 template <class T>

@@ -9,6 +9,7 @@
 #include "variants/engine/wavefront.hpp"
 
 #include <optional>
+#include <string_view>
 
 namespace dss {
 
@@ -44,6 +45,8 @@ private:
   static constexpr int W = simd::lanes<T>;
   int stored_fields() const { return rows_.stored_fields(); }
   bool is_part() const { return part_ != nullptr; }
+  /// Why the wavefront does not serve; empty if it does.
+  std::string_view why_staged() const;
   void make_blocks();
   T* row(int r);
   /// Two places of a row of a copy that parts exchange: where it is kept, and its other place or

@@ -7,11 +7,10 @@
 
 namespace dss {
 
-void refuse_tile(const Setup& setup) {
+void refuse_tile(const Setup& setup, std::string_view why) {
   if (setup.tile > 0)
-    throw InputError(
-        fmt::format("--tile {}: {} is computed stage by stage, without tiles; give none",
-                    setup.tile, setup.problem.name));
+    throw InputError(fmt::format("--tile {}: {} has no tiles, because {}; give none", setup.tile,
+                                 setup.problem.name, why));
 }
 
 template <class T, int W>

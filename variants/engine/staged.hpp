@@ -1,44 +1,21 @@
 #pragma once
-/// The schedule "stage by stage". It serves scenes whose extra links break the order of rows, parts
-/// whose halo is exchanged after every stage, and adaptive steps. Every stage keeps all rows. The
-/// threads of a team meet twice in a stage.
+/// The schedule "stage by stage". It serves adaptive steps, parts whose halo is exchanged after
+/// every stage, and extra links that join rows of parts or of distant blocks. Every stage keeps all
+/// rows. The threads of a team meet twice in a stage.
 #include "variants/api/api.hpp"
 #include "variants/api/halo.hpp"
+#include "variants/engine/extra_links.hpp"
 #include "variants/engine/step_error.hpp"
 #include "variants/engine/wavefront.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace dss {
 
-/// This schedule has no tiles.
+/// @param why  the schedule has no tiles
 /// @throws InputError if one was asked for
-void refuse_tile(const Setup& setup);
-
-/// Extra links, which are links outside the grid. They are evaluated one by one, always in the same
-/// order, into the wrench rows that the row kernels add.
-template <class T, int W = simd::lanes<T>>
-class ExtraLinks {
-public:
-  ExtraLinks(const Problem& problem, PackedRows<T, W>& packed);
-  bool empty() const { return links_.empty(); }
-  /// Computes all extra links.
-  /// @param row     function from a row's number to its address
-  /// @param fields  numbers that a pack of a row holds for each element
-  template <class RowAddress>
-  void evaluate(RowAddress&& row, int fields);
-
-private:
-  struct Link {
-    ExtraLinkConstants<T> constants;
-    Place i, j;
-  };
-  T* lane(T* row, const Place& place, int components) const {
-    return row + std::ptrdiff_t(place.pack) * components * W + place.lane;
-  }
-  PackedRows<T, W>& packed_;
-  std::vector<Link> links_;
-};
+void refuse_tile(const Setup& setup, std::string_view why);
 
 /// All rows of the state and of every intermediate stage, and the steps over them.
 template <class T, int W = simd::lanes<T>>
@@ -143,40 +120,6 @@ private:
   const std::vector<StageUpdate<T>> updates_;
   ExtraLinks<T, W> extra_links_;
 };
-
-template <class T, int W>
-ExtraLinks<T, W>::ExtraLinks(const Problem& problem, PackedRows<T, W>& packed) : packed_(packed) {
-  for (const ExtraLink& link : problem.extra_links)
-    links_.push_back({extra_link_constants<T>(problem, link), place_of(packed, link.i),
-                      place_of(packed, link.j)});
-}
-
-template <class T, int W>
-template <class RowAddress>
-void ExtraLinks<T, W>::evaluate(RowAddress&& row, int fields) {
-  constexpr int most = field_count;
-  const int components = int(packed_.layout.wrench.size());
-  for (const Link& link : links_)
-    for (const Place* place : {&link.i, &link.j}) {
-      T* wrench = lane(packed_.extra_wrench(place->row), *place, components);
-      for (int c = 0; c < components; ++c) wrench[c * W] = 0;
-    }
-  for (const Link& link : links_) {
-    T state[2][most], wrench[2][6];
-    const Place* places[] = {&link.i, &link.j};
-    T* targets[2];
-    for (std::size_t e = 0; e < 2; ++e) {
-      const T* fields_of = lane(row(int(places[e]->row)), *places[e], fields);
-      targets[e] = lane(packed_.extra_wrench(places[e]->row), *places[e], components);
-      for (int f = 0; f < packed_.fields(); ++f) state[e][f] = fields_of[f * W];
-      for (int c = 0; c < components; ++c) wrench[e][c] = targets[e][c * W];
-    }
-    packed_.rows[link.i.row].kernels->extra_link(link.constants, state[0], state[1], wrench[0],
-                                                 wrench[1]);
-    for (std::size_t e = 0; e < 2; ++e)
-      for (int c = 0; c < components; ++c) targets[e][c * W] = wrench[e][c];
-  }
-}
 
 template <class T, int W>
 template <class Synchronise>

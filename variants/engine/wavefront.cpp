@@ -1,7 +1,7 @@
 #include "variants/engine/wavefront.hpp"
 
 #include "solver/error.hpp"
-#include "variants/engine/caches.hpp"
+#include "variants/api/cache_sizes.hpp"
 #include "variants/engine/packs.hpp"
 
 #include <algorithm>
@@ -29,23 +29,27 @@ std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts) {
 }
 
 template <class T, int W>
+double halo_work(const PackedRows<T, W>& packed, const std::vector<int>& cuts, int sweeps) {
+  const int rows = int(packed.rows.size());
+  double most = 0;
+  for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
+    std::size_t more = 0;
+    for (int n = 1; n < sweeps; ++n) {
+      const int halo = n * packed.stage_halo;
+      more += packed.packs_of(std::max(0, cuts[b] - halo), cuts[b]) +
+              packed.packs_of(cuts[b + 1], std::min(rows, cuts[b + 1] + halo));
+    }
+    most = std::max(most, double(more) / (sweeps * double(packed.packs_of(cuts[b], cuts[b + 1]))));
+  }
+  return most;
+}
+
+template <class T, int W>
 int steps_a_pass(const PackedRows<T, W>& packed, const Method& method,
                  const std::vector<int>& cuts) {
   if (!method.is_in_place() || packed.is_part()) return 1;
-  const int rows = int(packed.rows.size());
-  const auto recomputes_little = [&](int steps) {
-    for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
-      std::size_t more = 0;
-      for (int halo = packed.reach; halo <= (steps - 1) * packed.reach && halo > 0;
-           halo += packed.reach)
-        more += packed.packs_of(std::max(0, cuts[b] - halo), cuts[b]) +
-                packed.packs_of(cuts[b + 1], std::min(rows, cuts[b + 1] + halo));
-      if (16 * more > std::size_t(steps) * packed.packs_of(cuts[b], cuts[b + 1])) return false;
-    }
-    return true;
-  };
   int steps = packed.reach <= 1 ? 8 : 4;
-  while (steps > 1 && !recomputes_little(steps)) --steps;
+  while (steps > 1 && halo_work(packed, cuts, steps) > 1. / 16) --steps;
   return steps;
 }
 
@@ -56,9 +60,14 @@ static int last_reader(const Method& method, int s) {
   return s + 1;
 }
 
+/// What the rows between the first and the last sweep of a tile may take without slowing down [B]:
+/// about L2 and a core's share of L3. The knee is not at L2, because the processor foresees rows
+/// that follow one another in L3.
+static std::size_t tile_bytes() { return 5 * l2_bytes(); }
+
 template <class T, int W>
 int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
-                int steps, SweepRows rows, bool is_by_rows, int asked) {
+                int steps, const std::vector<int>& cuts, bool is_in_row_order, int asked) {
   // Planes of rows between the first and the last touch of a row: of the state and of the links one
   // for each sweep, of the output of a stage those up to its last reader.
   const int sweeps = steps * method.stages;
@@ -66,12 +75,15 @@ int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowS
   for (int stage = 0; stage + 1 < method.stages; ++stage)
     planes += last_reader(method, stage) - stage;
   const double across_bytes = planes * double(packed.max_packs) * storage.stored() * W * sizeof(T);
-  const int across = most_rows_across(packed.lattice, rows, is_by_rows);
+  int across = 0;
+  for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
+    across =
+        std::max(across, most_rows_across(packed.lattice, {cuts[b], cuts[b + 1]}, is_in_row_order));
   if (asked >= across || across == 1) return no_tiles;
-  if (asked > 0 && asked * across_bytes > double(l3_bytes()))
+  if (const int most = int(double(l3_bytes()) / across_bytes); asked > std::max(most, 1))
     throw InputError(fmt::format(
         "--tile {}: between its sweeps, {:.0f} MB of rows would leave the caches; give at most {}",
-        asked, 1e-6 * asked * across_bytes, int(double(l3_bytes()) / across_bytes)));
+        asked, 1e-6 * asked * across_bytes, std::max(most, 1)));
   if (asked > 0) return asked;
   const double fit = double(tile_bytes()) / across_bytes;
   if (across <= fit) return no_tiles;
@@ -80,25 +92,27 @@ int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowS
 }
 
 template <class T, int W>
-WavefrontStep<T, W>::WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt,
+WavefrontStep<T, W>::WavefrontStep(PackedRows<T, W>& packed, const Method& method, double dt,
                                    const RowStorage& storage, std::size_t signal_count,
                                    std::vector<Block<T, W>>& blocks, std::size_t index,
-                                   PassShape shape)
+                                   PassShape shape, const ExtraLinks<T, W>& extra_links)
     : packed_(packed), fields_(storage.stored()), stages_(method.stages), steps_(shape.steps),
       row_size_(std::size_t(packed.max_packs) * std::size_t(fields_ * W)),
       links_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
-      block_(blocks[index]), signals_(signal_count, steps_ * method.stages) {
+      block_(blocks[index]), signals_(signal_count, steps_ * method.stages),
+      extra_links_(extra_links), extra_wrenches_(packed, extra_links.rows()) {
   find_published_rows(blocks);
   const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, storage, W, dt);
   const std::vector<PassTask> tasks = order(shape.form);
   make_places(tasks, updates);
   tasks_[0] = make_tasks(tasks, updates, 0);
   if (blocks.size() > 1 && steps_ == 1) tasks_[1] = make_tasks(tasks, updates, 1);
+  places_.reset();
 }
 
 template <class T, int W>
 void WavefrontStep<T, W>::find_published_rows(std::vector<Block<T, W>>& blocks) {
-  const int halo = steps_ * stages_ * packed_.reach;
+  const int halo = steps_ * stages_ * packed_.stage_halo;
   for (int parity : {0, 1}) {
     std::vector<T*>& rows = published_rows_[std::size_t(parity)];
     rows.assign(packed_.rows.size(), nullptr);
@@ -110,7 +124,7 @@ void WavefrontStep<T, W>::find_published_rows(std::vector<Block<T, W>>& blocks) 
 }
 
 template <class T, int W>
-void WavefrontStep<T, W>::fetch_halo(int parity) {
+void WavefrontStep<T, W>::copy_halo(int parity) {
   for (int r = block_.stored_begin; r < block_.stored_end; ++r)
     if (!block_.owns(r)) std::copy_n(published_row(r, parity), block_.row_length(r), block_.row(r));
 }
@@ -120,10 +134,10 @@ std::vector<PassTask> WavefrontStep<T, W>::order(SweepForm form) const {
   const int count = steps_ * stages_, rows = int(packed_.rows.size());
   std::vector<SweepRows> sweeps;
   for (int n = 0; n < count; ++n) {
-    const int halo = (count - 1 - n) * packed_.reach;
+    const int halo = (count - 1 - n) * packed_.stage_halo;
     sweeps.push_back({std::max(0, block_.begin - halo), std::min(rows, block_.end + halo)});
   }
-  std::vector<PassTask> tasks = order_pass(packed_.lattice, sweeps, form);
+  std::vector<PassTask> tasks = order_pass(packed_.lattice, sweeps, form, extra_links_.rows());
   for (PassTask& task : tasks)
     if (task.work == RowWork::stage &&
         !packed_.is_computed(task.row, stages_ - 1 - task.sweep % stages_))
@@ -139,7 +153,8 @@ void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order,
     increments.emplace_back();
     for (const auto& [stage, alpha] : update.increments) increments.back().push_back(stage);
   }
-  places_.emplace(packed_.lattice, order, steps_ * stages_, stages_, increments);
+  places_.emplace(packed_.lattice, order, steps_ * stages_, stages_, increments,
+                  extra_links_.rows());
   // One pack more: rows look one pack ahead.
   stage_rows_ =
       Buffer<T>(std::size_t(places_->stage_row_count()) * row_size_ + std::size_t(fields_ * W),
@@ -156,6 +171,10 @@ auto WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order,
   std::vector<RowStage> tasks;
   tasks.reserve(order.size());
   for (const PassTask& what : order) {
+    if (what.is_extra()) {
+      tasks.push_back(extra_task(what, parity));
+      continue;
+    }
     const int r = what.row, s = what.sweep % stages_;
     const bool is_last = s + 1 == stages_;
     RowStage stage{what.work,
@@ -168,6 +187,7 @@ auto WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order,
     set_row(stage.task, packed_, r, fields_, SweepLinks{*this, what.sweep},
             [&](int row) { return input_row(s, row, parity); });
     stage.task.signals = signals_.stage(what.sweep);
+    if (const Applied<T>* applied = extra_wrenches_.applied(r)) stage.task.applied = applied;
     if (what.work == RowWork::stage) {
       T* const base = stepped_row(r, parity);
       updates[std::size_t(s)].set(stage.task, base, is_last ? base : stage_row(s, r),
@@ -180,11 +200,24 @@ auto WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order,
 }
 
 template <class T, int W>
+auto WavefrontStep<T, W>::extra_task(const PassTask& what, int parity) -> RowStage {
+  RowStage stage{what.work, false, what.sweep, what.row, nullptr, {}};
+  if (what.work == RowWork::extra_sum) {
+    stage.task.out = extra_wrenches_.wrench(what.row);
+    return stage;
+  }
+  const LinkedRows& rows = extra_links_.rows()[std::size_t(what.row)];
+  stage.task.in = input_row(what.sweep % stages_, rows.i, parity);
+  stage.task.base = input_row(what.sweep % stages_, rows.j, parity);
+  return stage;
+}
+
+template <class T, int W>
 void WavefrontStep<T, W>::watch(int row, std::function<void()> done) {
   const std::vector<RowStage>& all = tasks_[0];
   const bool is_known = std::exchange(watched_row_, row) == row;
   for (std::size_t n = 0; n < all.size() && !is_known; ++n)
-    if (all[n].sweep + 1 == steps_ * stages_ && all[n].row <= row)
+    if (all[n].work == RowWork::stage && all[n].sweep + 1 == steps_ * stages_ && all[n].row <= row)
       watched_task_ = std::ptrdiff_t(n);
   watched_rows_done_ = std::move(done);
 }
@@ -202,11 +235,11 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
   // and lower rows of the same step.
   int count = steps * stages_;
   signals_.set(signals, count);
-  fetch_halo(parity);
+  copy_halo(parity);
   const std::vector<RowStage>& all = tasks(parity);
   for (std::size_t n = 0; n < all.size(); ++n) {
     const RowStage& stage = all[n];
-    fetch_next(stage);
+    if (n + 1 < all.size()) fetch(all[n + 1]);
     if (stage.sweep < count && !compute(stage) && block_.owns(stage.row) &&
         packed_.first_failed(stage.row, block_.row(stage.row), fields_)) {
       const bool is_earlier = count > stage.sweep + 1 || block_.failed_row < 0;
@@ -222,27 +255,31 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
 
 /// Tasks are read once a pass, so those of a large body are out of the cache by then.
 template <class T, int W>
-void WavefrontStep<T, W>::fetch_next(const RowStage& stage) {
-  const char* const next = reinterpret_cast<const char*>(&stage + 1);
+void WavefrontStep<T, W>::fetch(const RowStage& next) {
   for (std::size_t byte = 0; byte < sizeof(RowStage); byte += Memory::line)
-    simd::fetch(next + byte);
+    simd::fetch(reinterpret_cast<const char*>(&next) + byte);
 }
 
 template <class T, int W>
-bool WavefrontStep<T, W>::compute(const RowStage& stage) const {
-  const KernelSet<T>& kernels = *stage.kernels;
+bool WavefrontStep<T, W>::compute(const RowStage& stage) {
   const RowTask<T>& task = stage.task;
   switch (stage.work) {
   case RowWork::stage:
-    return kernels.stage(task);
+    return stage.kernels->stage(task);
   case RowWork::upper_links:
-    prime_uppers(kernels, task);
+    prime_uppers(*stage.kernels, task);
     break;
   case RowWork::upper_link_y:
-    kernels.prime(task, 1);
+    stage.kernels->prime(task, 1);
     break;
   case RowWork::upper_link_z:
-    kernels.prime(task, 2);
+    stage.kernels->prime(task, 2);
+    break;
+  case RowWork::extra_link:
+    extra_links_.compute(stage.row, task.in, task.base, fields_);
+    break;
+  case RowWork::extra_sum:
+    extra_links_.add_up(stage.row, task.out);
     break;
   }
   return true;
@@ -250,9 +287,10 @@ bool WavefrontStep<T, W>::compute(const RowStage& stage) const {
 
 #define DSS_INSTANTIATE(T, W)                                                                      \
   template std::vector<int> cut_rows(const PackedRows<T, W>&, int);                                \
+  template double halo_work(const PackedRows<T, W>&, const std::vector<int>&, int);                \
   template int steps_a_pass(const PackedRows<T, W>&, const Method&, const std::vector<int>&);      \
   template int choose_tile(const PackedRows<T, W>&, const Method&, const RowStorage&, int,         \
-                           SweepRows, bool, int);                                                  \
+                           const std::vector<int>&, bool, int);                                    \
   template class WavefrontStep<T, W>;
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE

@@ -2,9 +2,10 @@
 /// The wavefront over rows (DESIGN.md section 4). A pass over the rows of a block computes one
 /// step, or several steps of a method in place. Each sweep of a pass follows the one before it
 /// through the rows (pass_order.hpp). Intermediate stages live in a few rows, and the state is
-/// updated in place. Blocks recompute a halo of `reach` rows for each stage of the pass. Threads
-/// meet once a pass.
+/// updated in place. Blocks recompute a halo of `stage_halo` rows for each stage of the pass.
+/// Threads meet once a pass.
 #include "variants/engine/block.hpp"
+#include "variants/engine/extra_links.hpp"
 #include "variants/engine/pass_places.hpp"
 #include "variants/engine/schedule.hpp"
 #include "variants/engine/stage_update.hpp"
@@ -14,10 +15,17 @@
 
 namespace dss {
 
+/// What a block computes for its halo in a pass, over what it computes for itself; the most of all
+/// blocks.
+/// @param cuts    from cut_rows
+/// @param sweeps  of a pass
+template <class T, int W>
+double halo_work(const PackedRows<T, W>& packed, const std::vector<int>& cuts, int sweeps);
+
 /// Steps that a pass computes. Methods in place can let a step follow the one before it, so several
 /// steps need only one trip through memory and one meeting of the threads. Up to eight if links
-/// reach one row (a plate), else up to four, since more rows would leave the L2 cache. With several
-/// blocks, only so many that no block recomputes more than a sixteenth of its work.
+/// reach one row (a plate), else up to four, since the tiles of more steps would be narrow. With
+/// several blocks, only so many that no block recomputes more than a sixteenth of its work.
 /// @param cuts  from cut_rows
 template <class T, int W>
 int steps_a_pass(const PackedRows<T, W>& packed, const Method& method,
@@ -29,14 +37,14 @@ struct PassShape {
   SweepForm form;
 };
 
-/// Rows across of the tiles of a pass: those asked for, else as many as fit in tile_bytes();
+/// Rows across of the tiles of a pass: those asked for, else as many as fit in the caches;
 /// no_tiles if that is all.
-/// @param rows   of a block
+/// @param cuts   from cut_rows
 /// @param asked  as Setup::tile
 /// @throws InputError if the tile that was asked for does not fit in the caches
 template <class T, int W>
 int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
-                int steps, SweepRows rows, bool is_by_rows, int asked);
+                int steps, const std::vector<int>& cuts, bool is_in_row_order, int asked);
 
 /// Steps one block. What a task does to a row is the same in every pass, except for the parity of
 /// the published rows that it reads. So all row tasks are made once: making them anew would cost as
@@ -48,9 +56,10 @@ public:
   /// @param blocks  all blocks
   /// @param index   of this block
   /// @param shape   the same for all blocks
-  WavefrontStep(const PackedRows<T, W>& packed, const Method& method, double dt,
+  WavefrontStep(PackedRows<T, W>& packed, const Method& method, double dt,
                 const RowStorage& storage, std::size_t signal_count,
-                std::vector<Block<T, W>>& blocks, std::size_t index, PassShape shape);
+                std::vector<Block<T, W>>& blocks, std::size_t index, PassShape shape,
+                const ExtraLinks<T, W>& extra_links);
   /// Computes one pass. It updates the block's own rows in place and publishes them under the other
   /// parity. Sets the block's failed_row and failed_step to the first row that is non-finite after
   /// the first failing step.
@@ -66,7 +75,8 @@ public:
     RowWork work;
     bool is_published; ///< the task leaves a new state that other blocks read
     int sweep, row;
-    const KernelSet<T>* kernels; ///< null for devices
+    const KernelSet<T>* kernels; ///< null for devices and for extra links
+    /// Of an extra link: `in` and `base` are the rows of its elements. Of a sum: `out`.
     RowTask<T> task;
   };
   /// The tasks of the passes of a parity, in their order.
@@ -96,11 +106,12 @@ private:
            std::size_t(places_->links(axis, sweep, r)) * links_size_;
   }
   void find_published_rows(std::vector<Block<T, W>>& blocks);
-  void fetch_halo(int parity);
+  void copy_halo(int parity);
   std::vector<PassTask> order(SweepForm form) const;
   void make_places(const std::vector<PassTask>& order, const std::vector<StageUpdate<T>>& updates);
   std::vector<RowStage> make_tasks(const std::vector<PassTask>& order,
                                    const std::vector<StageUpdate<T>>& updates, int parity);
+  RowStage extra_task(const PassTask& what, int parity);
   /// The links of a sweep, as set_row takes them.
   struct SweepLinks {
     WavefrontStep& step;
@@ -108,9 +119,9 @@ private:
     T* y(int row) const { return step.links(1, sweep, row); }
     T* z(int row) const { return step.links(2, sweep, row); }
   };
-  static void fetch_next(const RowStage& stage);
+  static void fetch(const RowStage& next);
   /// @return false if a result is not finite
-  bool compute(const RowStage& stage) const;
+  bool compute(const RowStage& stage);
   void plan_fetches(const std::vector<PassTask>& order, int parity, std::vector<RowStage>& tasks);
 
   const PackedRows<T, W>& packed_;
@@ -118,9 +129,11 @@ private:
   const std::size_t row_size_, links_size_; ///< of a place [numbers]
   Block<T, W>& block_;
   StepSignals<T> signals_;
+  ExtraLinks<T, W> extra_links_;
+  ExtraWrenches<T> extra_wrenches_;
   /// [parity][row]: rows of other blocks that this one reads.
   std::array<std::vector<T*>, 2> published_rows_;
-  std::optional<PassPlaces> places_;
+  std::optional<PassPlaces> places_; ///< until all tasks are made
   Buffer<T> stage_rows_;
   std::array<Buffer<T>, 2> links_; ///< across y, z
   /// [parity]. One parity is enough if the block stores all rows that it reads.

@@ -1,5 +1,5 @@
 /// Which rows the tasks of a pass bring into the cache ahead of their use.
-#include "variants/engine/caches.hpp"
+#include "variants/api/cache_sizes.hpp"
 #include "variants/engine/fetch_plan.hpp"
 #include "variants/engine/packs.hpp"
 #include "variants/engine/wavefront.hpp"
@@ -12,14 +12,17 @@ template <class T, int W>
 void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int parity,
                                        std::vector<RowStage>& tasks) {
   const std::size_t pack_bytes = std::size_t(fields_ * W) * sizeof(T);
+  if (packed_.rows.front().kernels == nullptr) return; // devices fetch nothing
   // What stays in L2 from pass to pass needs no fetch.
   if (packed_.packs_of(block_.begin, block_.end) * pack_bytes < 2 * l2_bytes()) return;
   std::vector<FetchPlan::Task> places;
-  for (const RowStage& stage : tasks) places.push_back({stage.task.packs, stage.sweep});
+  for (const RowStage& stage : tasks)
+    places.push_back({stage.work == RowWork::stage ? stage.task.packs : 0, stage.sweep});
   FetchPlan plan(std::move(places));
   LastTiles states(int(packed_.rows.size())), stage_rows(places_->stage_row_count()),
       links[] = {LastTiles(places_->links_count(1)), LastTiles(places_->links_count(2))};
   for (std::size_t n = 0; n < order.size(); ++n) {
+    if (order[n].is_extra()) continue;
     const int tile = order[n].tile, sweep = order[n].sweep, s = sweep % stages_, r = order[n].row;
     const Row& row = packed_.lattice.rows[std::size_t(r)];
     const auto bytes = [&](int of) {
@@ -38,11 +41,10 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
     read_state(r);
     for (const int axis : {1, 2}) {
       LastTiles& of_axis = links[axis - 1];
-      const int from = axis == 1 ? row.lower_y : row.lower_z,
-                upper = axis == 1 ? row.upper_y : row.upper_z;
+      const int from = row.lower(axis);
       if (from >= 0 && of_axis.touch(places_->links(axis, sweep, from), tile))
         plan.first_read(n, this->links(axis, sweep, from), links_size_ * sizeof(T));
-      if (upper >= 0) of_axis.touch(places_->links(axis, sweep, r), tile);
+      if (row.upper(axis) >= 0) of_axis.touch(places_->links(axis, sweep, r), tile);
     }
     if (s + 1 < stages_) stage_rows.touch(places_->stage_row(s, r), tile);
   }

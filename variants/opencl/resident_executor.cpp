@@ -21,7 +21,7 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
   const bool is_staged = layout.has_items || setup_.method.has_error_stage ||
                          !setup_.problem.extra_links.empty() ||
                          (is_part() && part_->is_every_stage);
-  if (is_staged) refuse_tile(setup_);
+  if (is_staged) refuse_tile(setup_, "it is computed stage by stage");
   if (is_staged)
     staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(),
                     layout.bands, part_);
@@ -68,6 +68,9 @@ static row_action device_action(RowWork work, row_action of_stage) {
     return prime_y;
   case RowWork::upper_link_z:
     return prime_z;
+  case RowWork::extra_link:
+  case RowWork::extra_sum:
+    break; // devices compute scenes with extra links stage by stage
   }
   return of_stage;
 }
@@ -82,15 +85,15 @@ void ResidentExecutor<T, W>::make_blocks() {
   steps_a_pass_ = bands_ == 1 ? steps_a_pass(packed_, method, cuts) : 1;
   blocks_.make(packed_, cuts, stored_fields(), steps_a_pass_, method.stages);
   std::vector<Block<T, W>>& blocks = blocks_.all();
-  form_.is_by_rows = is_part();
-  form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, {cuts[0], cuts[1]},
-                           form_.is_by_rows, setup_.tile);
+  form_.is_in_row_order = is_part();
+  form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, cuts,
+                           form_.is_in_row_order, setup_.tile);
   if (!is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
   for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
     if (blocks[b].is_remote()) continue;
     add_neighbours(cuts, int(band++), halo);
     WavefrontStep<T, W> step(packed_, method, setup_.dt, rows_.storage(),
-                             signal_count(setup_.problem), blocks, b, {steps_a_pass_, form_});
+                             signal_count(setup_.problem), blocks, b, {steps_a_pass_, form_}, {});
     for (const int parity : {0, 1}) {
       const int begin = problem_.next_place();
       for (const auto& stage : step.tasks(parity))
@@ -320,7 +323,8 @@ std::string ResidentExecutor<T, W>::schedule() const {
                        device, W);
   return fmt::format("on {}: {} bands of rows, work-items of {} lanes; {}", device, bands_, W,
                      staged_ ? "stage by stage"
-                             : fmt::format("wavefront, reach {}, in place", packed_.reach));
+                             : fmt::format("wavefront, reach {}, in place{}", packed_.reach,
+                                           tiles_text(form_.tile)));
 }
 
 template <class T, int W>

@@ -1,21 +1,11 @@
 #include "experiments/measure/kernels/working_set.hpp"
 
+#include "variants/api/cache_sizes.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
 namespace dss {
-namespace {
-
-/// Size of a cache [bytes] as the operating system reports it, or a common size if it reports none.
-std::size_t cache_bytes(int name, std::size_t common) {
-  const long bytes = ::sysconf(name);
-  return bytes > 0 ? std::size_t(bytes) : common;
-}
-std::size_t l1_bytes() { return cache_bytes(_SC_LEVEL1_DCACHE_SIZE, 32u << 10); }
-std::size_t l2_bytes() { return cache_bytes(_SC_LEVEL2_CACHE_SIZE, 512u << 10); }
-std::size_t l3_bytes() { return cache_bytes(_SC_LEVEL3_CACHE_SIZE, 16u << 20); }
-
-} // namespace
 
 WorkingSet working_set(const std::string& level, int threads) {
   const std::size_t own = std::size_t(threads);

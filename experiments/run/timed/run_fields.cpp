@@ -161,7 +161,7 @@ const RunField fields[] = {
      [](R r) { return Json(r.communication_share); }, median},
     {"elements", "elements", "", "elements of the scene", [](R r) { return Json(r.elements); },
      last},
-    {"links", "links", "", "links of the scene", [](R r) { return Json(r.links); }},
+    {"links", "links", "", "links of the scene", [](R r) { return Json(r.links); }, last},
     {"steps", "", "", "steps of the run; with adaptive steps, those that were accepted",
      [](R r) { return Json(r.steps); }},
     {"warmup_steps", "", "", "steps before the clock starts",

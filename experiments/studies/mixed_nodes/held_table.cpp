@@ -30,8 +30,7 @@ double run_step_s(const SimulatedProblem& what) {
     executor->advance(steps, signals);
     return seconds_since(start);
   };
-  long steps = 1;
-  while (timed_s(steps) < trial_s && steps < 1 << 16) steps *= 2;
+  const long steps = trial_steps(timed_s);
   double best = timed_s(steps);
   for (int n = 1; n < timings; ++n) best = std::min(best, timed_s(steps));
   return best / double(steps);

@@ -17,10 +17,11 @@ namespace {
 
 std::vector<std::string> table_columns(const SpeedupStudy& study) {
   std::vector<std::string> columns = identity_columns();
-  columns.insert(columns.end(), {"repetitions", "contaminated", "short", "outliers",
-                                 "measured_wall_s", "measured_wall_low_s", "measured_wall_high_s",
-                                 "half_width", "converged", "extrapolated_wall_s",
-                                 "extrapolated_to_steps", "scaling_error", "element_steps_per_s"});
+  columns.insert(columns.end(),
+                 {"repetitions", "contaminated", "short", "outliers", "measured_wall_s",
+                  "measured_wall_low_s", "measured_wall_high_s", "half_width", "converged",
+                  "extrapolated_wall_s", "extrapolated_to_steps", "scaling_error",
+                  "element_steps_per_s", "link_steps_per_s"});
   for (const std::string& base : study.bases)
     for (const char* form :
          {"speedup_vs_{}", "speedup_vs_{}_low", "speedup_vs_{}_high", "extrapolated_speedup_vs_{}",

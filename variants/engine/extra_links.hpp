@@ -1,0 +1,85 @@
+#pragma once
+/// Extra links, which are links outside the grid.
+#include "variants/engine/body_group.hpp"
+#include "variants/engine/packed_rows.hpp"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <span>
+
+namespace dss {
+
+/// Extra links, computed one by one. What a row's links do to it is then added up in the order of
+/// the links' numbers, so the sum does not depend on the order in which they are computed.
+template <class T, int W = simd::lanes<T>>
+class ExtraLinks {
+public:
+  /// None.
+  ExtraLinks() = default;
+  ExtraLinks(const Problem& problem, PackedRows<T, W>& packed);
+  bool empty() const { return links_.empty(); }
+  std::span<const LinkedRows> rows() const { return rows_; }
+  /// Computes a link and keeps its wrenches.
+  /// @param row_i, row_j  rows of its two elements
+  /// @param fields        numbers that a pack of a row holds for each element
+  void compute(int link, const T* row_i, const T* row_j, int fields);
+  /// Adds up the links of a row.
+  /// @param wrench  layout.wrench components a pack; lanes without extra links are left alone
+  void add_up(int row, T* wrench) const;
+  /// Computes all links, and adds them up in the rows' wrenches (PackedRows::extra_wrench).
+  /// @param row  function from a row's number to its address
+  template <class RowAddress>
+  void evaluate(RowAddress&& row, int fields) {
+    for (int n = 0; n < int(links_.size()); ++n)
+      compute(n, row(rows_[std::size_t(n)].i), row(rows_[std::size_t(n)].j), fields);
+    for (const RowLinks& links : of_row_) add_up(links, packed_->extra_wrench(links.row));
+  }
+
+private:
+  struct Link {
+    ExtraLinkConstants<T> constants;
+    std::array<Place, 2> places;
+    std::array<std::array<T, 6>, 2> wrenches{}; ///< of i and j, in units of `unit`
+    T unit;
+  };
+  struct End {
+    int link, end;
+  };
+  struct RowLinks {
+    int row;
+    std::vector<End> ends; ///< by link
+  };
+  void add_up(const RowLinks& links, T* wrench) const;
+  int components() const { return int(packed_->layout.wrench.size()); }
+  PackedRows<T, W>* packed_ = nullptr;
+  std::vector<Link> links_;
+  std::vector<LinkedRows> rows_; ///< of each link
+  std::vector<RowLinks> of_row_; ///< by row
+};
+
+/// The wrenches of rows with extra links, apart from those of PackedRows: blocks compute the same
+/// halo rows at the same time.
+template <class T>
+class ExtraWrenches {
+public:
+  template <int W>
+  ExtraWrenches(PackedRows<T, W>& packed, std::span<const LinkedRows> links);
+  /// Where a row's extra links are added up.
+  T* wrench(int row) { return rows_.at(row)->wrench.data(); }
+  /// All that is applied to a row, with its extra links from here; null if it has none.
+  const Applied<T>* applied(int row) const {
+    const auto found = rows_.find(row);
+    return found == rows_.end() ? nullptr : &found->second->applied;
+  }
+
+private:
+  struct LinkedRow {
+    Buffer<T> wrench;
+    std::vector<typename Applied<T>::Pattern> patterns;
+    Applied<T> applied;
+  };
+  std::map<int, std::unique_ptr<LinkedRow>> rows_;
+};
+
+} // namespace dss
