@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -136,7 +137,8 @@ VoxelGrid read_porous(const Node& node) {
     filling.fail(
         fmt::format("{:g} is more than 1; it is the part of the cells that are elements", part));
   VoxelGrid grid = empty_grid(node, read_point(porous.require("size"), 1));
-  std::mt19937 generator(static_cast<std::uint32_t>(porous.whole_or("seed", 0, 1)));
+  const std::optional<Node> seed = porous.find("seed");
+  std::mt19937 generator(std::uint32_t(seed ? seed->whole(0, max_elements) : 1));
   porous.finish();
   for (std::uint8_t& cell : grid.occupied) cell = double(generator()) < part * 0x1p32;
   require_element(node, grid, "the porous body");

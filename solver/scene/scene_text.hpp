@@ -35,7 +35,7 @@ std::string scene_directory();
 
 /// File of a scene: NAME.json in scene_directory(), where a name may have a folder (bodies/porous).
 /// Any other name with a slash or ending in .json is a path.
-/// @throws InputError with the nearest name
+/// @throws InputError, of a name without a slash with the nearest name
 std::string scene_path(const std::string& name_or_path);
 
 /// Parses a file, applies the overrides in order and resolves the parameters.

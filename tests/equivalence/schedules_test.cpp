@@ -154,28 +154,43 @@ Problem pair_side_by_side(LinkLaw law) {
   return problem;
 }
 
+/// Where the schedule must be the wavefront, and where stage by stage.
+struct LinkedCase {
+  Problem problem;
+  std::vector<int> wavefronts, staged; ///< numbers of threads
+};
+
 TEST_P(EverySchedule, has_bitwise_equal_states_with_extra_links_for_any_number_of_threads) {
   if (!plugin.is_threaded || is_composed(plugin)) GTEST_SKIP() << "has teams of others";
   for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material})
-    for (const Problem& problem : {chain_of_bodies(law), pair_side_by_side(law)})
+    for (const LinkedCase& c : {LinkedCase{chain_of_bodies(law), {1, 2, 3}, {30}},
+                                LinkedCase{pair_side_by_side(law), {1}, {2, 3, 7}}})
       for (const Scheme& scheme : brief_schemes()) {
         const auto& [method, precision] = scheme;
-        const State state = rounded(fixture::random_state(problem, 3, 2e-4, 0.02, 0.01), precision);
-        VariantRun run{plugin, problem, method, Model::spatial, precision, 30};
-        const std::string staged = run.executor()->schedule();
-        EXPECT_TRUE(staged.starts_with("stage by stage: extra links")) << staged;
-        const State expected = run.after(state, 20);
-        for (const int threads : {1, 2, 3, 7}) {
-          run.threads = threads;
+        const State state =
+            rounded(fixture::random_state(c.problem, 3, 2e-4, 0.02, 0.01), precision);
+        State expected;
+        const auto check = [&](int threads, const char* word) {
+          VariantRun run{plugin, c.problem, method, Model::spatial, precision, threads};
           const std::string schedule = run.executor()->schedule();
-          if (threads == 1) {
-            EXPECT_TRUE(schedule.ends_with(", with extra links")) << schedule;
-          }
-          EXPECT_EQ(differing_bits(expected, run.after(state, 20), precision), 0u)
+          EXPECT_NE(schedule.find(word), std::string::npos) << threads << " threads: " << schedule;
+          const State end = run.after(state, 20);
+          if (expected.empty()) expected = end;
+          EXPECT_EQ(differing_bits(expected, end, precision), 0u)
               << name(precision) << ' ' << method.name << ", " << threads << " threads, "
               << schedule;
-        }
+        };
+        for (const int threads : c.staged) check(threads, "stage by stage: extra links");
+        for (const int threads : c.wavefronts) check(threads, ", with extra links");
       }
+}
+
+TEST_P(EverySchedule, sweeps_linked_bodies_without_tiles_and_others_with_them) {
+  if (!plugin.has_tiles || is_composed(plugin)) GTEST_SKIP() << "has no tiles of its own";
+  Problem problem = pair_side_by_side(LinkLaw::paper);
+  const VariantRun linked{plugin, problem, *find_method("rk4"), Model::spatial};
+  EXPECT_EQ(linked.executor()->schedule().find("tiles"), std::string::npos);
+  EXPECT_NE(linked.executor()->schedule().find("with extra links"), std::string::npos);
 }
 
 /// Calls advance() for `at_once` steps at a time until the state is not finite. Outcome::step
@@ -194,6 +209,7 @@ TEST_P(EverySchedule, reports_the_same_first_failure_however_many_steps_and_thre
   std::vector<Problem> problems{fixture::make_block(9, 7, 1, LinkLaw::paper)};
   if (!is_composed(plugin)) {
     problems.push_back(fixture::make_block(9, 8, 5, LinkLaw::paper)); // swept along y
+    problems.push_back(chain_of_bodies(LinkLaw::paper));
     problems.push_back(long_blocks().front());
   }
   for (const Problem& problem : problems)

@@ -49,10 +49,11 @@ struct Case {
   std::vector<LinkedRows> extra;
 };
 
-/// Extra links within the first body, between the bodies, and of a row with itself.
-std::vector<LinkedRows> links_of(const Lattice& lattice) {
+/// No extra links; some within the first body and of a row with itself, which leave the second body
+/// alone; the same and some between the bodies, which are long.
+std::vector<std::vector<LinkedRows>> sets_of_links(const Lattice& lattice) {
   const int rows = int(lattice.rows.size());
-  return {{0, 4}, {rows - 1, 1}, {rows - 2, 2}, {3, 3}, {rows - 2, 2}};
+  return {{}, {{0, 2}, {3, 3}}, {{0, 4}, {rows - 1, 1}, {rows - 2, 2}, {3, 3}, {rows - 2, 2}}};
 }
 
 /// Calls check(case) for blocks, sweeps and tiles of awkward sizes.
@@ -64,8 +65,7 @@ void each_case(Check&& check) {
         for (const bool is_in_row_order : {false, true}) {
           const Lattice lattice = scattered_bodies(9, ny, nz, unsigned(ny));
           const int rows = int(lattice.rows.size());
-          for (const std::vector<LinkedRows>& extra :
-               {std::vector<LinkedRows>{}, links_of(lattice)})
+          for (const std::vector<LinkedRows>& extra : sets_of_links(lattice))
             for (const auto& [begin, end] :
                  {std::pair{0, rows}, {rows / 3, rows}, {0, rows / 2}, {rows / 3, rows / 2}})
               check(Case{lattice,

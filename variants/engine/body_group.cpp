@@ -27,8 +27,9 @@ public:
   }
   /// The least number of the set that n is in.
   int first_of(int n) {
-    int& parent = parent_[std::size_t(n)];
-    return parent == n ? n : parent = first_of(parent);
+    for (int* parent = &parent_[std::size_t(n)]; *parent != n; parent = &parent_[std::size_t(n)])
+      n = *parent = parent_[std::size_t(*parent)]; // halves the path
+    return n;
   }
   void join(int a, int b) {
     a = first_of(a), b = first_of(b);
@@ -144,7 +145,7 @@ std::vector<BodyGroup> body_groups(const Lattice& lattice, SweepRows rows,
       return BodyGroup(lattice, members[b], links_of[b], direction);
     };
     groups.push_back(group(is_in_row_order ? PlaneDirection::row_order : PlaneDirection::longer));
-    if (!groups.back().is_linked()) continue;
+    if (!groups.back().is_linked() || is_in_row_order) continue;
     for (const PlaneDirection direction : {PlaneDirection::y, PlaneDirection::z})
       if (BodyGroup other = group(direction); other.rows_behind() < groups.back().rows_behind())
         groups.back() = std::move(other);

@@ -48,7 +48,8 @@ void ExtraLinks<T, W>::compute(int n, const T* row_i, const T* row_j, int fields
 }
 
 template <class T, int W>
-void ExtraLinks<T, W>::add_up(const RowLinks& links, T* wrench) const {
+void ExtraLinks<T, W>::add_up(int index, T* wrench) const {
+  const RowLinks& links = of_row_[std::size_t(index)];
   const auto target = [&](const End& end) {
     return lane(wrench, links_[std::size_t(end.link)].places[std::size_t(end.end)], components(),
                 W);
@@ -65,10 +66,15 @@ void ExtraLinks<T, W>::add_up(const RowLinks& links, T* wrench) const {
 }
 
 template <class T, int W>
-void ExtraLinks<T, W>::add_up(int row, T* wrench) const {
+int ExtraLinks<T, W>::index_of(int row) const {
   const auto links = std::lower_bound(of_row_.begin(), of_row_.end(), row,
                                       [](const RowLinks& l, int r) { return l.row < r; });
-  add_up(*links, wrench);
+  return int(links - of_row_.begin());
+}
+
+template <class T, int W>
+std::size_t ExtraLinks<T, W>::bytes() const {
+  return links_.size() * (sizeof(Link) + sizeof(LinkedRows) + 2 * sizeof(End));
 }
 
 template <class T>

@@ -24,23 +24,30 @@ public:
   /// @param row_i, row_j  rows of its two elements
   /// @param fields        numbers that a pack of a row holds for each element
   void compute(int link, const T* row_i, const T* row_j, int fields);
+  /// The index of a row among those with extra links.
+  int index_of(int row) const;
   /// Adds up the links of a row.
+  /// @param index   from index_of
   /// @param wrench  layout.wrench components a pack; lanes without extra links are left alone
-  void add_up(int row, T* wrench) const;
+  void add_up(int index, T* wrench) const;
   /// Computes all links, and adds them up in the rows' wrenches (PackedRows::extra_wrench).
   /// @param row  function from a row's number to its address
   template <class RowAddress>
   void evaluate(RowAddress&& row, int fields) {
     for (int n = 0; n < int(links_.size()); ++n)
       compute(n, row(rows_[std::size_t(n)].i), row(rows_[std::size_t(n)].j), fields);
-    for (const RowLinks& links : of_row_) add_up(links, packed_->extra_wrench(links.row));
+    for (int n = 0; n < int(of_row_.size()); ++n)
+      add_up(n, packed_->extra_wrench(std::size_t(of_row_[std::size_t(n)].row)));
   }
+  std::size_t bytes() const;
 
 private:
   struct Link {
     ExtraLinkConstants<T> constants;
     std::array<Place, 2> places;
-    std::array<std::array<T, 6>, 2> wrenches{}; ///< of i and j, in units of `unit`
+    /// Of i and j, in units of `unit`, which the sum applies. So each element's sum is rounded once
+    /// a link, as on devices.
+    std::array<std::array<T, 6>, 2> wrenches{};
     T unit;
   };
   struct End {
@@ -50,7 +57,6 @@ private:
     int row;
     std::vector<End> ends; ///< by link
   };
-  void add_up(const RowLinks& links, T* wrench) const;
   int components() const { return int(packed_->layout.wrench.size()); }
   PackedRows<T, W>* packed_ = nullptr;
   std::vector<Link> links_;
@@ -67,6 +73,12 @@ public:
   ExtraWrenches(PackedRows<T, W>& packed, std::span<const LinkedRows> links);
   /// Where a row's extra links are added up.
   T* wrench(int row) { return rows_.at(row)->wrench.data(); }
+  std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [row, linked] : rows_)
+      sum += linked->wrench.bytes() + linked->patterns.size() * sizeof(linked->patterns[0]);
+    return sum;
+  }
   /// All that is applied to a row, with its extra links from here; null if it has none.
   const Applied<T>* applied(int row) const {
     const auto found = rows_.find(row);

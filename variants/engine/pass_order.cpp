@@ -55,11 +55,14 @@ public:
     };
     for (int t = 0; t < tiles; ++t, ++tile_)
       for (int k = 0; k < group.planes() + last * group.lag(); ++k)
-        for (const BodyGroup::Member& member : group.members())
+        for (const BodyGroup::Member& member : group.members()) {
+          const int first = k - member.shift; // plane of the first sweep
+          if (first < 0 || first >= member.planes.along + last * group.lag()) continue;
           if (tiles == 1)
-            add_plane(member.planes, k - member.shift, group.lag(), 0, member.planes.across, 0);
+            add_plane(member.planes, first, group.lag(), 0, member.planes.across, 0);
           else
-            add_plane(member.planes, k, 1, edge(t), edge(t + 1), 1);
+            add_plane(member.planes, first, 1, edge(t), edge(t + 1), 1);
+        }
   }
   std::vector<PassTask> tasks;
 
@@ -109,10 +112,11 @@ std::string tiles_text(int tile) {
   return tile == no_tiles ? "" : ", tiles of " + std::to_string(tile) + " rows";
 }
 
-int most_rows_across(const Lattice& lattice, SweepRows rows, bool is_in_row_order) {
+int most_rows_across(const Lattice& lattice, SweepRows rows, bool is_in_row_order,
+                     std::span<const LinkedRows> extra) {
   int most = 0;
-  for (const BodyGroup& group : body_groups(lattice, rows, {}, is_in_row_order))
-    most = std::max(most, group.members().front().planes.across);
+  for (const BodyGroup& group : body_groups(lattice, rows, extra, is_in_row_order))
+    if (!group.is_linked()) most = std::max(most, group.members().front().planes.across);
   return most;
 }
 

@@ -22,7 +22,7 @@ enum class RowWork : std::uint8_t {
 struct PassTask {
   RowWork work;
   std::int16_t sweep;
-  int row;  ///< of an extra link its number
+  int row;  ///< of an extra link: its number
   int tile; ///< counted over all bodies
   bool is_extra() const { return work == RowWork::extra_link || work == RowWork::extra_sum; }
 };
@@ -37,7 +37,8 @@ std::string tiles_text(int tile);
 struct SweepForm {
   int tile = no_tiles; ///< rows across of a tile
   /// Planes in the order of the rows' numbers: along z, or along y in a body of one layer. Then the
-  /// first rows are done first. Else along the longer of y and z, which makes planes small.
+  /// first rows are done first. Else along the longer of y and z, which makes planes small; bodies
+  /// with extra links take the direction that suits these.
   bool is_in_row_order = false;
 };
 
@@ -56,7 +57,9 @@ struct SweepForm {
 std::vector<PassTask> order_pass(const Lattice& lattice, std::span<const SweepRows> sweeps,
                                  SweepForm form, std::span<const LinkedRows> extra = {});
 
-/// Most rows across the sweeps' direction, over all bodies.
-int most_rows_across(const Lattice& lattice, SweepRows rows, bool is_in_row_order);
+/// Most rows across the sweeps' direction, over all bodies without extra links; 0 if there are
+/// none.
+int most_rows_across(const Lattice& lattice, SweepRows rows, bool is_in_row_order,
+                     std::span<const LinkedRows> extra);
 
 } // namespace dss

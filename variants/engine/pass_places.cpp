@@ -60,13 +60,16 @@ PassPlaces::PassPlaces(const Lattice& lattice, std::span<const PassTask> order, 
 
 void PassPlaces::find_rows(std::span<const PassTask> order) {
   int least = int(lattice_.rows.size()), most = -1;
+  const auto add = [&](int r) {
+    if (r >= 0) least = std::min(least, r), most = std::max(most, r);
+  };
   for (const PassTask& task : order) {
+    if (task.work == RowWork::extra_link)
+      add(extra_[std::size_t(task.row)].i), add(extra_[std::size_t(task.row)].j);
     if (task.is_extra()) continue;
     const Row& row = lattice_.rows[std::size_t(task.row)];
-    for (const int r : {task.row, row.lower_y, row.lower_z, row.upper_y, row.upper_z})
-      if (r >= 0) least = std::min(least, r), most = std::max(most, r);
+    for (const int r : {task.row, row.lower_y, row.lower_z, row.upper_y, row.upper_z}) add(r);
   }
-  for (const auto& [i, j] : extra_) least = std::min({least, i, j}), most = std::max({most, i, j});
   first_row_ = least;
   row_count_ = std::size_t(most + 1 - least);
 }

@@ -67,7 +67,8 @@ static std::size_t tile_bytes() { return 5 * l2_bytes(); }
 
 template <class T, int W>
 int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
-                int steps, const std::vector<int>& cuts, bool is_in_row_order, int asked) {
+                int steps, const std::vector<int>& cuts, bool is_in_row_order,
+                std::span<const LinkedRows> extra, int asked) {
   // Planes of rows between the first and the last touch of a row: of the state and of the links one
   // for each sweep, of the output of a stage those up to its last reader.
   const int sweeps = steps * method.stages;
@@ -77,9 +78,9 @@ int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowS
   const double across_bytes = planes * double(packed.max_packs) * storage.stored() * W * sizeof(T);
   int across = 0;
   for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-    across =
-        std::max(across, most_rows_across(packed.lattice, {cuts[b], cuts[b + 1]}, is_in_row_order));
-  if (asked >= across || across == 1) return no_tiles;
+    across = std::max(
+        across, most_rows_across(packed.lattice, {cuts[b], cuts[b + 1]}, is_in_row_order, extra));
+  if (asked >= across || across <= 1) return no_tiles;
   if (const int most = int(double(l3_bytes()) / across_bytes); asked > std::max(most, 1))
     throw InputError(fmt::format(
         "--tile {}: between its sweeps, {:.0f} MB of rows would leave the caches; give at most {}",
@@ -203,6 +204,7 @@ template <class T, int W>
 auto WavefrontStep<T, W>::extra_task(const PassTask& what, int parity) -> RowStage {
   RowStage stage{what.work, false, what.sweep, what.row, nullptr, {}};
   if (what.work == RowWork::extra_sum) {
+    stage.row = extra_links_.index_of(what.row);
     stage.task.out = extra_wrenches_.wrench(what.row);
     return stage;
   }
@@ -224,7 +226,8 @@ void WavefrontStep<T, W>::watch(int row, std::function<void()> done) {
 
 template <class T, int W>
 std::size_t WavefrontStep<T, W>::bytes() const {
-  return stage_rows_.bytes() + links_[0].bytes() + links_[1].bytes() +
+  return stage_rows_.bytes() + links_[0].bytes() + links_[1].bytes() + extra_links_.bytes() +
+         extra_wrenches_.bytes() +
          (published_rows_[0].size() + published_rows_[1].size()) * sizeof(T*) +
          (tasks_[0].size() + tasks_[1].size()) * sizeof(RowStage);
 }
@@ -290,7 +293,7 @@ bool WavefrontStep<T, W>::compute(const RowStage& stage) {
   template double halo_work(const PackedRows<T, W>&, const std::vector<int>&, int);                \
   template int steps_a_pass(const PackedRows<T, W>&, const Method&, const std::vector<int>&);      \
   template int choose_tile(const PackedRows<T, W>&, const Method&, const RowStorage&, int,         \
-                           const std::vector<int>&, bool, int);                                    \
+                           const std::vector<int>&, bool, std::span<const LinkedRows>, int);       \
   template class WavefrontStep<T, W>;
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE

@@ -40,11 +40,13 @@ struct PassShape {
 /// Rows across of the tiles of a pass: those asked for, else as many as fit in the caches;
 /// no_tiles if that is all.
 /// @param cuts   from cut_rows
+/// @param extra  rows of the extra links
 /// @param asked  as Setup::tile
 /// @throws InputError if the tile that was asked for does not fit in the caches
 template <class T, int W>
 int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
-                int steps, const std::vector<int>& cuts, bool is_in_row_order, int asked);
+                int steps, const std::vector<int>& cuts, bool is_in_row_order,
+                std::span<const LinkedRows> extra, int asked);
 
 /// Steps one block. What a task does to a row is the same in every pass, except for the parity of
 /// the published rows that it reads. So all row tasks are made once: making them anew would cost as
@@ -74,7 +76,8 @@ public:
   struct RowStage {
     RowWork work;
     bool is_published; ///< the task leaves a new state that other blocks read
-    int sweep, row;
+    int sweep;
+    int row; ///< of an extra link: its number; of a sum: ExtraLinks::index_of its row
     const KernelSet<T>* kernels; ///< null for devices and for extra links
     /// Of an extra link: `in` and `base` are the rows of its elements. Of a sum: `out`.
     RowTask<T> task;

@@ -70,9 +70,9 @@ static row_action device_action(RowWork work, row_action of_stage) {
     return prime_z;
   case RowWork::extra_link:
   case RowWork::extra_sum:
-    break; // devices compute scenes with extra links stage by stage
+    break;
   }
-  return of_stage;
+  throw std::logic_error("devices compute scenes with extra links stage by stage");
 }
 
 template <class T, int W>
@@ -87,7 +87,7 @@ void ResidentExecutor<T, W>::make_blocks() {
   std::vector<Block<T, W>>& blocks = blocks_.all();
   form_.is_in_row_order = is_part();
   form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, cuts,
-                           form_.is_in_row_order, setup_.tile);
+                           form_.is_in_row_order, {}, setup_.tile);
   if (!is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
   for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
     if (blocks[b].is_remote()) continue;
