@@ -1,6 +1,7 @@
 #pragma once
 /// CSV files: tables in memory, rows appended one by one, and files read back even if a crash cut
 /// the last row.
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,6 +15,10 @@ using Record = std::map<std::string, std::string>;
 struct Table {
   std::vector<std::string> columns;
   std::vector<Record> rows;
+
+  bool has_column(const std::string& name) const {
+    return std::find(columns.begin(), columns.end(), name) != columns.end();
+  }
 };
 
 /// The shortest text that reads back as the same number; empty for NaN.

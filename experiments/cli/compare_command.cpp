@@ -20,7 +20,7 @@ struct CompareArguments {
 /// @throws InputError if a column of raw records is missing
 void require_raw_records(const std::string& path, const Table& table) {
   for (const char* column : {"cell", "repetition", "wall_s", "steps", "check", "status"})
-    if (std::find(table.columns.begin(), table.columns.end(), column) == table.columns.end())
+    if (!table.has_column(column))
       throw InputError(fmt::format(
           "{}: has no column \"{}\"; give raw records, results/raw/NAME.csv, or tables of "
           "speed-ups, results/tables/NAME.csv",

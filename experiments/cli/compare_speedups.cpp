@@ -58,12 +58,9 @@ bool SpeedupPair::do_intervals_overlap() const {
 
 std::vector<std::string> speedup_columns(const Table& table) {
   std::vector<std::string> columns;
-  const auto has = [&](const std::string& column) {
-    return std::ranges::find(table.columns, column) != table.columns.end();
-  };
   for (const std::string& column : table.columns)
     for (const char* start : {"speedup_vs_", "extrapolated_speedup_vs_", "factor_"})
-      if (column.starts_with(start) && has(column + "_low")) columns.push_back(column);
+      if (column.starts_with(start) && table.has_column(column + "_low")) columns.push_back(column);
   return columns;
 }
 
