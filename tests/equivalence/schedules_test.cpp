@@ -166,7 +166,8 @@ TEST_P(EverySchedule, has_bitwise_equal_states_with_extra_links_for_any_number_o
     for (const LinkedCase& c : {LinkedCase{driven(bodies_end_to_end(law)), {1, 2}, {30}, {3, 7}},
                                 LinkedCase{pair_side_by_side(law), {1}, {2, 3, 7}, {}}})
       for (const Scheme& scheme : brief_schemes()) {
-        const auto& [method, precision] = scheme;
+        const Method& method = scheme.method;
+        const Precision precision = scheme.precision;
         const State state =
             rounded(fixture::random_state(c.problem, 3, 2e-4, 0.02, 0.01), precision);
         State expected;
