@@ -60,10 +60,15 @@ static int last_reader(const Method& method, int s) {
   return s + 1;
 }
 
-/// What the rows between the first and the last sweep of a tile may take without slowing down [B]:
-/// about L2 and a core's share of L3. The knee is not at L2, because the processor foresees rows
-/// that follow one another in L3.
-static std::size_t tile_bytes() { return 5 * l2_bytes(); }
+/// What the rows between the first and the last sweep of a tile should take at most [B]. Two kinds
+/// of processors were measured (README.md). Beside an L2 of 1 MB (Zen 4) the L3 is fast, and tiles
+/// may take about L2 and a core's share of L3: narrower ones pay more for their seams than they
+/// gain. Beside an L2 of 2 MB (server cores of Intel since Sapphire Rapids) the L3 is slow, and
+/// tiles should leave a third of L2 free.
+static std::size_t tile_bytes() {
+  constexpr std::size_t large_l2 = 2u << 20;
+  return l2_bytes() >= large_l2 ? l2_bytes() * 2 / 3 : 5 * l2_bytes();
+}
 
 template <class T, int W>
 int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
