@@ -46,7 +46,8 @@ UNTIMED_STUDIES := error_budget failures continuum
 IN_THREE_PARTS := table1 table2 table3
 PAPER_STUDIES := paper_table1 paper_table2 paper_table3
 STUDIES := chain chain_block chain_bending kernels
-LATER_STUDIES := geometry work_precision advise stability model_ladder statics balance cluster mixed_nodes
+LATER_STUDIES := geometry work_precision advise stability model_ladder statics balance cluster \
+  mixed_nodes
 # Five minutes of measuring: the paper's tables and the chain alone.
 ifeq (quick,$(SCALE))
 UNTIMED_STUDIES :=

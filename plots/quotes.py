@@ -221,10 +221,9 @@ def geometry_table(results):
     frame["set"] = frame["set"].fillna("")
     rates = ["scalar", "avx2", "avx512"]
 
-    def row_of(rows, variant, threads=None):
-        rows = rows[(rows["variant"] == variant) & (rows["status"] == "ok")]
-        one = rows["threads"] == 1
-        rows = rows[one if threads is None else ~one]
+    def row_of(rows, variant, is_on_all_cores=False):
+        rows = rows[(rows["variant"] == variant) & (rows["status"] == "ok")
+                    & ((rows["threads"] > 1) == is_on_all_cores)]
         return None if rows.empty else rows.iloc[0]
 
     def rate(row):
@@ -233,7 +232,7 @@ def geometry_table(results):
     plate = row_of(frame[(frame["scene"] == "plate_paper") & (frame["set"] == "n=100")], "avx512")
     lines = []
     for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
-        fastest, cores = row_of(rows, "avx512"), row_of(rows, "avx512", "cores")
+        fastest, cores = row_of(rows, "avx512"), row_of(rows, "avx512", True)
         per_link = "" if fastest is None or plate is None else (
             f"{fastest['link_steps_per_s'] / plate['link_steps_per_s']:.2f}")
         first = rows.iloc[0]

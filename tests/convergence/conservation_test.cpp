@@ -130,11 +130,7 @@ TEST(MillionSteps, of_velocity_verlet_leave_the_energy_of_an_undamped_pair_witho
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryFreeBody, testing::ValuesIn(usable_variants()),
-                         [](const auto& registered) {
-                           std::string name = registered.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         name_of_variant);
 
 TEST(VelocityVerlet, shows_no_energy_trend_over_100000_steps_of_the_fastest_variant) {
   const Problem box = fixture::make_tumbling_box(0);

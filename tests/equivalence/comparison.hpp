@@ -8,9 +8,12 @@
 #include "tests/fixtures/schemes.hpp"
 #include "variants/loading/loader.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace dss::test {
 
@@ -20,6 +23,13 @@ using State = std::vector<double>;
 inline bool has(std::string_view name) {
   const auto found = std::ranges::find(asked_variants(), name, &VariantStatus::name);
   return found != asked_variants().end() && found->is_usable();
+}
+
+/// The name of a test of a variant: tests take no hyphens.
+inline std::string name_of_variant(const testing::TestParamInfo<std::string>& variant) {
+  std::string name = variant.param;
+  std::ranges::replace(name, '-', '_');
+  return name;
 }
 
 inline State poisoned(const Problem& problem) {

@@ -198,12 +198,7 @@ TEST_P(Parts, with_one_bit_of_a_halo_wrong_are_noticed) {
       0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, Parts, testing::ValuesIn(usable_variants()),
-                         [](const auto& registered) {
-                           std::string name = registered.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Registry, Parts, testing::ValuesIn(usable_variants()), name_of_variant);
 
 } // namespace
 } // namespace dss::test

@@ -187,9 +187,9 @@ TEST_P(EverySchedule, has_bitwise_equal_states_with_extra_links_for_any_number_o
       }
 }
 
-TEST_P(EverySchedule, sweeps_linked_bodies_without_tiles_and_others_with_them) {
+TEST_P(EverySchedule, names_no_tiles_of_linked_bodies) {
   if (!plugin.has_tiles || is_composed(plugin)) GTEST_SKIP() << "has no tiles of its own";
-  Problem problem = pair_side_by_side(LinkLaw::paper);
+  const Problem problem = pair_side_by_side(LinkLaw::paper);
   const VariantRun linked{plugin, problem, *find_method("rk4"), Model::spatial};
   EXPECT_EQ(linked.executor()->schedule().find("tiles"), std::string::npos);
   EXPECT_NE(linked.executor()->schedule().find("with extra links"), std::string::npos);
@@ -245,11 +245,7 @@ TEST_P(EverySchedule, reports_the_same_first_failure_however_many_steps_and_thre
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EverySchedule, testing::ValuesIn(usable_variants()),
-                         [](const auto& registered) {
-                           std::string name = registered.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         name_of_variant);
 
 } // namespace
 } // namespace dss::test

@@ -1,16 +1,13 @@
 /// Every variant against the oracle and against each other. One parametrised test runs over the
 /// registry, so a new variant is tested because it exists. Problems are built in code and cover
 /// every term. `dssbench verify` covers the shipped scenes.
-#include "solver/numerics/stability.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
 #include "variants/engine/kernel_set.hpp"
 
-#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <map>
-#include <span>
 #include <tuple>
 
 namespace dss::test {
@@ -217,11 +214,7 @@ TEST_P(EveryVariant, reports_the_step_and_element_of_the_first_non_finite_state)
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryVariant, testing::ValuesIn(usable_variants()),
-                         [](const auto& registered) {
-                           std::string name = registered.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         name_of_variant);
 
 TEST(VariantsWithFma, have_bitwise_equal_states_per_precision) {
   std::vector<const Plugin*> fused;

@@ -183,6 +183,15 @@ TEST(BodyGroups, AreShiftedSoThatLinkedRowsAreClose) {
   EXPECT_EQ(body_groups(lattice, {0, 55}, apart, false).front().lag(), 3);
 }
 
+TEST(BodyGroups, ThatAreLinkedHaveNoRowsForTiles) {
+  const Lattice lattice = plates({{9, 4}, {9, 7}});
+  const std::vector<LinkedRows> in_first{{0, 9}}, between{{0, 36}};
+  EXPECT_EQ(most_rows_across(lattice, {0, 99}, false, {}), 7);
+  EXPECT_EQ(most_rows_across(lattice, {0, 36}, false, {}), 4);
+  EXPECT_EQ(most_rows_across(lattice, {0, 99}, false, in_first), 7);
+  EXPECT_EQ(most_rows_across(lattice, {0, 99}, false, between), 0);
+}
+
 TEST(BodyGroups, TakeTheDirectionOfTheirLinks) {
   // Planes along the longer side of each body would put one row of links beside many planes.
   const Lattice lattice = plates({{20, 4}, {6, 20}});
