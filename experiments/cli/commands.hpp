@@ -22,6 +22,7 @@ void add_run_command(CLI::App& app, Chosen& chosen);
 void add_advise_command(CLI::App& app, Chosen& chosen);
 void add_verify_command(CLI::App& app, Chosen& chosen);
 void add_experiment_command(CLI::App& app, Chosen& chosen);
+void add_sweep_command(CLI::App& app, Chosen& chosen);
 void add_stability_command(CLI::App& app, Chosen& chosen);
 void add_compare_command(CLI::App& app, Chosen& chosen);
 void add_simulate_command(CLI::App& app, Chosen& chosen);

@@ -114,10 +114,11 @@ void describe(CLI::App& app, std::vector<std::string>& variant_path, Chosen& cho
   app.footer(
       "Example: dssbench run plate_paper --set n=100 --steps 500 --threads 2\n"
       "Help of a command: dssbench run --help; the manual page: dssbench help --man | man -l -");
-  for (const auto add : {add_list_command, add_run_command, add_explain_command, add_advise_command,
-                         add_verify_command, add_experiment_command, add_stability_command,
-                         add_compare_command, add_decompose_command, add_simulate_command,
-                         add_bench_command, add_completion_command, add_help_command})
+  for (const auto add :
+       {add_list_command, add_run_command, add_explain_command, add_advise_command,
+        add_verify_command, add_experiment_command, add_sweep_command, add_stability_command,
+        add_compare_command, add_decompose_command, add_simulate_command, add_bench_command,
+        add_completion_command, add_help_command})
     add(app, chosen);
   // they accept --variant-path too
   for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough();

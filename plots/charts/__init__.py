@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Callable
 
 from . import (advice, balance, cells, chain, cluster, continuum, error_budget, failures, kernels,
-               ladder, mixed_nodes, paper, stability, statics, work_precision)
+               ladder, mixed_nodes, paper, stability, statics, sweep, work_precision)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -76,7 +76,8 @@ CHARTS = [Entry(*words) for words in (
 BESIDE = ["geometry", "stability_map", "ceilings", "table1_simulated", "table2_simulated",
           "mixed_nodes_held", "work_precision_cheapest", "work_precision_comparisons"]
 # The charts of any other table, which is a study of cells that a user wrote.
-CELLS = {"": cells.speedups, "_scaling": cells.scaling, "_figure9": cells.figure9}
+CELLS = {"": cells.speedups, "_rates": sweep.rates, "_scaling": cells.scaling,
+         "_figure9": cells.figure9}
 
 
 def figures_of(results):

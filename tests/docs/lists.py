@@ -49,6 +49,8 @@ SIZES = (
     (r"--ranks (1,2,3|2,3)", "--ranks 2", "every number of ranks takes a second"),
     (r"--tolerance 0.1 --vary n", "--tolerance 0.5 --vary n --budget 60", "takes seconds"),
     (r"(\bbench .*--variant avx512)", r"\1 --repetitions 1 --min-time 1e-4", "takes seconds"),
+    (r"(\bsweep plate_paper.*)", r"\1 --steps 5 --repetitions 1 --no-picture", "takes a minute"),
+    (r"\bn=40,80(,160)?\b", "n=6,8", "takes seconds"),
     (r"\bn=300\b", "n=20", "takes seconds"),
     (r"\bn=10\b", "n=6", "takes seconds"),
     (r"--steps (500|1000)\b", "--steps 20", "takes seconds"),

@@ -1,0 +1,159 @@
+#include "experiments/base/child.hpp"
+#include "experiments/base/cores.hpp"
+#include "experiments/cli/arguments.hpp"
+#include "experiments/cli/commands.hpp"
+#include "experiments/cli/sweep_study.hpp"
+#include "experiments/run/plan/names.hpp"
+#include "experiments/studies/run_study.hpp"
+#include "experiments/studies/speedup/speedup_study.hpp"
+#include "solver/error.hpp"
+#include "solver/io/program_files.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+
+namespace dss {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepArguments {
+  SweepRequest request;
+  std::string directory = "sweeps";
+  bool resumes = false, has_picture = true;
+};
+
+/// Writes the study, with as many steps as the samples need.
+void make_study(const SweepRequest& request, const std::string& path) {
+  fs::create_directories(fs::path(path).parent_path());
+  const auto write = [&](const SweepSteps& steps) {
+    write_json(path, sweep_study(request, steps));
+  };
+  write({});
+  if (request.steps > 0) return;
+  try {
+    write(
+        trial_steps(read_speedup(open_study(path, sweep_scale), usable_cores()), request.sample_s));
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(path, ignored); // a study without its steps is of no use
+    throw;
+  }
+}
+
+/// Draws the figures of a directory of results, if the program's plots are there.
+void draw(const std::string& directory) {
+  const fs::path plots = program_file("plots/make_plots.py");
+  if (!fs::exists(plots)) {
+    fmt::print("Picture: plots/make_plots.py of the source tree draws it (--results {})\n",
+               directory);
+    return;
+  }
+  constexpr double limit_s = 120;
+  const ChildResult drawn =
+      run_child("/usr/bin/python3", {"python3", plots.string(), "--results", directory}, limit_s);
+  if (drawn.exit_code == 0)
+    fmt::print("Pictures: {}/figures\n", directory);
+  else
+    fmt::print(stderr, "dssbench: sweep: no picture: {}\n", drawn.failure(limit_s));
+}
+
+int sweep(const SweepArguments& arguments) {
+  const SweepRequest& request = arguments.request;
+  const std::string name = sweep_name(request),
+                    path = (fs::path(arguments.directory) / (name + ".json")).string();
+  if (name.find_first_of("/ ") != std::string::npos)
+    throw InputError(fmt::format("--name {}: names files; give no slash and no space", name));
+  if (!arguments.resumes)
+    make_study(request, path);
+  else if (!fs::exists(path))
+    throw InputError(fmt::format("--resume: there is no {}; begin the sweep without it", path));
+  StudyOptions options;
+  options.scale = sweep_scale;
+  options.directory = arguments.directory;
+  options.resumes = arguments.resumes;
+  const int code = run_study_file(path, options);
+  fmt::print("Study: {}\n", path);
+  if (arguments.has_picture) draw(arguments.directory);
+  return code;
+}
+
+/// Options that say which cells there are.
+void add_cells(CLI::App& command, SweepRequest& request) {
+  const auto list = [&](const char* option, std::vector<std::string>& values, const char* type,
+                        const std::string& text) {
+    command.add_option(option, values, text)->delimiter(',')->type_name(type);
+  };
+  command
+      .add_option("--set", request.set,
+                  "A parameter or number of the scene, and its values; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE,...");
+  list("--variant", request.variants, "VARIANT", "Names from `dssbench list variants`");
+  command.get_option("--variant")->required();
+  list("--threads", request.threads, "THREADS",
+       "Numbers, or cores, rest (all but one), 1..cores, fill (as many as ranks leave)");
+  list("--ranks", request.ranks, "RANKS", "Numbers of processes");
+  list("--halo", request.halos, "HALO",
+       fmt::format("On several ranks: {}", fmt::join(names_of("HALO"), ", ")));
+  list("--decomposition", request.decompositions, "DECOMPOSITION",
+       fmt::format("On several ranks: {}", fmt::join(names_of("DECOMPOSITION"), ", ")));
+  list("--model", request.models, "MODEL", "Names of models (default: spatial)");
+  list("--precision", request.precisions, "PRECISION", "f64, f32, f32c (default: f64)");
+  list("--integrator", request.integrators, "INTEGRATOR", "Names of methods (default: rk4)");
+  command
+      .add_option("--base", request.base,
+                  "Variant that speed-ups refer to, on one thread (default: the first one)")
+      ->type_name("VARIANT");
+}
+
+/// Options that say how much is measured, and where it goes.
+void add_effort(CLI::App& command, SweepArguments& arguments) {
+  SweepRequest& request = arguments.request;
+  command
+      .add_option("--steps", request.steps,
+                  "Steps of every cell (default: as many as --sample-time needs, found by a trial)")
+      ->check(CLI::Range(2L, 1L << 40));
+  command.add_option("--sample-time", request.sample_s, "Least time of a sample [s]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--repetitions", request.repetitions,
+                  "Least number of repetitions of a cell; six give an interval")
+      ->capture_default_str()
+      ->check(CLI::Range(1L, 1000L));
+  command
+      .add_option("--budget", request.budget_s,
+                  "No repetitions beyond the least number after this time [s]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command.add_option("--name", request.name, "Name of the study (default: sweep_SCENE)");
+  command
+      .add_option("--out", arguments.directory, "Directory of the study, raw/, tables/, figures/")
+      ->capture_default_str();
+  command.add_flag(
+      "--resume", arguments.resumes,
+      "Go on with the study that is there, as it is, and measure only what is missing");
+  command.add_flag("!--no-picture", arguments.has_picture, "Draw nothing");
+}
+
+} // namespace
+
+void add_sweep_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "sweep", "Measure every combination of some choices, interleaved, checked, with intervals");
+  const auto arguments = std::make_shared<SweepArguments>();
+  command
+      ->add_option("SCENE", arguments->request.scene,
+                   "A name from `dssbench list scenes`, or a path")
+      ->required();
+  add_cells(*command, arguments->request);
+  add_effort(*command, *arguments);
+  command->footer("Example: dssbench sweep plate_paper --set n=40,80 --variant scalar,avx2 "
+                  "--threads 1,cores\nExit code 1 if a cell failed or was wrong.");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return sweep(*arguments); }; });
+}
+
+} // namespace dss
