@@ -93,9 +93,9 @@ void add_cells(CLI::App& command, SweepRequest& request) {
       ->type_name("KEY=VALUE,...");
   list("--variant", request.variants, "VARIANT", "Names from `dssbench list variants`");
   command.get_option("--variant")->required();
-  list("--threads", request.threads, "THREADS",
+  list("--threads", request.threads, "TEXT",
        "Numbers, or cores, rest (all but one), 1..cores, fill (as many as ranks leave)");
-  list("--ranks", request.ranks, "RANKS", "Numbers of processes");
+  list("--ranks", request.ranks, "TEXT", "Numbers of processes");
   list("--halo", request.halos, "HALO",
        fmt::format("On several ranks: {}", fmt::join(names_of("HALO"), ", ")));
   list("--decomposition", request.decompositions, "DECOMPOSITION",

@@ -11,7 +11,8 @@ SWEEP = ["plate_paper", "--set", "n=8,12", "--variant", "reference,scalar"]
 
 class Sweep(ProgramTest):
     def sweep(self, *arguments):
-        return dssbench("sweep", *arguments, "--out", self.path("out"))
+        # A small budget: it does not wait for a quiet machine.
+        return dssbench("sweep", *arguments, "--budget", 1, "--out", self.path("out"))
 
     def table(self, name):
         with open(self.path(f"out/tables/{name}.csv"), encoding="utf-8") as file:
@@ -29,8 +30,8 @@ class Sweep(ProgramTest):
         self.assertEqual(len(rows), 8 + 4)  # and the A/A pairs of the base
         for row in rows:
             self.assertEqual((row["status"], row["check"], row["steps"]), ("ok", "passed", "20"))
-            self.assertLess(float(row["speedup_vs_reference_low"]),
-                            float(row["speedup_vs_reference_high"]))
+            self.assertLessEqual(float(row["speedup_vs_reference_low"]),
+                                 float(row["speedup_vs_reference_high"]))
         for figure in ("sweep_plate_paper.png", "sweep_plate_paper_rates.png"):
             self.assertTrue(os.path.exists(self.path(f"out/figures/{figure}")), result.stderr)
 
@@ -57,8 +58,9 @@ class Sweep(ProgramTest):
         self.assertEqual(self.sweep(*line, "--resume").returncode, 0)
         self.assertEqual(self.read("out/mine.json"), study)
         resumed = self.read("out/raw/mine.csv").splitlines()
-        self.assertEqual(len(resumed), len(raw.splitlines()))
         self.assertEqual(resumed[:3], raw.splitlines()[:3])
+        cells = {row["cell"] for row in csv.DictReader(resumed)}
+        self.assertEqual(len(cells), 2 * 2 + 2)  # and the A/A pairs
 
     def test_a_scene_file_is_found_from_the_folder_of_the_study(self):
         scenes = json.loads(dssbench("list", "scenes", "--json").stdout)
@@ -74,7 +76,7 @@ class Sweep(ProgramTest):
                 (2, ["--set n=8,,9"], ["plate_paper", "--set", "n=8,,9"]),
                 (2, ["avx3", "avx2"], ["plate_paper", "--variant", "avx3"]),
                 (2, ["no_scene"], ["no_scene"]),
-                (2, ["/parameters/n", "-1"], ["plate_paper", "--set", "n=-1"]),
+                (2, ["/bodies/0/geometry", "-1"], ["plate_paper", "--set", "n=-1"]),
                 (2, ["--name", "no slash"], ["plate_paper", "--name", "a/b"]),
                 (2, ["--resume", "there is no"], ["plate_paper", "--resume"]),
         ]:
