@@ -38,6 +38,9 @@ std::vector<std::string> run_columns() {
 void put_run_fields(const CellSample& sample, Record& row) {
   for (const RunField& field : run_fields())
     if (field.in_tables != Aggregate::none) row[field.column] = aggregated(field, sample);
+  // One wrong repetition makes the cell wrong: often only the first is checked by the oracle.
+  row["status"] = sample.status();
+  row["reason"] = sample.reason();
 }
 
 void put_identity(const CellStudy& study, const Cell& cell, const CellSample& sample, Record& row) {

@@ -25,11 +25,14 @@ std::string CellSample::check() const {
   return repetitions.empty() ? "none" : "passed";
 }
 
-std::string CellSample::status() const {
-  for (const auto& [number, record] : repetitions)
-    if (text_in(record, "status") != "ok") return text_in(record, "status");
-  return text_in(last, "status");
+static const Record& first_not_ok(const CellSample& sample) {
+  for (const auto& [number, record] : sample.repetitions)
+    if (text_in(record, "status") != "ok") return record;
+  return sample.last;
 }
+
+std::string CellSample::status() const { return text_in(first_not_ok(*this), "status"); }
+std::string CellSample::reason() const { return text_in(first_not_ok(*this), "reason"); }
 
 bool CellSample::is_oversubscribed() const {
   const double ranks = number_in(last, "ranks"); // absent in records of kernels

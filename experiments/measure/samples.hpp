@@ -31,6 +31,8 @@ struct CellSample {
   std::string check() const;
   /// "ok" if every repetition and the last record are, else the first other status.
   std::string status() const;
+  /// Why status() is not "ok".
+  std::string reason() const;
   /// True with more workers than cores: times are shown but not compared.
   bool is_oversubscribed() const;
   /// Largest error of any repetition; NaN without a check.

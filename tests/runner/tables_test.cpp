@@ -66,6 +66,19 @@ TEST_F(Tables, UnequalBitsOfVariantsWithFmaCostAllOfThemTheSpeedUp) {
   EXPECT_EQ(derived(0)["status"], "ok");
 }
 
+TEST_F(Tables, OneWrongRepetitionMakesTheCellWrongWithItsReason) {
+  const auto first = std::ranges::find_if(records, [&](const Record& record) {
+    return record.at("cell") == study.cells[1].key();
+  });
+  (*first)["check"] = "failed";
+  (*first)["status"] = "wrong";
+  (*first)["reason"] = "error 0.5 exceeds the tolerance";
+  EXPECT_EQ(derived(1)["status"], "wrong");
+  EXPECT_EQ(derived(1)["reason"], "error 0.5 exceeds the tolerance");
+  EXPECT_EQ(derived(1)["speedup_vs_scalar"], "");
+  EXPECT_FALSE(is_without_failures(derive_table(study, records)));
+}
+
 TEST_F(Tables, FewerStepsAreExtrapolatedInColumnsOfTheirOwn) {
   study.cells.push_back(cell("avx512", 1, 10));
   for (long r = 0; r < 6; ++r)

@@ -74,7 +74,7 @@ Table kernel_table(const std::vector<Record>& records, const std::vector<Ceiling
     row["check"] = sample.check();
     row["check_error"] = number_text(sample.check_error());
     row["status"] = sample.status();
-    row["reason"] = text_in(sample.last, "reason");
+    row["reason"] = sample.reason();
     std::vector<double> ns;
     for (const auto& [number, step_s] : sample.step_s())
       ns.push_back(1e9 * step_s / number_in(sample.last, "elements"));
