@@ -31,14 +31,17 @@ def draw_figure(results, entries, output):
     return [output]
 
 
-def draw_all(results):
-    """Draws all figures. @returns the errors"""
+def draw_all(results, table):
+    """Draws all figures, or those of one table. @returns the errors"""
     figures, errors = results.directory / "figures", []
     jobs = []
     for name, entries in figures_of(results).items():
         output = figures / f"{name}.png"
-        jobs.append((output, functools.partial(draw_figure, results, entries, output)))
-    for output, draw in [*jobs, *body_picture.pictures_of(results.directory / "fields", figures)]:
+        if table in (None, entries[0].table):
+            jobs.append((output, functools.partial(draw_figure, results, entries, output)))
+    if table is None:
+        jobs += body_picture.pictures_of(results.directory / "fields", figures)
+    for output, draw in jobs:
         try:
             print(*draw(), sep="\n")
         except Unreadable as fault:
@@ -53,11 +56,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--results", type=pathlib.Path, default=pathlib.Path("results"),
                         help="directory with tables/ and fields/")
-    results = Results(parser.parse_args().results)
+    parser.add_argument("--table", help="only the figures of tables/TABLE.csv")
+    arguments = parser.parse_args()
+    results = Results(arguments.results)
     if not results.names() and not any((results.directory / "fields").glob("*.vtu")):
         sys.exit(f"{results.directory}: no tables/*.csv and no fields/*.vtu; "
                  "run `dssbench experiment` first")
-    errors = draw_all(results)
+    errors = draw_all(results, arguments.table)
     if errors:
         sys.exit("\n".join(errors))
 

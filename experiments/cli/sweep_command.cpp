@@ -3,11 +3,13 @@
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/sweep_study.hpp"
+#include "experiments/measure/study_paths.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "experiments/studies/run_study.hpp"
 #include "experiments/studies/speedup/speedup_study.hpp"
 #include "solver/error.hpp"
 #include "solver/io/program_files.hpp"
+#include "solver/json/parse.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -25,58 +27,77 @@ struct SweepArguments {
   bool resumes = false, has_picture = true;
 };
 
-/// Writes the study, with as many steps as the samples need.
+/// A new study, with as many steps as the samples need. Nothing is written unless it is sound.
 void make_study(const SweepRequest& request, const std::string& path) {
-  fs::create_directories(fs::path(path).parent_path());
-  const auto write = [&](const SweepSteps& steps) {
-    write_json(path, sweep_study(request, steps));
-  };
-  write({});
-  if (request.steps > 0) return;
-  try {
-    write(
-        trial_steps(read_speedup(open_study(path, sweep_scale), usable_cores()), request.sample_s));
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(path, ignored); // a study without its steps is of no use
-    throw;
+  if (fs::exists(path))
+    throw InputError(fmt::format("{}: this sweep is there; give --resume to go on with it, or "
+                                 "another --name or --out",
+                                 path));
+  nlohmann::ordered_json study = sweep_study(request, {});
+  const SpeedupStudy cells = read_speedup(sweep_file(study), usable_cores());
+  if (request.steps == 0) {
+    Progress progress;
+    study = sweep_study(request, trial_rates(cells, progress));
   }
+  write_json(path, study);
 }
 
-/// Draws the figures of a directory of results, if the program's plots are there.
-void draw(const std::string& directory) {
+/// Requires that the study that is there has the cells of the request.
+void require_same(const SweepRequest& request, const std::string& path) {
+  if (!fs::exists(path))
+    throw InputError(fmt::format("--resume: there is no {}; begin the sweep without it", path));
+  const nlohmann::json there = parse_json_file(path), asked = sweep_study(request, {});
+  const auto differs = [&](const char* key) {
+    return there.value(key, nlohmann::json()) != asked.at(key);
+  };
+  if (differs("cells") || differs("base"))
+    throw InputError(fmt::format("--resume: {} is a sweep of other choices; give those, or another "
+                                 "--name or --out",
+                                 path));
+}
+
+/// Draws the figures of a study, if the program's plots are there. A fault costs only the figures.
+void draw(const std::string& directory, const std::string& name) {
+  constexpr double limit_s = 120;
   const fs::path plots = program_file("plots/make_plots.py");
   if (!fs::exists(plots)) {
-    fmt::print("Picture: plots/make_plots.py of the source tree draws it (--results {})\n",
+    fmt::print("Pictures: plots/make_plots.py --results {} of the source tree draws them\n",
                directory);
     return;
   }
-  constexpr double limit_s = 120;
-  const ChildResult drawn =
-      run_child("/usr/bin/python3", {"python3", plots.string(), "--results", directory}, limit_s);
-  if (drawn.exit_code == 0)
-    fmt::print("Pictures: {}/figures\n", directory);
-  else
-    fmt::print(stderr, "dssbench: sweep: no picture: {}\n", drawn.failure(limit_s));
+  try {
+    const ChildResult drawn =
+        run_child("/usr/bin/python3",
+                  {"python3", plots.string(), "--results", directory, "--table", name}, limit_s);
+    fmt::print("{}", drawn.output);
+    if (drawn.exit_code == 0) return;
+    std::string last = drawn.error;
+    while (last.ends_with('\n')) last.pop_back();
+    last = last.substr(last.find_last_of('\n') + 1);
+    fmt::print(stderr, "dssbench: sweep: no picture: {}\n",
+               last.empty() ? drawn.failure(limit_s) : last);
+  } catch (const InputError& fault) {
+    fmt::print(stderr, "dssbench: sweep: no picture: {}\n", fault.what());
+  }
 }
 
 int sweep(const SweepArguments& arguments) {
   const SweepRequest& request = arguments.request;
   const std::string name = sweep_name(request),
                     path = (fs::path(arguments.directory) / (name + ".json")).string();
-  if (name.find_first_of("/ ") != std::string::npos)
-    throw InputError(fmt::format("--name {}: names files; give no slash and no space", name));
-  if (!arguments.resumes)
+  if (arguments.resumes) {
+    require_same(request, path);
+  } else {
+    make_directories(study_paths(arguments.directory, name));
     make_study(request, path);
-  else if (!fs::exists(path))
-    throw InputError(fmt::format("--resume: there is no {}; begin the sweep without it", path));
+  }
   StudyOptions options;
   options.scale = sweep_scale;
   options.directory = arguments.directory;
   options.resumes = arguments.resumes;
   const int code = run_study_file(path, options);
   fmt::print("Study: {}\n", path);
-  if (arguments.has_picture) draw(arguments.directory);
+  if (arguments.has_picture) draw(arguments.directory, name);
   return code;
 }
 
@@ -84,7 +105,10 @@ int sweep(const SweepArguments& arguments) {
 void add_cells(CLI::App& command, SweepRequest& request) {
   const auto list = [&](const char* option, std::vector<std::string>& values, const char* type,
                         const std::string& text) {
-    command.add_option(option, values, text)->delimiter(',')->type_name(type);
+    command.add_option(option, values, text)
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name(type);
   };
   command
       .add_option("--set", request.set,
@@ -117,8 +141,7 @@ void add_effort(CLI::App& command, SweepArguments& arguments) {
                   "Steps of every cell (default: as many as --sample-time needs, found by a trial)")
       ->check(CLI::Range(2L, 1L << 40));
   command.add_option("--sample-time", request.sample_s, "Least time of a sample [s]")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->capture_default_str();
   command
       .add_option("--repetitions", request.repetitions,
                   "Least number of repetitions of a cell; six give an interval")
@@ -127,8 +150,7 @@ void add_effort(CLI::App& command, SweepArguments& arguments) {
   command
       .add_option("--budget", request.budget_s,
                   "No repetitions beyond the least number after this time [s]")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->capture_default_str();
   command.add_option("--name", request.name, "Name of the study (default: sweep_SCENE)");
   command
       .add_option("--out", arguments.directory, "Directory of the study, raw/, tables/, figures/")

@@ -2,6 +2,7 @@
 #include "experiments/base/child.hpp"
 #include "experiments/measure/cell_record.hpp"
 #include "solver/error.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -9,13 +10,18 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
+#include <optional>
 
 namespace dss {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Names = std::vector<std::string>;
 
 constexpr long least_steps = 2; ///< the oracle checks so many
+constexpr long samples = 3;     ///< of a repetition; bases take twice as many
+constexpr std::size_t most_cells = 1000;
 constexpr double trial_s = 0.05, trial_limit_s = 120;
 
 /// A number if the text is one, else the text: an expression, or a word such as "cores".
@@ -23,49 +29,103 @@ Json value_of(const std::string& text) {
   const Json number = Json::parse(text, nullptr, false);
   return number.is_number() ? number : Json(text);
 }
-Json values_of(const std::vector<std::string>& texts) {
+Json values_of(const Names& texts) {
   Json list = Json::array();
   for (const std::string& text : texts) list.push_back(value_of(text));
   return list;
 }
 
-/// A scene's file is named as an absolute path, because the study lies in another folder.
+/// A scene's file is named by its absolute path, because a study can be run from any folder.
 std::string scene_for_study(const std::string& scene) {
-  return scene.ends_with(".json") ? std::filesystem::absolute(scene).string() : scene;
+  const bool is_file = scene.ends_with(".json") || scene.find('/') != std::string::npos;
+  return is_file && std::filesystem::exists(scene)
+             ? std::filesystem::absolute(scene).lexically_normal().string()
+             : scene;
 }
 
 std::string base_of(const SweepRequest& request) {
-  return request.base.empty() ? request.variants.front() : request.base;
+  const std::string& base = request.base.empty() ? request.variants.front() : request.base;
+  return base == "auto" ? load_variant(base).name : base;
 }
 
-Json cells_of(const SweepRequest& request, const std::vector<std::string>& variants,
-              const std::vector<std::string>& threads, const std::vector<std::string>& ranks) {
-  Json block = {{"scene", scene_for_study(request.scene)}};
+Json sets_of(const SweepRequest& request) {
+  Json sets = Json::object();
   for (const std::string& text : request.set) {
     const auto [key, values] = values_of_set(text);
-    block["set"][key] = values_of(values);
+    if (sets.contains(key))
+      throw InputError(
+          fmt::format("--set {}: {} has values already; give all of them at once", text, key));
+    sets[key] = values_of(values);
   }
+  return sets;
+}
+
+Json block_of(const SweepRequest& request, const Names& variants, const Names& threads,
+              const Names& ranks) {
+  Json block = {{"scene", scene_for_study(request.scene)}};
+  if (!request.set.empty()) block["set"] = sets_of(request);
   block["variants"] = variants;
   block["threads"] = values_of(threads);
   block["ranks"] = values_of(ranks);
-  const auto add = [&](const char* key, const std::vector<std::string>& names) {
+  const auto add = [&](const char* key, const Names& names) {
     if (!names.empty()) block[key] = names;
   };
   add("models", request.models), add("precisions", request.precisions);
   add("integrators", request.integrators);
-  if (ranks != std::vector<std::string>{"1"})
+  if (ranks != Names{"1"})
     add("halos", request.halos), add("decompositions", request.decompositions);
   return block;
 }
 
-Json scale_of(const SweepRequest& request, const SweepSteps& steps) {
+/// CLI11's ranges let nan pass.
+void require_time(const char* option, double value, double least, double most) {
+  if (!(value >= least && value <= most))
+    throw InputError(fmt::format("{} {:g}: give {:g} to {:g} s", option, value, least, most));
+}
+
+void require_sound(const SweepRequest& request) {
+  require_time("--sample-time", request.sample_s, 1e-3, 60);
+  require_time("--budget", request.budget_s, 1e-3, 1e6);
+  std::size_t cells = 1;
+  for (const std::string& text : request.set) cells *= values_of_set(text).second.size();
+  for (const Names* names :
+       {&request.variants, &request.threads, &request.ranks, &request.models, &request.precisions,
+        &request.integrators, &request.halos, &request.decompositions}) {
+    cells *= std::max<std::size_t>(1, names->size());
+    if (cells > most_cells)
+      throw InputError(
+          fmt::format("sweep: more than {} combinations; give fewer values", most_cells));
+  }
+  const bool has_ranks = request.ranks != Names{"1"};
+  if (!has_ranks && !(request.halos.empty() && request.decompositions.empty()))
+    throw InputError("--halo, --decomposition: one process exchanges nothing; give --ranks");
+  for (const char* const variant : {"as_published", "reference"})
+    if (has_ranks && std::ranges::find(request.variants, variant) != request.variants.end())
+      throw InputError(fmt::format("--variant {0}: computes no part of a scene, so it runs on one "
+                                   "rank; give it as --base {0}",
+                                   variant));
+}
+
+/// Steps of the fastest cell of each variant for a sample, by overrides and variant.
+std::map<std::string, std::map<std::string, long>> steps_of(const std::vector<CellRate>& rates,
+                                                            double sample_s) {
+  std::map<std::string, std::map<std::string, long>> steps;
+  for (const CellRate& rate : rates) {
+    long& most = steps[rate.set].try_emplace(rate.variant, least_steps).first->second;
+    most = std::max(most, std::lround(std::ceil(1.2 * sample_s * rate.steps_per_s)));
+  }
+  return steps;
+}
+
+Json scale_of(const SweepRequest& request, const std::vector<CellRate>& rates) {
   Json scale = {{"steps", std::max(request.steps, least_steps)},
                 {"oracle_steps", least_steps},
                 {"tail_checks", 1},
                 {"repetitions", {request.repetitions, 2 * request.repetitions}},
-                {"samples", 3},
+                {"samples", samples},
                 {"budget_s", request.budget_s},
-                {"time_limit_s", trial_limit_s}};
+                {"time_limit_s", 3600}};
+  const auto steps = steps_of(rates, request.sample_s);
   for (const auto& [set, of_variants] : steps) {
     long most = least_steps;
     for (const auto& [variant, count] : of_variants) {
@@ -74,27 +134,33 @@ Json scale_of(const SweepRequest& request, const SweepSteps& steps) {
     }
     scale["steps_by_set"][set] = most;
   }
+  double slowest_s = 0;
+  for (const CellRate& rate : rates)
+    slowest_s = std::max(slowest_s, double(steps.at(rate.set).at(rate.variant)) / rate.steps_per_s);
+  if (!rates.empty()) scale["time_limit_s"] = std::max(120., 3 * 2 * double(samples) * slowest_s);
   return scale;
 }
 
-/// Steps of a cell for a sample of this time, from a short run.
-long steps_of_cell(const CellStudy& study, const Cell& cell, double sample_s) {
-  const ChildResult child = run_child(
-      this_program,
-      run_arguments(study, cell, {"--no-balance", "--repeat-for", fmt::format("{:g}", trial_s)}),
-      trial_limit_s);
+/// Seconds of a step in a run of `cell.steps` steps; on one rank the run is repeated for a while.
+double step_s(const CellStudy& study, const Cell& cell) {
+  std::vector<std::string> more{"--no-balance"};
+  if (cell.ranks == 1) more.insert(more.end(), {"--repeat-for", fmt::format("{:g}", trial_s)});
+  const ChildResult child =
+      run_child(this_program, run_arguments(study, cell, more), trial_limit_s);
   const nlohmann::json record = nlohmann::json::parse(child.output, nullptr, false);
-  if (child.exit_code != 0 || !record.is_object())
+  if (child.exit_code != 0 || !record.is_object() || !record.contains("wall_s") ||
+      !record["wall_s"].is_number() || record["wall_s"].get<double>() <= 0)
     throw InputError(fmt::format("sweep: {} {}, {}: {}", cell.scene, cell.set_text(), cell.label(),
                                  child.failure(trial_limit_s)));
-  const double steps_per_s =
-      record.at("element_steps_per_s").get<double>() / record.at("elements").get<double>();
-  return std::max(least_steps, std::lround(std::ceil(1.2 * sample_s * steps_per_s)));
+  return record["wall_s"].get<double>() / double(cell.steps);
 }
 
 } // namespace
 
 std::string sweep_name(const SweepRequest& request) {
+  if (request.name.find_first_of("/ ") != std::string::npos || request.name.starts_with("."))
+    throw InputError(fmt::format("--name {}: names files; give no slash, no space and no dot first",
+                                 request.name));
   if (!request.name.empty()) return request.name;
   std::string name = "sweep_" + std::filesystem::path(request.scene).stem().string();
   for (char& letter : name)
@@ -104,46 +170,65 @@ std::string sweep_name(const SweepRequest& request) {
 
 std::pair<std::string, std::vector<std::string>> values_of_set(const std::string& text) {
   const auto sign = text.find('=');
-  const auto fail = [&] {
-    throw InputError(fmt::format("--set {}: is not KEY=VALUE,..., such as n=40,80,160", text));
-  };
-  if (sign == std::string::npos || sign == 0) fail();
-  std::vector<std::string> values{""};
+  Names values{""};
   int depth = 0;
-  for (const char letter : text.substr(sign + 1)) {
+  for (const char letter : sign == std::string::npos ? "" : text.substr(sign + 1)) {
     depth += (letter == '(' || letter == '[') - (letter == ')' || letter == ']');
     if (letter == ',' && depth == 0)
       values.emplace_back();
     else
       values.back() += letter;
   }
-  if (std::ranges::find(values, "") != values.end()) fail();
+  if (sign == 0 || std::ranges::find(values, "") != values.end())
+    throw InputError(fmt::format("--set {}: is not KEY=VALUE,..., such as n=40,80,160", text));
   return {text.substr(0, sign), values};
 }
 
-Json sweep_study(const SweepRequest& request, const SweepSteps& steps) {
+Json sweep_study(const SweepRequest& request, const std::vector<CellRate>& rates) {
+  require_sound(request);
   const std::string base = base_of(request);
-  const std::string title =
-      fmt::format("Sweep of {}: {}", request.scene,
-                  fmt::join(request.set.empty() ? request.variants : request.set, " "));
+  const Names& swept = request.set.empty() ? request.variants : request.set;
   return {{"experiment", sweep_name(request)},
-          {"title", title},
+          {"title", fmt::format("Sweep of {}: {}", request.scene, fmt::join(swept, " "))},
           {"cells",
-           {cells_of(request, {base}, {"1"}, {"1"}),
-            cells_of(request, request.variants, request.threads, request.ranks)}},
+           {block_of(request, {base}, {"1"}, {"1"}),
+            block_of(request, request.variants, request.threads, request.ranks)}},
           {"base", {base}},
           {"twin", base},
-          {"scales", {{sweep_scale, scale_of(request, steps)}}}};
+          {"scales", {{sweep_scale, scale_of(request, rates)}}}};
 }
 
-SweepSteps trial_steps(const CellStudy& study, double sample_s) {
-  SweepSteps steps;
+StudyFile sweep_file(const Json& study) {
+  const auto json = std::make_shared<const JsonFile>("sweep", nlohmann::json(study));
+  const Node root(*json);
+  const Node scale = ObjectNode(ObjectNode(root).require("scales")).require(sweep_scale);
+  return {json,
+          "sweep",
+          study.at("experiment").get<std::string>(),
+          study.at("title").get<std::string>(),
+          sweep_scale,
+          root,
+          scale};
+}
+
+std::vector<CellRate> trial_rates(const CellStudy& study, Progress& progress) {
+  std::vector<CellRate> rates;
+  std::string first_failure;
+  double done = 0;
   for (const Cell& cell : study.cells) {
+    progress.show(++done, double(study.cells.size()), "trial of " + cell.label());
     if (cell.is_twin || !cell.skipped.empty()) continue;
-    long& most = steps[cell.set_text()][cell.variant];
-    most = std::max(most, steps_of_cell(study, cell, sample_s));
+    try {
+      // Few steps take longer each than many; so the second run has as many as the trial allows.
+      Cell longer = cell;
+      longer.steps = std::max(least_steps, std::lround(trial_s / step_s(study, cell)));
+      rates.push_back({cell.set_text(), cell.variant, 1 / step_s(study, longer)});
+    } catch (const InputError& failure) {
+      if (first_failure.empty()) first_failure = failure.what();
+    }
   }
-  return steps;
+  if (rates.empty() && !first_failure.empty()) throw InputError(first_failure);
+  return rates;
 }
 
 } // namespace dss

@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import shutil
 import unittest
 
 from program import ProgramTest, dssbench
@@ -13,6 +14,9 @@ class Sweep(ProgramTest):
     def sweep(self, *arguments):
         # A small budget: it does not wait for a quiet machine.
         return dssbench("sweep", *arguments, "--budget", 1, "--out", self.path("out"))
+
+    def refused(self, words, *arguments):
+        self.assert_refused(2, words, "sweep", *arguments, "--out", self.path("out"))
 
     def table(self, name):
         with open(self.path(f"out/tables/{name}.csv"), encoding="utf-8") as file:
@@ -40,15 +44,32 @@ class Sweep(ProgramTest):
         self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
         scale = self.study("sweep_plate_paper")["scales"]["sweep"]
         self.assertEqual(set(scale["steps_by_set"]), {"n=8", "n=12"})
-        self.assertEqual(set(scale["steps_for"]),
-                         {f"{variant} {n}" for variant in ("reference", "scalar")
-                          for n in ("n=8", "n=12")})
-        for n in ("n=8", "n=12"):
-            self.assertEqual(scale["steps_by_set"][n],
-                             max(scale["steps_for"][f"{name} {n}"]
-                                 for name in ("reference", "scalar")))
-            self.assertGreater(scale["steps_for"][f"reference {n}"], 2)
+        for n, most in scale["steps_by_set"].items():
+            steps = [scale["steps_for"][f"{variant} {n}"] for variant in ("reference", "scalar")]
+            self.assertEqual(max(steps), most)
+            self.assertGreater(min(steps), 2)
+        self.assertEqual(len(scale["steps_for"]), 4)
         self.assertFalse(os.path.exists(self.path("out/figures")))
+
+    def test_several_keys_base_and_fast_ones_are_in_the_study(self):
+        result = self.sweep("plate_paper", "--set", "n=6,8", "--set", "run.dt=5e-7,1e-6",
+                            "--variant", "scalar", "--base", "reference", "--steps", 4,
+                            "--repetitions", 1)
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
+        rows = self.table("sweep_plate_paper")
+        self.assertEqual(len({row["set"] for row in rows}), 4)
+        self.assertEqual({row["variant"] for row in rows}, {"reference", "scalar"})
+        self.assertIn("sweep_plate_paper_rates.png", result.stdout)
+
+    @unittest.skipIf(shutil.which("mpirun") is None, "no mpirun")
+    def test_ranks_have_a_trial_too(self):
+        result = self.sweep("plate_paper", "--set", "n=12", "--variant", "scalar", "--ranks",
+                            "1,2", "--halo", "deep", "--sample-time", 0.002, "--repetitions", 1,
+                            "--no-picture")
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
+        ranks = [row["ranks"] for row in self.table("sweep_plate_paper")
+                 if row["status"] in ("ok", "oversubscribed")]
+        self.assertEqual(sorted(ranks), ["1", "1", "2"])
 
     def test_resume_goes_on_with_the_study_that_is_there(self):
         line = [*SWEEP, "--steps", 10, "--repetitions", 1, "--no-picture", "--name", "mine"]
@@ -62,31 +83,52 @@ class Sweep(ProgramTest):
         cells = {row["cell"] for row in csv.DictReader(resumed)}
         self.assertEqual(len(cells), 2 * 2 + 2)  # and the A/A pairs
 
-    def test_a_scene_file_is_found_from_the_folder_of_the_study(self):
+    def test_an_earlier_study_is_never_lost(self):
+        line = [*SWEEP, "--steps", 3, "--repetitions", 1, "--no-picture"]
+        self.assertEqual(self.sweep(*line).returncode, 0)
+        study, raw = (self.read(f"out/{name}") for name in
+                      ("sweep_plate_paper.json", "raw/sweep_plate_paper.csv"))
+        for words, more in [(["this sweep is there", "--resume"], []),
+                            (["other choices"], ["--resume", "--base", "scalar"]),
+                            (["avx3", "avx2"], ["--variant", "avx3", "--name", "new"])]:
+            self.refused(words, *line, *more)
+            self.assertEqual(self.read("out/sweep_plate_paper.json"), study)
+            self.assertEqual(self.read("out/raw/sweep_plate_paper.csv"), raw)
+            self.assertFalse(os.path.exists(self.path("out/new.json")))
+
+    def test_a_scene_file_has_its_absolute_path_in_the_study(self):
         scenes = json.loads(dssbench("list", "scenes", "--json").stdout)
         path = next(row["path"] for row in scenes if row["scene"] == "two_elements")
-        path = os.path.relpath(path)
-        result = self.sweep(path, "--variant", "scalar", "--steps", 5, "--repetitions", 1,
-                            "--no-picture")
+        result = self.sweep(os.path.relpath(path), "--variant", "scalar", "--steps", 5,
+                            "--repetitions", 1, "--no-picture")
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.study("sweep_two_elements")["cells"][0]["scene"],
+                         os.path.abspath(path))
 
     def test_mistakes_are_one_line_and_leave_no_study(self):
-        for code, words, line in [
-                (2, ["--set n=", "n=40,80,160"], ["plate_paper", "--set", "n="]),
-                (2, ["--set n=8,,9"], ["plate_paper", "--set", "n=8,,9"]),
-                (2, ["avx3", "avx2"], ["plate_paper", "--variant", "avx3"]),
-                (2, ["no_scene"], ["no_scene"]),
-                (2, ["/bodies/0/geometry", "-1"], ["plate_paper", "--set", "n=-1"]),
-                (2, ["--name", "no slash"], ["plate_paper", "--name", "a/b"]),
-                (2, ["--resume", "there is no"], ["plate_paper", "--resume"]),
+        for words, line in [
+                (["--set n=", "n=40,80,160"], ["plate_paper", "--set", "n="]),
+                (["--set n=8,,9"], ["plate_paper", "--set", "n=8,,9"]),
+                (["n has values already"], ["plate_paper", "--set", "n=8", "--set", "n=9"]),
+                (["avx3", "avx2"], ["plate_paper", "--variant", "avx3"]),
+                (["no_scene"], ["no_scene"]),
+                (["/bodies/0/geometry", "-1"], ["plate_paper", "--set", "n=-1"]),
+                (["--name", "no slash"], ["plate_paper", "--name", "a/b"]),
+                (["--halo", "give --ranks"], ["plate_paper", "--halo", "deep"]),
+                (["reference", "--base"], ["plate_paper", "--variant", "reference", "--ranks", 2]),
+                (["more than 1000"], ["plate_paper", "--set", "n=" + ",".join(["8"] * 1001)]),
+                (["--sample-time"], ["plate_paper", "--sample-time", "nan"]),
+                (["--resume", "there is no"], ["plate_paper", "--resume"]),
         ]:
-            with self.subTest(line=line):
-                if "--variant" not in line:
-                    line = [*line, "--variant", "scalar"]
-                self.assert_refused(code, words, "sweep", *line, "--out", self.path("out"))
-                self.assertEqual([name for name in os.listdir(self.path("out"))
-                                  if name.endswith(".json")]
-                                 if os.path.exists(self.path("out")) else [], [])
+            for steps in ([], ["--steps", 5]):
+                with self.subTest(line=line):
+                    more = [] if "--variant" in line else ["--variant", "scalar"]
+                    self.refused(words, *line, *more, *steps)
+                    self.assertFalse([name for name in os.listdir(self.directory + "/out")
+                                      if name.endswith(".json")]
+                                     if os.path.exists(self.path("out")) else [])
+        self.write("file", "")
+        self.assert_refused(2, ["--out"], "sweep", *SWEEP, "--out", self.path("file"))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
+#include "experiments/measure/cell_rows.hpp"
 #include "experiments/measure/compare.hpp"
 #include "experiments/measure/samples.hpp"
 #include "experiments/studies/speedup/speedup_table.hpp"
 #include "tests/runner/measured_cells.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
