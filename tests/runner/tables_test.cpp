@@ -69,9 +69,8 @@ TEST_F(Tables, UnequalBitsOfVariantsWithFmaCostAllOfThemTheSpeedUp) {
 }
 
 TEST_F(Tables, OneWrongRepetitionMakesTheCellWrongWithItsReason) {
-  const auto first = std::ranges::find_if(records, [&](const Record& record) {
-    return record.at("cell") == study.cells[1].key();
-  });
+  const auto first = std::ranges::find_if(
+      records, [&](const Record& record) { return record.at("cell") == study.cells[1].key(); });
   (*first)["check"] = "failed";
   (*first)["status"] = "wrong";
   (*first)["reason"] = "error 0.5 exceeds the tolerance";
