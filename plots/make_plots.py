@@ -31,7 +31,7 @@ def draw_figure(results, entries, output):
     return [output]
 
 
-def draw_all(results, table):
+def draw_all(results, table=None):
     """Draws all figures, or those of one table. @returns the errors"""
     figures, errors = results.directory / "figures", []
     jobs = []
