@@ -51,7 +51,7 @@ class Sweep(ProgramTest):
         self.assertEqual(len(scale["steps_for"]), 4)
         self.assertFalse(os.path.exists(self.path("out/figures")))
 
-    def test_several_keys_base_and_fast_ones_are_in_the_study(self):
+    def test_several_keys_are_combined_and_the_base_is_measured_too(self):
         result = self.sweep("plate_paper", "--set", "n=6,8", "--set", "run.dt=5e-7,1e-6",
                             "--variant", "scalar", "--base", "reference", "--steps", 4,
                             "--repetitions", 1)
