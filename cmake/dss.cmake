@@ -62,7 +62,7 @@ function(dss_add_variant name)
   set(is_engine FALSE)
   if(NOT arg_SOURCES)
     set(is_engine TRUE)
-    dssbench_engine_sources(arg_SOURCES ${PROJECT_SOURCE_DIR})
+    dssbench_engine_sources(arg_SOURCES ${PROJECT_SOURCE_DIR} ${arg_ISA})
   endif()
   string(REPLACE "-" "_" target dss_variant_${name})
   dssbench_variant_module(${target} NAME ${name} MARCH ${arg_MARCH} ISA ${arg_ISA}

@@ -53,11 +53,16 @@ function(dssbench_variant_module target)
     LINK_DEPENDS ${arg_EXPORTS})
 endfunction()
 
-# dssbench_engine_sources(OUT root)
+# dssbench_engine_sources(OUT root isa)
 #
-# Sets OUT to the sources of the row engine under `root`: its own, and one for each model and type,
-# which are generated. The models are those of kernels/model.hpp.
-function(dssbench_engine_sources out root)
+# Sets OUT to the sources of the row engine under `root`: its own, and one for each model, type and
+# kind of lanes (LaneKind), which are generated. The models are those of kernels/model.hpp. Without
+# packs there are no lanes for the members of an ensemble.
+function(dssbench_engine_sources out root isa)
+  set(kinds neighbours)
+  if(NOT isa STREQUAL scalar)
+    list(APPEND kinds members)
+  endif()
   file(GLOB sources CONFIGURE_DEPENDS ${root}/variants/engine/*.cpp)
   file(STRINGS ${root}/kernels/model.hpp models REGEX "^enum class Model {")
   string(REGEX REPLACE ".*{ *(.*[^ ]) *}.*" "\\1" models "${models}")
@@ -65,9 +70,12 @@ function(dssbench_engine_sources out root)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/kernels/model.hpp)
   foreach(model IN LISTS models)
     foreach(type double float)
-      set(source ${PROJECT_BINARY_DIR}/generated/variants/engine/kernels_${model}_${type}.cpp)
-      configure_file(${root}/variants/engine/kernels_of_model.cpp.in ${source} @ONLY)
-      list(APPEND sources ${source})
+      foreach(kind IN LISTS kinds)
+        set(source
+          ${PROJECT_BINARY_DIR}/generated/variants/engine/${kind}_${model}_${type}.cpp)
+        configure_file(${root}/variants/engine/kernels_of_model.cpp.in ${source} @ONLY)
+        list(APPEND sources ${source})
+      endforeach()
     endforeach()
   endforeach()
   set(${out} ${sources} PARENT_SCOPE)

@@ -20,6 +20,7 @@ struct CompiledKernel {
   void (*run)(int kernel, const void* in, void* out, std::size_t elements, std::size_t stride);
   int index;                            ///< first argument of run
   bool is_row = false, is_last = false; ///< the fused row kernel; for the last RK4 stage
+  bool is_material = false;             ///< of a row: its links have the material law
 };
 
 } // namespace dss

@@ -28,10 +28,10 @@ namespace dss {
 /// spatial: six, finite rotations (unit quaternions).
 enum class Model { axial, bending, membrane, planar, linear, small, spatial };
 
-/// Flops an element and stage, for the paper's law, damped, without bending, equal edges, in the
-/// interior of a plate (two links an element). A fused multiply-add counts two. `stage` is
-/// out = y + beta f; `last_stage` has three increments and the check for finite numbers. A test
-/// counts the operations.
+/// Flops an element and stage, damped, in the interior of a plate (two links an element), for the
+/// paper's law (without bending, equal edges) or for the material law. A fused multiply-add counts
+/// two. `stage` is out = y + beta f; `last_stage` has three increments and the check for finite
+/// numbers. A test counts the operations.
 struct RowFlops {
   int stage, last_stage;
   constexpr int rk4_step() const { return 3 * stage + last_stage; }
@@ -53,7 +53,7 @@ struct ModelDescriptor {
   bool is_linear = false;
   bool is_common = false; ///< many runs use it, so that specialised code is worth its compile time
   bool is_heavy = false;  ///< takes longest to compile; builds with DSS_FEWER_MODELS leave it out
-  RowFlops flops{};
+  RowFlops flops{}, material_flops{};
 
   /// Number of wrench components that are forces.
   constexpr int vec_size() const {
@@ -80,26 +80,33 @@ inline constexpr int along_x[] = {0}, across_plane[] = {2, 3, 4}, in_plane[] = {
 inline constexpr std::array model_descriptors{
     ModelDescriptor{.model = Model::axial, .name = "axial",
                     .fields = model_parts::axial, .wrench = model_parts::along_x, .axes = 1,
-                    .is_linear = true, .flops = {11, 31}},
+                    .is_linear = true, .flops = {11, 31},
+                    .material_flops = {20, 40}},
     ModelDescriptor{.model = Model::bending, .name = "bending",
                     .fields = model_parts::bending, .wrench = model_parts::across_plane, .axes = 2,
-                    .has_vectors = true, .is_linear = true, .flops = {59, 119}},
+                    .has_vectors = true, .is_linear = true, .flops = {59, 119},
+                    .material_flops = {102, 162}},
     ModelDescriptor{.model = Model::membrane, .name = "membrane",
                     .fields = model_parts::membrane, .wrench = model_parts::in_plane, .axes = 2,
-                    .has_vectors = true, .is_linear = true, .is_common = true, .flops = {60, 120}},
+                    .has_vectors = true, .is_linear = true, .is_common = true, .flops = {60, 120},
+                    .material_flops = {97, 157}},
     ModelDescriptor{.model = Model::planar, .name = "planar",
                     .fields = model_parts::planar, .wrench = model_parts::in_plane, .axes = 2,
-                    .is_common = true, .flops = {79, 148}},
+                    .is_common = true, .flops = {79, 148},
+                    .material_flops = {368, 437}},
     ModelDescriptor{.model = Model::linear, .name = "linear",
                     .fields = model_parts::vectors, .wrench = model_parts::in_space, .axes = 3,
                     .has_vectors = true, .is_linear = true, .is_heavy = true,
-                    .flops = {123, 243}},
+                    .flops = {123, 243},
+                    .material_flops = {193, 313}},
     ModelDescriptor{.model = Model::small, .name = "small",
                     .fields = model_parts::vectors, .wrench = model_parts::in_space, .axes = 3,
-                    .has_vectors = true, .is_heavy = true, .flops = {165, 285}},
+                    .has_vectors = true, .is_heavy = true, .flops = {165, 285},
+                    .material_flops = {666, 786}},
     ModelDescriptor{.model = Model::spatial, .name = "spatial",
                     .fields = model_parts::quaternions, .wrench = model_parts::in_space, .axes = 3,
-                    .is_common = true, .flops = {218, 347}},
+                    .is_common = true, .flops = {218, 347},
+                    .material_flops = {927, 1056}},
 };
 // clang-format on
 constexpr const ModelDescriptor& descriptor(Model model) {

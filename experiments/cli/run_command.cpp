@@ -1,6 +1,7 @@
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/run_summary.hpp"
+#include "experiments/run/ensemble/ensemble_run.hpp"
 #include "experiments/run/plan/job.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "experiments/run/plan/run_plan.hpp"
@@ -46,10 +47,30 @@ void require_no_tile_of_parts(const RunRequest& request) {
                                  request.tile));
 }
 
+/// Runs an ensemble. Members that failed are named after the others have been written.
+int run_members(const RunRequest& request) {
+  const EnsembleResult result = run_ensemble(request);
+  if (!request.json.empty() && request.is_root)
+    write_json(request.json, ensemble_json(request, result));
+  if (request.json != "-") print_ensemble(result);
+  if (result.whole.status == "ok") return exit_success;
+  bool is_unstable = false;
+  for (const auto& [member, own] : result.members) {
+    if (own.status == "ok") continue;
+    is_unstable |= own.status == "unstable";
+    fmt::print(stderr, "dssbench: {}: member {}: {}\n", own.scene, member.name, own.reason);
+  }
+  if (!result.whole.reason.empty())
+    fmt::print(stderr, "dssbench: {}: {}\n", result.whole.scene, result.whole.reason);
+  return is_unstable ? exit_unstable : exit_check_failed;
+}
+
 int run(const CLI::App& command, const RunArguments& arguments) {
   RunRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.set);
   const std::string analysis = chosen_analysis(command, request, arguments.analysis);
+  if (analysis != "dynamic" && !request.ensemble.empty())
+    throw InputError("--ensemble: members are computed in time; give --analysis dynamic");
   if (analysis != "dynamic") return run_analysis(analysis, request, arguments.analysis);
   // the user started mpirun
   if (job_rank().ranks > 1 && request.ranks == 1) request.ranks = job_rank().ranks;
@@ -60,6 +81,7 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   }
   request.is_root = job_rank().is_root();
   request.is_model_auto = true;
+  if (!request.ensemble.empty()) return run_members(request);
   const RunResult result = run_scene(request);
   if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));
   if (result.status == "unstable") throw UnstableError(result.reason);
@@ -75,6 +97,10 @@ void add_where_options(CLI::App& command, RunRequest& request, std::vector<std::
       .add_option("--set", set, "Override a parameter or any number of the scene; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
+  command.add_option(
+      "--ensemble", request.ensemble,
+      "F.json or F.csv: run the scene once for each member of this file, with the "
+      "member's own values of --set, all side by side; or a number of equal members");
   command
       .add_option("--variant", request.variant,
                   "A name from `dssbench list variants`; auto: the fastest here")

@@ -1,5 +1,6 @@
 #include "experiments/cli/run_summary.hpp"
 #include "experiments/base/cores.hpp"
+#include "experiments/base/text_table.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -118,6 +119,29 @@ void print_summary(const RunResult& result) {
   if (!result.ranks.halo_reason.empty())
     fmt::print("halo {}: {}\n", result.ranks.halo, result.ranks.halo_reason);
   for (const std::string& file : result.files) fmt::print("wrote {}\n", file);
+}
+
+void print_ensemble(const EnsembleResult& result) {
+  const RunResult& whole = result.whole;
+  fmt::print("{}: {} members, {} elements, {} links, {} steps ({}, {})\n", whole.scene,
+             result.members.size(), whole.elements, whole.links, whole.steps, whole.precision,
+             whole.integrator);
+  fmt::print("{} ({}), {} thread{}{}, {}\n", whole.variant, whole.isa, whole.threads,
+             whole.threads == 1 ? "" : "s",
+             whole.workers < whole.threads ? fmt::format(" ({} with work)", whole.workers) : "",
+             whole.schedule);
+  fmt::print("wall {:.6g} s{}, {:.4g} million element-steps/s\n", whole.wall_s, samples_text(whole),
+             1e-6 * whole.element_steps_per_s());
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [member, own] : result.members)
+    rows.push_back({member.name, own.status, fmt::format("{}", own.steps),
+                    fmt::format("{:g}", own.dt_s), fmt::format("{:.6g}", own.max_displacement_m),
+                    own.energy_j ? fmt::format("{:.6g}", *own.energy_j) : "",
+                    fmt::format("{:016x}", own.digest)});
+  fmt::print("{}", text_table({"member", "status", "steps", "step [s]", "displacement [m]",
+                               "energy [J]", "state"},
+                              rows));
+  for (const std::string& file : whole.files) fmt::print("wrote {}\n", file);
 }
 
 } // namespace dss

@@ -11,7 +11,10 @@ std::string set_text(const std::vector<Override>& set) {
   return text;
 }
 
-std::string Cell::set_text() const { return dss::set_text(set); }
+std::string Cell::set_text() const {
+  if (members == 1) return dss::set_text(set);
+  return fmt::format("ensemble={}{}{}", members, set.empty() ? "" : " ", dss::set_text(set));
+}
 
 std::string Cell::step_text() const {
   return (dt > 0 ? fmt::format(" dt {:.6g} s", dt) : "") +

@@ -24,7 +24,8 @@ struct Cell {
   std::string device;
   std::string hybrid; ///< members as parse_members reads them, or "auto"; empty: no hybrid
   std::string model, precision, integrator;
-  double dt = 0; ///< step [s]; 0: the scene's
+  long members = 1; ///< of an ensemble of equal ones; 1: a run alone
+  double dt = 0;    ///< step [s]; 0: the scene's
   /// Relative tolerance of adaptive steps, whose first step is dt; 0: all steps are dt.
   double rtol = 0;
   long steps = 0;
@@ -37,7 +38,7 @@ struct Cell {
   /// Of a weak scaling: the overrides of its cell on 1 rank, "n=100"; else empty.
   std::string weak_base_set;
 
-  /// Overrides as one text: "n=100".
+  /// Overrides as one text: "n=100"; of an ensemble with its members: "ensemble=64 n=100".
   std::string set_text() const;
   /// Name of the cell, unique in a study: "plate_paper n=100 avx512 t2 spatial f64 rk4 500 steps
   /// (A/A)"; on several ranks "... avx512 r4 strips deep t1 ...".

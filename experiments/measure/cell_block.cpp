@@ -76,6 +76,7 @@ struct Block {
   std::vector<std::string> hybrids = {""};
   std::string device;
   std::vector<int> threads, ranks;
+  std::vector<long> members; ///< of ensembles
   std::optional<WeakScaling> weak;
 };
 
@@ -141,6 +142,11 @@ Block read_block(ObjectNode& object, const Sets& scale_sets, const CellRules& ru
       object.known_names_or("precisions", "precision", names_of("PRECISION"), {"f64"});
   block.integrators = object.known_names_or("integrators", "integrator", method_names(), {"rk4"});
   read_ranks(object, rules.cores, block);
+  block.members = {1};
+  if (const auto ensemble = object.find("ensemble")) {
+    const std::vector<int> counts = ensemble->counts(1);
+    block.members.assign(counts.begin(), counts.end());
+  }
   object.allow(rules.block_keys);
   object.finish();
   return block;
@@ -203,6 +209,7 @@ std::vector<Cell> combined(const Block& block, int cores) {
   multiply(cells, block.hybrids, &Cell::hybrid);
   multiply(cells, block.threads, &Cell::threads);
   multiply(cells, block.ranks, &Cell::ranks);
+  multiply(cells, block.members, &Cell::members);
   multiply(cells, block.decompositions, &Cell::decomposition);
   multiply(cells, block.halos, &Cell::halo);
   std::erase_if(cells, [&](const Cell& cell) { // one process exchanges nothing

@@ -154,6 +154,7 @@ std::vector<std::string> run_arguments(const CellStudy& study, const Cell& cell,
                                    "--json",
                                    "-"};
   line.insert(line.end(), checks.begin(), checks.end());
+  if (cell.members > 1) line.insert(line.end(), {"--ensemble", text(cell.members)});
   if (cell.dt > 0) line.insert(line.end(), {"--dt", text(cell.dt)});
   if (cell.rtol > 0) line.insert(line.end(), {"--rtol", text(cell.rtol)});
   if (cell.ranks > 1)

@@ -5,16 +5,6 @@
 #include <fmt/format.h>
 
 namespace dss {
-namespace {
-
-std::string override_text(const Node& node) {
-  if (node.json().is_null() || node.json().is_structured())
-    node.fail(node.shown() + " is not a number, a text, or true or false");
-  return node.is_string() ? node.text() : node.json().dump();
-}
-
-} // namespace
-
 Sets combinations(const Node& overrides) {
   Sets sets(1);
   if (!overrides.is_object())
@@ -24,7 +14,7 @@ Sets combinations(const Node& overrides) {
     for (const std::vector<Override>& set : sets)
       for (const Node& value : values.list()) {
         longer.push_back(set);
-        longer.back().push_back({key, override_text(value)});
+        longer.back().push_back(read_override(key, value));
       }
     sets = std::move(longer);
   }

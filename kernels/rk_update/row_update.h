@@ -15,15 +15,13 @@ typedef struct {
   GLOBAL const NUMBER *base, *increment[3];
   GLOBAL NUMBER* out;
   REAL alpha[3], beta_u, beta_v, beta_q, beta_w; /* beta: factors from rates to increments */
-  REAL smoothing, ahead, inverse_mass;
-  NUMBER turn_scale;
+  REAL smoothing, ahead, inverse_mass, turn_scale;
 } row_update;
 
 /* @param beta        that of the task; on devices times the length of the step, which is 1 unless
  *                    the method has an error stage
  * @param turn_scale  w' divided by turn */
-static inline row_update update_of_row(ROW row, NUMBER beta, NUMBER inverse_mass,
-                                       NUMBER turn_scale) {
+static inline row_update update_of_row(ROW row, REAL beta, REAL inverse_mass, REAL turn_scale) {
   row_update k = {
       row,
       TASK(row)->action,
@@ -34,13 +32,13 @@ static inline row_update update_of_row(ROW row, NUMBER beta, NUMBER inverse_mass
        PLACE(row, TASK(row)->increment[2])},
       PLACE(row, TASK(row)->out),
       {SPLAT(TASK(row)->alpha[0]), SPLAT(TASK(row)->alpha[1]), SPLAT(TASK(row)->alpha[2])},
-      SPLAT(beta),
-      SPLAT(beta * inverse_mass),
-      SPLAT(beta * (NUMBER)0.5),
-      SPLAT(beta * turn_scale),
+      beta,
+      beta * inverse_mass,
+      beta * SPLAT((NUMBER)0.5),
+      beta * turn_scale,
       SPLAT(TASK(row)->alpha[0]),
-      SPLAT(TASK(row)->alpha[1] * beta),
-      SPLAT(inverse_mass),
+      SPLAT(TASK(row)->alpha[1]) * beta,
+      inverse_mass,
       turn_scale};
   return k;
 }
@@ -171,7 +169,7 @@ static inline REAL leapfrog_update(row_update k, const int is_predicted, const l
   spin w_half = e.w;
   if (is_predicted) v_half = vec_at(in + V_HALF_AT), w_half = spin_at(in + W_HALF_AT);
   const leap next = leapfrog(e, v_half, w_half, vec_scale(k.inverse_mass, force),
-                             spin_scale(SPLAT(k.turn_scale), turn), k.beta_u, k.smoothing, k.ahead);
+                             spin_scale(k.turn_scale, turn), k.beta_u, k.smoothing, k.ahead);
   put_vec(next.u, out);
   put_vec(is_predicted ? next.v_next : next.v_half, out + V_AT);
   put_rotor(next.q, out + Q_AT);
@@ -206,7 +204,7 @@ static inline REAL kept_leapfrog_update(row_update k, const int is_predicted, co
   spin w_half = e.w;
   if (is_predicted) v_half = vec_at(in + V_HALF_AT), w_half = spin_at(in + W_HALF_AT);
   const vec a = vec_scale(k.inverse_mass, force);
-  const spin alpha = spin_scale(SPLAT(k.turn_scale), turn);
+  const spin alpha = spin_scale(k.turn_scale, turn);
   vec v = vec_scale(k.beta_u, a);
   spin w = spin_scale(k.beta_u, alpha);
   SUM_UP_ALL(EACH_OF_VEC, v, is_predicted ? V_HALF_AT : V_AT, V_AT)

@@ -4,11 +4,20 @@
 
 namespace dss {
 
+/// Factors of a row's update.
+template <class R>
+struct UpdateScales {
+  R beta;         ///< from a rate to its increment [s]
+  R inverse_mass; ///< [1 / unit of mass of BodyConstants]
+  R turn_scale;   ///< w' divided by turn (kernels/motion/motion.h)
+};
+
 /// Updates one pack by an action of apart_action. Returns 0, or NaN if a result is not finite.
 template <class P, class T, int W>
 [[gnu::noinline]] DSS_FLATTEN typename P::real
-update_apart(const RowTask<T>& task, T turn_scale, std::ptrdiff_t at, const typename P::element& e,
-             const typename P::vec& force, const typename P::spin& turn);
+update_apart(const RowTask<T>& task, UpdateScales<typename P::real> scales, std::ptrdiff_t at,
+             const typename P::element& e, const typename P::vec& force,
+             const typename P::spin& turn);
 DSS_INLINE_BEGIN
 
 /// @tparam W  numbers from a component of a pack to the next
@@ -22,9 +31,9 @@ public:
   using spin = typename P::spin;
   using element = typename P::element;
 
-  /// @param turn_scale  w' divided by turn (kernels/motion/motion.h)
-  RowUpdate(const RowTask<T>& task, T turn_scale)
-      : constants_(Update::update_of_row(&task, task.beta, task.body->inverse_mass, turn_scale)) {}
+  RowUpdate(const RowTask<T>& task, UpdateScales<R> scales)
+      : constants_(
+            Update::update_of_row(&task, scales.beta, scales.inverse_mass, scales.turn_scale)) {}
 
   /// @param at  offset of the pack in its row
   void operator()(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
@@ -45,7 +54,9 @@ private:
   /// Passed by value: taking an address would force the operands into memory for common actions
   /// too.
   R act_apart(std::ptrdiff_t at, element e, vec force, spin turn) const {
-    return update_apart<P, T, W>(*constants_.row, constants_.turn_scale, at, e, force, turn);
+    return update_apart<P, T, W>(
+        *constants_.row, {constants_.beta_u, constants_.inverse_mass, constants_.turn_scale}, at, e,
+        force, turn);
   }
 
   const typename Update::row_update constants_;
@@ -54,10 +65,10 @@ private:
 
 DSS_INLINE_END
 template <class P, class T, int W>
-typename P::real update_apart(const RowTask<T>& task, T turn_scale, std::ptrdiff_t at,
-                              const typename P::element& e, const typename P::vec& force,
-                              const typename P::spin& turn) {
-  RowUpdate<P, T, W, apart_action> update(task, turn_scale);
+typename P::real update_apart(const RowTask<T>& task, UpdateScales<typename P::real> scales,
+                              std::ptrdiff_t at, const typename P::element& e,
+                              const typename P::vec& force, const typename P::spin& turn) {
+  RowUpdate<P, T, W, apart_action> update(task, scales);
   update(at, e, force, turn);
   return update.check();
 }

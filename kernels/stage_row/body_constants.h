@@ -2,7 +2,8 @@
  * kernels/motion/motion.h): members of a struct in C++ and in OpenCL C. NUMBER is float or double.
  * The row kernel computes forces and moments in units of `unit` newtons: k for the paper's law, 1
  * for the material law. Masses and ties are scaled to match. */
-NUMBER edge[3], edge_ratio; /* edge_ratio: edge along y over edge along x */
+NUMBER edge[3], half_edge[3]; /* half: a product in the row would cost a register */
+NUMBER edge_ratio;            /* edge along y over edge along x */
 NUMBER inverse_unit;        /* 1 / unit */
 NUMBER tau, kt2, dt;        /* paper's law */
 struct {

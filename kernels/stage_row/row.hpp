@@ -3,6 +3,7 @@
 #include "kernels/simd/simd.hpp"
 
 #include <compare>
+#include <cstddef>
 
 namespace dss {
 
@@ -21,6 +22,19 @@ struct BodyConstants {
 #define NUMBER T
 #include "kernels/stage_row/body_constants.h"
 #undef NUMBER
+};
+
+/// What lies in the lanes of a pack.
+enum class LaneKind {
+  neighbours, ///< elements that follow one another along x
+  members,    ///< the same element of the members of an ensemble
+};
+
+/// A number of each lane.
+template <class T>
+struct LaneNumbers {
+  alignas(sizeof(T) * std::size_t(simd::lanes<T>)) T value[simd::lanes<T>];
+  operator simd::Pack<T>() const { return simd::load(value); }
 };
 
 /// Wrenches and clamps of a row, on the packs [first, first + packs). Most rows have none.
@@ -53,7 +67,11 @@ struct RowTask {
   const PackMasks* masks = nullptr;
   const BodyConstants<T>* body = nullptr;
   const Applied<T>* applied = nullptr; ///< null for most rows
-  const T* signals = nullptr;          ///< frame acceleration x, y, z, then the loads' values
+  /// Frame acceleration x, y, z, then the loads' values. Of an ensemble: each of all lanes.
+  const T* signals = nullptr;
+  /// Of an ensemble, in place of `body`: the constants of each lane.
+  const BodyConstants<LaneNumbers<T>>* members = nullptr;
+  const simd::LaneMask* live_lanes = nullptr; ///< of an ensemble: lanes whose results are checked
   /// A row of a later task, brought into L2 in parts along with the packs of this one; null: none.
   const char* fetch = nullptr;
   int fetch_lines = 0;   ///< cache lines a pack
@@ -71,6 +89,7 @@ struct RowTask {
   const T* base = nullptr;
   T* out = nullptr;
   T beta = 0;
+  const T* betas = nullptr; ///< of an ensemble, in place of `beta`: of each lane
   int increments = 0;
   /// Unused places repeat the first increment, with the ratio 0.
   const T* increment[most_increments] = {};

@@ -3,6 +3,7 @@
 /// plate that read and write plain arrays. Numbers are of order one. Rows of the result are never
 /// read as input, so every call computes the same.
 #include "kernels/stage_row/row.hpp"
+#include "kernels/terms.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -17,7 +18,7 @@ namespace dss {
 /// first call.
 /// The last stage has the weights of RK4.
 struct RowCase {
-  bool is_last;
+  bool is_last, is_material;
   int fields, lanes;
   static constexpr int most_carry = 6;
   static constexpr int inputs(bool is_last) {
@@ -25,14 +26,26 @@ struct RowCase {
   } ///< number of arrays of rows
 };
 
+/// The terms of these rows: those of the paper's plate, or of a damped body of the material law.
+constexpr Terms row_case_terms(bool is_material) {
+  return {.is_material = is_material, .is_damped = true};
+}
+
 /// Constants of a body that keep the numbers of order one.
 template <class T>
 BodyConstants<T> row_case_body() {
   BodyConstants<T> body{};
   for (T& edge : body.edge) edge = T(0.5);
+  for (T& half : body.half_edge) half = T(0.25);
   body.edge_ratio = body.inverse_unit = body.mass = body.inverse_mass = T(1);
   body.tau = body.dt = T(0.125);
-  for (int axis = 0; axis < 3; ++axis) body.inertia[axis] = body.inverse_inertia[axis] = T(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    body.inertia[axis] = body.inverse_inertia[axis] = T(1);
+    auto& law = body.axis[axis];
+    law.k_s = T(0.5), law.k_ns = T(0.5), law.d_s = T(0.125), law.d_ns = T(0.0625);
+    law.k_z = T(0.25), law.k_xz = T(0.125), law.k_yz = T(0.125);
+    law.d_z = T(0.0625), law.d_xz = T(0.03125), law.d_yz = T(0.03125);
+  }
   return body;
 }
 

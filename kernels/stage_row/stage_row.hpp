@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <type_traits>
 
 DSS_INLINE_BEGIN
 namespace dss {
@@ -18,7 +19,9 @@ inline constexpr int any_fields = 0;
 /// @tparam P  a model's physics over packs of T
 /// @tparam terms  terms that are compiled in
 /// @tparam fixed_fields  numbers an element in a pack of any row; any_fields: the task says
-template <class P, class T, Terms terms, int fixed_fields = any_fields>
+/// @tparam kind  members: a pack's neighbours along x are the packs beside it, lane by lane
+template <class P, class T, Terms terms, int fixed_fields = any_fields,
+          LaneKind kind = LaneKind::neighbours>
 struct StageRow {
   using R = typename P::real;
   using element = typename P::element;
@@ -40,7 +43,16 @@ struct StageRow {
                                    terms.is_gyroscopic, terms.is_tied,   terms.is_oblong};
 
   const RowTask<T>& task;
-  const BodyConstants<T>& body = *task.body;
+  static constexpr bool is_ensemble = kind == LaneKind::members;
+  static const auto& constants_of(const RowTask<T>& task) {
+    if constexpr (is_ensemble)
+      return *task.members;
+    else
+      return *task.body;
+  }
+  /// Its numbers convert to packs.
+  const std::conditional_t<is_ensemble, BodyConstants<LaneNumbers<T>>, BodyConstants<T>>& body =
+      constants_of(task);
   const std::array<typename P::paper_law, 3> laws{paper_law(0), paper_law(1), paper_law(2)};
   /// A spatial pack has more live values than there are registers. Parked rows store what the next
   /// pack takes of its preparation in memory once and load it where it is used. They also load the
@@ -96,11 +108,17 @@ struct StageRow {
   }
   template <class Tuple>
   static Tuple from_above(const Tuple& a, const Tuple& next) {
-    return each_pair(a, next, [](const R& x, const R& y) { return simd::shift_down(x, y); });
+    if constexpr (is_ensemble)
+      return next;
+    else
+      return each_pair(a, next, [](const R& x, const R& y) { return simd::shift_down(x, y); });
   }
   template <class Tuple>
   static Tuple from_below(const Tuple& previous, const Tuple& a) {
-    return each_pair(previous, a, [](const R& x, const R& y) { return simd::shift_up(x, y); });
+    if constexpr (is_ensemble)
+      return previous;
+    else
+      return each_pair(previous, a, [](const R& x, const R& y) { return simd::shift_up(x, y); });
   }
   template <class Tuple>
   static void keep(simd::LaneMask mask, Tuple& t) {
@@ -109,7 +127,7 @@ struct StageRow {
 
   typename P::paper_law paper_law(int axis) const {
     if (!terms.is_oblong) axis = 0;
-    return {R(body.edge[axis]), R(body.edge[axis] / 2), R(body.tau), R(body.kt2), R(body.dt)};
+    return {R(body.edge[axis]), R(body.half_edge[axis]), R(body.tau), R(body.kt2), R(body.dt)};
   }
   typename P::material_law material(int axis) const {
     const auto& a = body.axis[axis];
@@ -203,11 +221,17 @@ struct StageRow {
     return P::wrench_of_x(i, up, low, law(0), flags);
   }
 
+  R signal(int n) const {
+    if constexpr (is_ensemble)
+      return simd::load(task.signals + std::ptrdiff_t(n) * W);
+    else
+      return R(task.signals[n]);
+  }
   void apply_wrenches(int pack, wrench& sum) const {
     for (int n = 0; n < task.applied->pattern_count; ++n) {
       const auto& pattern = task.applied->patterns[n];
       if (unsigned(pack - pattern.first) >= unsigned(pattern.packs)) continue;
-      const R value(task.signals[pattern.signal] * body.inverse_unit);
+      const R value = signal(pattern.signal) * R(body.inverse_unit);
       const T* p = pattern.values + std::ptrdiff_t(pack - pattern.first) * wrench_components * W;
       const auto add = [&](R& c) { c = simd::fma(value, simd::load(p), c), p += W; };
       each_component(sum.force, add);
@@ -222,18 +246,30 @@ struct StageRow {
     each_component(force, hold);
     each_component(turn, hold);
   }
-  template <class Tuple>
-  // `values` are x, y, z; a model takes the components that it has.
-  static Tuple splat(const T* values) {
+  /// `value(n)` gives x, y, z; a model takes the components that it has.
+  template <class Tuple, class Value>
+  static Tuple components(Value&& value) {
     Tuple t{};
-    if constexpr (requires { t.x; }) t.x = R(values[0]);
-    if constexpr (requires { t.y; }) t.y = R(values[1]);
-    if constexpr (requires { t.z; }) t.z = R(values[2]);
+    if constexpr (requires { t.x; }) t.x = value(0);
+    if constexpr (requires { t.y; }) t.y = value(1);
+    if constexpr (requires { t.z; }) t.z = value(2);
     return t;
   }
-  /// w' divided by turn (kernels/motion/motion.h). A scalar inertia is the same about every axis. A
-  /// planar model has only the inertia about z.
-  T turn_scale() const { return terms.is_gyroscopic ? T(1) : body.inverse_inertia[2]; }
+  /// A scalar inertia is the same about every axis. A planar model has only the inertia about z.
+  UpdateScales<R> update_scales() const {
+    const R turn_scale = terms.is_gyroscopic ? R(T(1)) : R(body.inverse_inertia[2]);
+    if constexpr (is_ensemble)
+      return {simd::load(task.betas), R(body.inverse_mass), turn_scale};
+    else
+      return {R(task.beta), R(body.inverse_mass), turn_scale};
+  }
+  /// The lanes of a check (RowUpdate::check) that count.
+  R checked(const R& check) const {
+    if constexpr (is_ensemble)
+      return simd::keep(*task.live_lanes, check);
+    else
+      return check;
+  }
 
   /// Computes only the links across `axis` from this row to the upper one, into the carry buffer.
   void prime(const int axis) const {
@@ -265,9 +301,10 @@ struct StageRow {
     const int packs = task.packs;
     const std::ptrdiff_t stride = fixed_fields != any_fields ? fixed_fields * W : task.stride;
     const bool is_accelerated = body.is_accelerated;
-    const vec frame = splat<vec>(task.signals);
-    const spin inertia = splat<spin>(body.inertia),
-               inverse_inertia = splat<spin>(body.inverse_inertia);
+    const vec frame = components<vec>([&](int axis) { return signal(axis); });
+    const spin inertia = components<spin>([&](int axis) { return R(body.inertia[axis]); }),
+               inverse_inertia =
+                   components<spin>([&](int axis) { return R(body.inverse_inertia[axis]); });
     const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot),
                                   R(body.tie_d_rot)};
     prepared next = prepare(in);

@@ -63,11 +63,6 @@ void join_rows(Lattice& lattice, const Lattice& original, const std::vector<int>
     }
 }
 
-bool is_damped(const ExtraLink& link) {
-  const AxisConstants& c = link.constants;
-  return c.d_normal != 0 || c.d_shear != 0 || c.d_rot != Vec3{};
-}
-
 /// Copies clamps, loads, extra links and initial motions of the elements in this part. Loads and
 /// motions without elements here stay in the lists, so that their numbers are the same in every
 /// part.
@@ -80,7 +75,8 @@ void restrict_terms(const Problem& original, const Addresses& addresses, Problem
         {restricted(load.elements, addresses), load.force, load.torque, load.signal});
   problem.has_damped_links_elsewhere = original.has_damped_links_elsewhere;
   for (ExtraLink link : original.extra_links) {
-    problem.has_damped_links_elsewhere = problem.has_damped_links_elsewhere || is_damped(link);
+    problem.has_damped_links_elsewhere =
+        problem.has_damped_links_elsewhere || link.constants.is_damped();
     const auto i = addresses.local(link.i), j = addresses.local(link.j);
     if (!i || !j) continue;
     link.i = *i;

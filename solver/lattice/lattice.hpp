@@ -30,6 +30,9 @@ struct Lattice {
   /// 1 for each present cell, 0 for each hole between x_begin and x_end, row after row.
   std::vector<std::uint8_t> present;
   std::size_t element_count = 0;
+  /// Cells from an element to its neighbour along x. More than 1: so many bodies alternate along x
+  /// (solver/model/ensemble.hpp).
+  int x_stride = 1;
 
   bool is_present(const Row& row, int x) const {
     return x >= row.x_begin && x < row.x_end &&
@@ -85,7 +88,7 @@ void Lattice::for_each_link(Visit&& visit) const {
     std::size_t i = row.first_element;
     for (int x = row.x_begin; x < row.x_end; ++x) {
       if (!is_present(row, x)) continue;
-      if (is_present(row, x + 1)) visit(i, i + 1, 0);
+      if (is_present(row, x + x_stride)) visit(i, i + std::size_t(x_stride), 0);
       ++i;
     }
     across(row, row.upper_y, 1);

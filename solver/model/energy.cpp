@@ -8,13 +8,6 @@
 #include <vector>
 
 namespace dss {
-namespace {
-
-bool is_damped(const AxisConstants& link) {
-  return link.d_normal != 0 || link.d_shear != 0 || link.d_rot != Vec3{};
-}
-
-} // namespace
 
 reference::Dynamics<double> energy_terms(const Problem& problem, Rotation rotation) {
   return reference::Dynamics<double>(problem,
@@ -43,9 +36,9 @@ double total_energy(const Problem& problem, std::span<const double> state, Rotat
 
 bool has_dampers(const Problem& problem) {
   const auto is_body_damped = [](const Body& body) {
-    return std::ranges::any_of(body.axis, is_damped);
+    return std::ranges::any_of(body.axis, &AxisConstants::is_damped);
   };
-  const auto is_link_damped = [](const ExtraLink& link) { return is_damped(link.constants); };
+  const auto is_link_damped = [](const ExtraLink& link) { return link.constants.is_damped(); };
   const Stabilization& ties = problem.stabilization;
   return ties.d != 0 || ties.d_rot != 0 || std::ranges::any_of(problem.bodies, is_body_damped) ||
          std::ranges::any_of(problem.extra_links, is_link_damped);

@@ -25,6 +25,7 @@ struct AxisConstants {
   double k_normal = 0, k_shear = 0; ///< [N/m]
   double d_normal = 0, d_shear = 0; ///< [N s/m]
   Vec3 k_rot{}, d_rot{};            ///< [N m/rad], [N m s/rad]
+  bool is_damped() const { return d_normal != 0 || d_shear != 0 || d_rot != Vec3{}; }
 };
 
 /// A body of identical box elements. Its elements are those of the lattice rows whose `body` is its

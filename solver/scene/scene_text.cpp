@@ -145,6 +145,12 @@ std::vector<std::string> scene_names(const std::string& directory) {
 
 } // namespace
 
+Override read_override(const std::string& key, const Node& value) {
+  if (value.json().is_null() || value.json().is_structured())
+    value.fail(value.shown() + " is not a number, a text, or true or false");
+  return {key, value.is_string() ? value.text() : value.json().dump()};
+}
+
 std::string scene_directory() {
   if (const char* chosen = std::getenv("DSSBENCH_SCENES"); chosen != nullptr && *chosen != '\0')
     return chosen;

@@ -16,6 +16,10 @@ struct Override {
   std::string key, value;
 };
 
+/// An override from a file: its value is a number, a text, or true or false.
+/// @throws InputError with the place of the value
+Override read_override(const std::string& key, const Node& value);
+
 /// Text of a scene: parsed, with overrides applied, and the parameters that its numbers use. A text
 /// "=expression" stands for a number; a text from --set needs no "=".
 struct SceneText : JsonFile {

@@ -29,6 +29,7 @@ ELSEWHERE = (
     (r"^cmake --preset (\w+)", r"cmake -S $SOURCE -N --preset \1", "would configure the tree"),
     (r"^cmake --install build/release", "cmake --install $BUILD", "the build under test"),
     (r"^bundle/bin/", "", "the installed program"),
+    (r"examples/ensemble/", "$SOURCE/examples/ensemble/", "a file of the source tree"),
     (r"--device gpu", "--device none", "needs a GPU"),
     (r"opencl@gpu", "opencl@cpu", "needs a GPU"),
     (r"^(?=dssbench compare before/)", "dssbench bench --kernel euler --model spatial --out before "

@@ -5,6 +5,7 @@
 /// (capabilities.hpp). variants/reference/plugin.cpp is a complete example with adaptive steps.
 #include "kernels/compiled_kernel.hpp"
 #include "kernels/model.hpp"
+#include "solver/model/ensemble.hpp"
 #include "solver/model/problem.hpp"
 #include "solver/model/rotation.hpp"
 #include "solver/numerics/method.hpp"
@@ -44,6 +45,15 @@ struct Setup {
   /// Rows across of a tile of the wavefront; 0: as many as suit the caches. Others than 0 need a
   /// plug-in with has_tiles.
   int tile = 0;
+  /// Not null: the executor computes all members (Plugin::ensemble_lanes of them), of which
+  /// `problem` is the first. Elements are then those of the ensemble, and a row of signals has each
+  /// signal of all members side by side.
+  const Ensemble* ensemble = nullptr;
+
+  /// The step of each member [s]; of a problem alone: its own.
+  std::span<const double> steps() const {
+    return ensemble == nullptr ? std::span(&dt, 1) : std::span<const double>(ensemble->dt);
+  }
 };
 
 /// Checksum of the sizes of all types that program and module exchange. It differs if the module
@@ -51,10 +61,10 @@ struct Setup {
 constexpr std::size_t plugin_layout = [] {
   std::size_t layout = 0;
   for (const std::size_t size :
-       {sizeof(Setup), sizeof(Problem), sizeof(Body), sizeof(Lattice), sizeof(Row), sizeof(Method),
-        sizeof(Outcome), sizeof(StepMaxima), sizeof(PartSetup), sizeof(Part), sizeof(Distribution),
-        sizeof(HaloLayout), sizeof(RankInfo), sizeof(Traffic), sizeof(DeviceUse),
-        sizeof(HybridInfo), sizeof(CompiledKernel)})
+       {sizeof(Setup), sizeof(Ensemble), sizeof(Problem), sizeof(Body), sizeof(Lattice),
+        sizeof(Row), sizeof(Method), sizeof(Outcome), sizeof(StepMaxima), sizeof(PartSetup),
+        sizeof(Part), sizeof(Distribution), sizeof(HaloLayout), sizeof(RankInfo), sizeof(Traffic),
+        sizeof(DeviceUse), sizeof(HybridInfo), sizeof(CompiledKernel)})
     layout = layout * 1009 + size;
   return layout;
 }();
@@ -83,6 +93,8 @@ struct Plugin {
   /// quaternions.
   bool has_all = false;
   bool has_tiles = false; ///< takes Setup::tile
+  /// Members of an ensemble that one executor computes: a member a lane. Null: none.
+  int (*ensemble_lanes)(Precision precision) = nullptr;
   /// Rotation of a run that asks for none.
   Rotation rotation = Rotation::quaternion;
   std::size_t layout = plugin_layout;
@@ -90,7 +102,7 @@ struct Plugin {
 
 /// Raise this with every change of Plugin, Executor or a type that they receive (Method, Problem,
 /// Model).
-constexpr int plugin_abi = 13;
+constexpr int plugin_abi = 14;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

@@ -92,6 +92,15 @@ public:
   virtual std::vector<double> gather(double value) = 0;
 };
 
+/// Computing an ensemble. A member that fails ends alone.
+class MemberOutcomes {
+public:
+  virtual ~MemberOutcomes() = default;
+  /// Of each member: the outcome of the last advance that it took part in; elements are its own.
+  /// advance() returns a failure when no member is left. write() brings all back.
+  virtual std::span<const Outcome> outcomes() const = 0;
+};
+
 /// Computing by members of other variants.
 class HybridMembers {
 public:

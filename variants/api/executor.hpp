@@ -13,6 +13,7 @@ class StateTransfer;
 class DeviceWork;
 class RankGroup;
 class HybridMembers;
+class MemberOutcomes;
 
 /// Result of advance(): either finite, or the step and element that failed first. A step fails when
 /// the state is not finite, or when an implicit method could not solve the step's equations.
@@ -57,6 +58,7 @@ public:
   virtual DeviceWork* device_work() { return nullptr; }
   virtual RankGroup* rank_group() { return nullptr; }
   virtual HybridMembers* hybrid_members() { return nullptr; }
+  virtual MemberOutcomes* member_outcomes() { return nullptr; }
 };
 
 } // namespace dss

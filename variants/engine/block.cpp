@@ -14,6 +14,7 @@ Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fiel
       packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)), halo_(halo) {
   // One pack more: rows look one pack ahead.
   state_ = Buffer<T>((packed.packs_of(stored_begin, stored_end) + 1) * pack_size_, packed.memory);
+  failures.resize(packed.members().size());
   make_published();
 }
 

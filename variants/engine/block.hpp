@@ -3,6 +3,7 @@
 #include "variants/engine/packed_rows.hpp"
 
 #include <array>
+#include <vector>
 
 namespace dss {
 
@@ -42,8 +43,16 @@ public:
     return published_[std::size_t(parity)].data() + published_offset_[std::size_t(r - begin)];
   }
   void publish(int r, int parity);
-  /// The failed step counts from the first of the pass.
-  int failed_row = -1, failed_step = 0;
+  /// The first failure of a member (of a problem alone: the only one) in a pass.
+  struct Failure {
+    int step = -1; ///< counted from the first of the pass; -1: none
+    std::size_t element = 0;
+    void meet(int at_step, std::size_t at_element) {
+      if (step < 0 || at_step < step || (at_step == step && at_element < element))
+        *this = {at_step, at_element};
+    }
+  };
+  std::vector<Failure> failures; ///< of each member
   std::size_t bytes() const {
     return state_.bytes() + published_[0].bytes() + published_[1].bytes();
   }

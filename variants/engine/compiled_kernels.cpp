@@ -28,14 +28,15 @@ DSS_FLATTEN void run_kernel(int kernel, const void* in, void* out, std::size_t e
   }
 }
 
-constexpr Terms row_terms{.is_damped = true}; // the terms of the paper's plate
-
-/// @param kernel  twice the index in `models`, plus one for the last stage
+/// @param kernel  four times the index in `models`, plus one for the last stage, plus two for the
+///     material law
 template <class T>
 void run_rows(int kernel, const void* in, void* out, std::size_t elements, std::size_t stride) {
-  const Model model = models[std::size_t(kernel / 2)];
-  const RowCase row_case{kernel % 2 != 0, int(descriptor(model).fields.size()), simd::lanes<T>};
-  const KernelSet<T>& kernels = find_kernels<T>(model, row_shape(model, row_terms).terms);
+  const Model model = models[std::size_t(kernel / 4)];
+  const RowCase row_case{kernel % 2 != 0, kernel % 4 >= 2, int(descriptor(model).fields.size()),
+                         simd::lanes<T>};
+  const Terms terms = row_case_terms(row_case.is_material);
+  const KernelSet<T>& kernels = find_kernels<T>(model, row_shape(model, terms).terms);
   run_row_case(row_case, static_cast<const T*>(in), static_cast<T*>(out), elements, stride,
                [&](const RowTask<T>& task) { kernels.stage(task); });
 }
@@ -48,13 +49,17 @@ void append(std::vector<CompiledKernel>& list, Precision precision) {
                     run_kernel<T>, index++});
   for (std::size_t m = 0; m < models.size(); ++m) {
     if (!is_built(models[m])) continue;
-    const RowFlops flops = descriptor(models[m]).flops;
-    const int fields = int(descriptor(models[m]).fields.size());
-    for (const bool is_last : {false, true})
-      list.push_back({is_last ? "stage_row_last" : "stage_row", models[m], precision,
-                      RowCase::inputs(is_last) * fields, fields,
+    const ModelDescriptor& model = descriptor(models[m]);
+    const int fields = int(model.fields.size());
+    constexpr const char* names[] = {"stage_row", "stage_row_last", "stage_row_material",
+                                     "stage_row_material_last"};
+    for (int n = 0; n < 4; ++n) {
+      const bool is_last = n % 2 != 0, is_material = n >= 2;
+      const RowFlops& flops = is_material ? model.material_flops : model.flops;
+      list.push_back({names[n], models[m], precision, RowCase::inputs(is_last) * fields, fields,
                       is_last ? flops.last_stage : flops.stage, simd::lanes<T>, run_rows<T>,
-                      int(2 * m) + is_last, true, is_last});
+                      int(4 * m) + n, true, is_last, is_material});
+    }
   }
 }
 

@@ -3,7 +3,6 @@
 #include "variants/engine/packs.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace dss {
 namespace {
@@ -16,20 +15,23 @@ T* lane(T* row, const Place& place, int components, int lanes) {
 } // namespace
 
 template <class T, int W>
-ExtraLinks<T, W>::ExtraLinks(const Problem& problem, PackedRows<T, W>& packed) : packed_(&packed) {
+ExtraLinks<T, W>::ExtraLinks(PackedRows<T, W>& packed) : packed_(&packed) {
   std::map<int, std::vector<End>> of_row;
-  for (const ExtraLink& link : problem.extra_links) {
-    const int n = int(links_.size());
-    Link kept{extra_link_constants<T>(problem, link),
-              {place_of(packed, link.i), place_of(packed, link.j)},
-              {},
-              1};
-    kept.unit = std::exchange(kept.constants.unit, T(1));
-    rows_.push_back({int(kept.places[0].row), int(kept.places[1].row)});
-    of_row[rows_.back().i].push_back({n, 0});
-    of_row[rows_.back().j].push_back({n, 1});
-    links_.push_back(kept);
+  const Problem& first = *packed.members().front();
+  for (std::size_t n = 0; n < first.extra_links.size(); ++n) {
+    const ExtraLink& link = first.extra_links[n];
+    const auto place = [&](std::size_t element) {
+      return place_of(packed, packed.element_of(0, element));
+    };
+    links_.push_back({extra_link_constants<T>(first, link), {place(link.i), place(link.j)}});
+    rows_.push_back({int(links_.back().places[0].row), int(links_.back().places[1].row)});
+    of_row[rows_.back().i].push_back({int(n), 0});
+    of_row[rows_.back().j].push_back({int(n), 1});
+    for (const Problem* member : packed.members())
+      units_.push_back(extra_link_constants<T>(*member, member->extra_links[n]).unit);
+    if (packed.is_ensemble()) member_links_.push_back(packed.member_link_constants(n));
   }
+  wrenches_.resize(links_.size() * 2 * wrench_size());
   for (auto& [row, ends] : of_row) of_row_.push_back({row, std::move(ends)});
 }
 
@@ -37,31 +39,39 @@ template <class T, int W>
 void ExtraLinks<T, W>::compute(int n, const T* row_i, const T* row_j, int fields) {
   Link& link = links_[std::size_t(n)];
   const std::array rows{row_i, row_j};
-  T state[2][field_count];
+  alignas(64) T state[2][field_count * W];
   for (std::size_t e = 0; e < 2; ++e) {
     const T* const from = lane(rows[e], link.places[e], fields, W);
-    for (int f = 0; f < packed_->fields(); ++f) state[e][f] = from[f * W];
+    for (int f = 0; f < packed_->fields(); ++f)
+      std::copy_n(from + f * W, width(), state[e] + std::size_t(f) * width());
   }
-  link.wrenches = {};
-  packed_->rows[link.places[0].row].kernels->extra_link(
-      link.constants, state[0], state[1], link.wrenches[0].data(), link.wrenches[1].data());
+  const KernelSet<T>& kernels = *packed_->rows[link.places[0].row].kernels;
+  alignas(64) T wrench[2][6 * W];
+  if (packed_->is_ensemble())
+    kernels.member_links(member_links_[std::size_t(n)], state[0], state[1], wrench[0], wrench[1]);
+  else
+    kernels.extra_link(link.constants, state[0], state[1], wrench[0], wrench[1]);
+  for (int e = 0; e < 2; ++e) std::copy_n(wrench[e], wrench_size(), wrench_of({n, e}));
 }
 
 template <class T, int W>
-void ExtraLinks<T, W>::add_up(int index, T* wrench) const {
+void ExtraLinks<T, W>::add_up(int index, T* wrench) {
   const RowLinks& links = of_row_[std::size_t(index)];
   const auto target = [&](const End& end) {
     return lane(wrench, links_[std::size_t(end.link)].places[std::size_t(end.end)], components(),
                 W);
   };
+  const std::size_t members = width();
   for (const End& end : links.ends)
-    for (int c = 0; c < components(); ++c) target(end)[c * W] = 0;
+    for (int c = 0; c < components(); ++c) std::fill_n(target(end) + c * W, members, T(0));
   for (const End& end : links.ends) {
-    const Link& link = links_[std::size_t(end.link)];
+    const T* const own = wrench_of(end);
+    const T* const unit = &units_[std::size_t(end.link) * members];
     T* const sum = target(end);
     for (int c = 0; c < components(); ++c)
-      sum[c * W] =
-          simd::fma(link.unit, link.wrenches[std::size_t(end.end)][std::size_t(c)], sum[c * W]);
+      for (std::size_t m = 0; m < members; ++m)
+        sum[std::size_t(c * W) + m] =
+            simd::fma(unit[m], own[std::size_t(c) * members + m], sum[std::size_t(c * W) + m]);
   }
 }
 
@@ -74,7 +84,9 @@ int ExtraLinks<T, W>::index_of(int row) const {
 
 template <class T, int W>
 std::size_t ExtraLinks<T, W>::bytes() const {
-  return links_.size() * (sizeof(Link) + sizeof(LinkedRows) + 2 * sizeof(End));
+  return links_.size() * (sizeof(Link) + sizeof(LinkedRows) + 2 * sizeof(End)) +
+         member_links_.size() * sizeof(member_links_[0]) +
+         (units_.size() + wrenches_.size()) * sizeof(T);
 }
 
 template <class T>

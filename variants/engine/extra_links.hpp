@@ -10,14 +10,15 @@
 
 namespace dss {
 
-/// Extra links, computed one by one. What a row's links do to it is then added up in the order of
-/// the links' numbers, so the sum does not depend on the order in which they are computed.
+/// Extra links, computed one by one; of an ensemble the same link of all members at once. What a
+/// row's links do to it is then added up in the order of the links' numbers, so the sum does not
+/// depend on the order in which they are computed.
 template <class T, int W = simd::lanes<T>>
 class ExtraLinks {
 public:
   /// None.
   ExtraLinks() = default;
-  ExtraLinks(const Problem& problem, PackedRows<T, W>& packed);
+  explicit ExtraLinks(PackedRows<T, W>& packed);
   bool empty() const { return links_.empty(); }
   std::span<const LinkedRows> rows() const { return rows_; }
   /// Computes a link and keeps its wrenches.
@@ -29,7 +30,7 @@ public:
   /// Adds up the links of a row.
   /// @param index   from index_of
   /// @param wrench  layout.wrench components a pack; lanes without extra links are left alone
-  void add_up(int index, T* wrench) const;
+  void add_up(int index, T* wrench);
   /// Computes all links, and adds them up in the rows' wrenches (PackedRows::extra_wrench).
   /// @param row  function from a row's number to its address
   template <class RowAddress>
@@ -44,11 +45,7 @@ public:
 private:
   struct Link {
     ExtraLinkConstants<T> constants;
-    std::array<Place, 2> places;
-    /// Of i and j, in units of `unit`, which the sum applies. So each element's sum is rounded once
-    /// a link, as on devices.
-    std::array<std::array<T, 6>, 2> wrenches{};
-    T unit;
+    std::array<Place, 2> places; ///< of an ensemble: of the first member
   };
   struct End {
     int link, end;
@@ -58,8 +55,19 @@ private:
     std::vector<End> ends; ///< by link
   };
   int components() const { return int(packed_->layout.wrench.size()); }
+  /// Links that are computed at once.
+  std::size_t width() const { return packed_->members().size(); }
+  /// The wrench of an end, in units of `unit`, which the sum applies. So each element's sum is
+  /// rounded once a link, as on devices.
+  T* wrench_of(const End& end) {
+    return &wrenches_[(std::size_t(end.link) * 2 + std::size_t(end.end)) * wrench_size()];
+  }
+  std::size_t wrench_size() const { return std::size_t(components()) * width(); }
   PackedRows<T, W>* packed_ = nullptr;
   std::vector<Link> links_;
+  std::vector<ExtraLinkConstants<LaneNumbers<T>>> member_links_; ///< of an ensemble
+  std::vector<T> units_;                                         ///< of each link and member
+  std::vector<T> wrenches_;      ///< of each link both ends; components, of each all members
   std::vector<LinkedRows> rows_; ///< of each link
   std::vector<RowLinks> of_row_; ///< by row
 };

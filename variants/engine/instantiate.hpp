@@ -1,5 +1,5 @@
 #pragma once
-/// Compiles the table of kernel_set.hpp for one model and type.
+/// Compiles the table of kernel_set.hpp for one model, type and kind of lanes.
 #include "kernels/stage_row/stage_row.hpp"
 #include "variants/engine/kernel_set.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace dss {
 
-template <Model model, class T, Terms terms>
+template <Model model, class T, Terms terms, LaneKind kind>
 struct RowKernels {
   using P = Physics<model, simd::Pack<T>>;
   static constexpr int half_velocities =
@@ -21,20 +21,21 @@ struct RowKernels {
   // such functions have one for all actions, which branches for each pack and looks up the distance
   // between packs.
   static constexpr bool is_single = sizeof(T) == sizeof(float);
+  static constexpr bool is_ensemble = kind == LaneKind::members;
   static constexpr bool has_own_functions =
-      is_single ? P::is_common && !terms.is_full() : P::is_common || has_packs;
+      is_single || is_ensemble ? P::is_common && !terms.is_full() : P::is_common || has_packs;
   /// The rest of the actions: in line in common damped rows, else called for each pack.
   static constexpr int rest = P::is_common && terms.is_damped && !terms.is_oblong &&
-                                      !terms.is_full() && (has_packs || !is_single)
+                                      !terms.is_full() && !is_ensemble && (has_packs || !is_single)
                                   ? rest_in_line
                                   : rest_called;
   static constexpr int in_place = half_velocities > 0 ? predicted_step : leapfrog_step;
   template <int action, int fields>
   DSS_FLATTEN static bool run_stage(const RowTask<T>& task) {
-    const StageRow<P, T, terms, fields> row{task};
-    RowUpdate<P, T, simd::lanes<T>, action> update(task, row.turn_scale());
+    const StageRow<P, T, terms, fields, kind> row{task};
+    RowUpdate<P, T, simd::lanes<T>, action> update(task, row.update_scales());
     row.run(update);
-    return update.is_finite();
+    return simd::is_zero(row.checked(update.check()));
   }
   static bool stage(const RowTask<T>& task) {
     if constexpr (has_own_functions) {
@@ -59,34 +60,55 @@ struct RowKernels {
     return run_stage<any_action, any_fields>(task);
   }
   DSS_FLATTEN static void prime(const RowTask<T>& task, int axis) {
-    const StageRow<P, T, terms> row{task};
+    const StageRow<P, T, terms, any_fields, kind> row{task};
     if constexpr (P::axes > 1)
       if (axis == 1) row.prime(1);
     if constexpr (P::axes > 2)
       if (axis == 2) row.prime(2);
   }
 
-  using S = Physics<model, T>;
-  static void extra_link(const ExtraLinkConstants<T>& link, const T* fields_i, const T* fields_j,
-                         T* wrench_i, T* wrench_j) {
+  /// @tparam R  T, or packs of an ensemble
+  template <class R, class Number>
+  static void compute_link(const ExtraLinkConstants<Number>& link, const T* fields_i,
+                           const T* fields_j, T* wrench_i, T* wrench_j) {
+    using S = Physics<model, R>;
+    constexpr int width = int(sizeof(R) / sizeof(T));
+    const auto read = [](const T* from, typename S::element& e) {
+      each_component(e, [&](R& c) {
+        if constexpr (width == 1)
+          c = *from;
+        else
+          c = simd::load(from);
+        from += width;
+      });
+    };
+    const auto write = [](T* to, auto sum) {
+      each_component(sum, [&](R& c) {
+        if constexpr (width == 1)
+          *to = c;
+        else
+          simd::store(to, c);
+        to += width;
+      });
+      return to;
+    };
     typename S::element i, j;
-    each_component(i, [&](T& c) { c = *fields_i++; });
-    each_component(j, [&](T& c) { c = *fields_j++; });
+    read(fields_i, i);
+    read(fields_j, j);
     const auto along = [&](auto axis) {
       const auto& b = link.body;
       const auto& a = b.axis[axis];
-      const auto w = S::wrench_of_pair(i, j, axis, link.is_material,
-                                       {link.edge_i, link.edge_j, a.k_s, a.k_ns, a.d_s, a.d_ns,
-                                        a.k_z, a.k_xz, a.k_yz, a.d_z, a.d_xz, a.d_yz},
-                                       {link.edge_i, link.edge_i / 2, b.tau, b.kt2, b.dt},
-                                       {link.edge_j, link.edge_j / 2, b.tau, b.kt2, b.dt});
-      const auto add = [&](T* wrench, T sign, typename S::vec force, typename S::spin moment) {
-        each_component(force,
-                       [&](T& c) { *wrench = simd::fma(sign * link.unit, c, *wrench), ++wrench; });
-        each_component(moment, [&](T& c) { *wrench = simd::fma(link.unit, c, *wrench), ++wrench; });
-      };
-      add(wrench_i, T(1), w.force, w.moment_i);
-      add(wrench_j, T(-1), w.force, w.moment_j);
+      const R edge_i(link.edge_i), edge_j(link.edge_j), half(T(0.5));
+      const auto w =
+          S::wrench_of_pair(i, j, axis, link.is_material,
+                            {edge_i, edge_j, R(a.k_s), R(a.k_ns), R(a.d_s), R(a.d_ns), R(a.k_z),
+                             R(a.k_xz), R(a.k_yz), R(a.d_z), R(a.d_xz), R(a.d_yz)},
+                            {edge_i, edge_i * half, R(b.tau), R(b.kt2), R(b.dt)},
+                            {edge_j, edge_j * half, R(b.tau), R(b.kt2), R(b.dt)});
+      typename S::vec back = w.force;
+      each_component(back, [](R& c) { c = -c; });
+      write(write(wrench_i, w.force), w.moment_i);
+      write(write(wrench_j, back), w.moment_j);
     };
     if (link.axis == 0) along(std::integral_constant<int, 0>{});
     if constexpr (S::axes > 1)
@@ -94,23 +116,29 @@ struct RowKernels {
     if constexpr (S::axes > 2)
       if (link.axis == 2) along(std::integral_constant<int, 2>{});
   }
+  static constexpr KernelSet<T> make_set() {
+    if constexpr (is_ensemble)
+      return {terms, stage, prime, nullptr, compute_link<simd::Pack<T>, LaneNumbers<T>>};
+    else
+      return {terms, stage, prime, compute_link<T, T>, nullptr};
+  }
 
-  static constexpr KernelSet<T> set{terms, stage, prime, extra_link};
+  static constexpr KernelSet<T> set = make_set();
 };
 
 /// Null if these terms are not compiled for the model.
-template <Model model, class T, Terms terms>
+template <Model model, class T, Terms terms, LaneKind kind>
 constexpr const KernelSet<T>* compiled_set() {
   if constexpr (is_built(model) && is_compiled(model, terms))
-    return &RowKernels<model, T, terms>::set;
+    return &RowKernels<model, T, terms, kind>::set;
   else
     return nullptr;
 }
 
-template <Model model, class T>
+template <Model model, class T, LaneKind kind>
 const KernelSet<T>& kernels_of(const Terms& terms) {
   static constexpr auto sets = []<std::size_t... index>(std::index_sequence<index...>) {
-    return std::array{compiled_set<model, T, compiled_terms[index]>()...};
+    return std::array{compiled_set<model, T, compiled_terms[index], kind>()...};
   }
   (std::make_index_sequence<compiled_terms.size()>{});
   for (const KernelSet<T>* set : sets)

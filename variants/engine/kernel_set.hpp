@@ -41,12 +41,13 @@ struct RowShape {
 RowShape row_shape(Model model, const Terms& need);
 
 /// Constants of an extra link, which is a link outside the grid, for both laws.
-template <class T>
+/// @tparam Number  T, or LaneNumbers of an ensemble
+template <class Number>
 struct ExtraLinkConstants {
   bool is_material;
   int axis;
-  T edge_i, edge_j, unit; ///< unit: as in BodyConstants
-  BodyConstants<T> body;  ///< constants of links only, on `axis`
+  Number edge_i, edge_j, unit; ///< unit of force, as in BodyConstants; sums apply it
+  BodyConstants<Number> body;  ///< constants of links only, on `axis`
 };
 
 /// The row kernels of one combination of terms.
@@ -59,12 +60,17 @@ struct KernelSet {
   /// Computes only the links from a row (its `in`, `upper_*`, `carry_*`) to the next row across an
   /// axis (1 or 2). A block of rows needs them from the row before its first.
   void (*prime)(const RowTask<T>& task, int axis);
-  /// Computes an extra link.
-  /// @param i, j                fields of the two elements
-  /// @param wrench_i, wrench_j  the link's force, then moment, are added here
+  /// Computes an extra link, or of an ensemble the same link of all members.
+  /// @param i, j                fields of the two elements; of an ensemble: packs
+  /// @param wrench_i, wrench_j  output: the link's force, then moment, in units of its body
   void (*extra_link)(const ExtraLinkConstants<T>& link, const T* i, const T* j, T* wrench_i,
-                     T* wrench_j);
+                     T* wrench_j); ///< null for an ensemble
+  void (*member_links)(const ExtraLinkConstants<LaneNumbers<T>>& link, const T* i, const T* j,
+                       T* wrench_i, T* wrench_j); ///< null unless for an ensemble
 };
+
+/// True if the members of an ensemble lie in the lanes of packs: the module has packs.
+inline constexpr bool has_ensembles = simd::lanes<double> > 1;
 
 /// True if this build has the kernels of a model.
 constexpr bool is_built([[maybe_unused]] Model model) {
@@ -75,20 +81,28 @@ constexpr bool is_built([[maybe_unused]] Model model) {
 #endif
 }
 
-/// The kernels of a model for terms of compiled_terms. The build makes one file for each model and
-/// type (kernels_of_model.cpp.in), which instantiates the template of instantiate.hpp.
-template <Model model, class T>
+/// The kernels of a model for terms of compiled_terms. The build makes one file for each model,
+/// type and kind (kernels_of_model.cpp.in), which instantiates the template of instantiate.hpp.
+template <Model model, class T, LaneKind kind>
 const KernelSet<T>& kernels_of(const Terms& terms);
 
 /// Finds the kernels of a model and the terms of a shape.
+/// @throws std::logic_error for `members` in a module without packs, whose ensembles have one
+/// member
 template <class T>
-const KernelSet<T>& find_kernels(Model model, const Terms& terms) {
+const KernelSet<T>& find_kernels(Model model, const Terms& terms,
+                                 LaneKind kind = LaneKind::neighbours) {
   const KernelSet<T>* found = nullptr;
   for_each_model([&]<Model each>() {
     if constexpr (is_built(each))
-      if (each == model) found = &kernels_of<each, T>(terms);
+      if (each == model) {
+        if (kind == LaneKind::neighbours)
+          found = &kernels_of<each, T, LaneKind::neighbours>(terms);
+        else if constexpr (has_ensembles)
+          found = &kernels_of<each, T, LaneKind::members>(terms);
+      }
   });
-  if (found == nullptr) throw std::logic_error("kernel_set.hpp: this model is not compiled");
+  if (found == nullptr) throw std::logic_error("kernel_set.hpp: these kernels are not compiled");
   return *found;
 }
 

@@ -1,12 +1,16 @@
 #include "variants/engine/packed_rows.hpp"
 
 #include "solver/model/link_constants.hpp"
+#include "solver/model/needed_terms.hpp"
 #include "variants/engine/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace dss {
 
@@ -46,12 +50,19 @@ Place place_of(const PackedRows<T, W>& packed, std::size_t element) {
 }
 
 template <class T, int W>
-PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* part, Memory& where)
-    : memory(where), lattice(problem.lattice), layout(descriptor(model)), rows(lattice.rows.size()),
-      own_end(int(rows.size())), part_(part), applied_index_(lattice.rows.size(), -1) {
+PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* part, Memory& where,
+                             const Ensemble* ensemble)
+    : memory(where), lattice(ensemble == nullptr ? problem.lattice : ensemble->lattice),
+      layout(descriptor(model)), rows(lattice.rows.size()), own_end(int(rows.size())), part_(part),
+      applied_index_(lattice.rows.size(), -1) {
+  if (ensemble != nullptr) members_ = ensemble->members;
+  if (members_.empty()) members_ = {&problem};
+  if (is_ensemble() && members_.size() != std::size_t(W))
+    throw std::logic_error("packed_rows.hpp: an ensemble has a member a lane");
   reach = lattice.row_reach();
   if (part_ != nullptr) find_layers();
   choose_shapes(problem, model);
+  set_constants();
   std::size_t packs = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Row& row = lattice.rows[r];
@@ -60,15 +71,18 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
     packed.packs = (row.x_end + W - 1) / W - packed.first_pack;
     packed.pack_offset = packs;
     packed.shape = shapes_[std::size_t(row.body)];
-    packed.body = &bodies_[std::size_t(row.body)];
+    if (is_ensemble())
+      packed.members = &member_bodies_[std::size_t(row.body)];
+    else
+      packed.body = &bodies_[std::size_t(row.body)];
     packs += std::size_t(packed.packs);
     packs_across = std::max(packs_across, packed.first_pack + packed.packs);
     max_packs = std::max(max_packs, packed.packs);
   }
   mark_links();
-  apply_loads(problem);
+  apply_loads();
   apply_extra_links(problem);
-  apply_clamps(problem);
+  apply_clamps();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (applied_index_[r] < 0) continue;
     AppliedRow& row = *applied_[std::size_t(applied_index_[r])];
@@ -93,45 +107,70 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
 
 template <class T, int W>
 void PackedRows<T, W>::choose_shapes(const Problem& problem, Model model) {
-  Terms common;
-  common.is_tied = problem.stabilization.is_present();
-  for (const Body& body : problem.bodies) {
-    for (const AxisConstants& a : body.axis) {
-      common.is_damped |= a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{};
-      common.is_bending |= body.law == LinkLaw::paper && a.k_rot != Vec3{};
-    }
-    common.is_gyroscopic |=
-        body.has_tensor_inertia() && !is_of_plane(model) && model != Model::axial;
-  }
-  // The row kernels do not compute extra links. Still, leapfrog must carry predicted velocities for
-  // damped ones, and in all parts alike.
-  common.is_damped |= problem.has_damped_links_elsewhere;
-  for (const ExtraLink& link : problem.extra_links)
-    common.is_damped |= link.constants.d_normal != 0 || link.constants.d_shear != 0 ||
-                        link.constants.d_rot != Vec3{};
+  std::vector<Terms> needs = needed_terms(problem, model);
   const auto choose = [&] {
     shapes_.clear();
-    bool is_velocity_dependent = false;
-    for (const Body& body : problem.bodies) {
-      Terms need = common;
-      need.is_material = body.law == LinkLaw::material;
-      need.is_oblong = (layout.axes > 1 && body.edge[1] != body.edge[0]) ||
-                       (layout.axes > 2 && body.edge[2] != body.edge[0]);
-      shapes_.push_back(row_shape(model, need));
-      is_velocity_dependent |= shapes_.back().terms.is_velocity_dependent();
-    }
-    return is_velocity_dependent;
+    for (const Terms& need : needs) shapes_.push_back(row_shape(model, need));
+    return std::ranges::any_of(
+        shapes_, [](const RowShape& shape) { return shape.terms.is_velocity_dependent(); });
   };
-  if (choose() && !common.is_velocity_dependent())
-    common.is_damped = true, choose(); // all bodies get the same width of leapfrog rows
-  for (const Body& body : problem.bodies) {
-    bodies_.push_back(body_constants<T>(body, problem.stabilization));
-    for (const Signal& a : problem.frame_acceleration)
-      bodies_.back().is_accelerated |= !is_zero_always(a);
+  if (choose() && !needs.front().is_velocity_dependent()) {
+    for (Terms& need : needs) need.is_damped = true;
+    choose(); // all bodies get the same width of leapfrog rows
   }
   for (const RowShape& shape : shapes_) {
     carry_size = std::max(carry_size, shape.carry_components * W);
     leapfrog_fields = std::max(leapfrog_fields, shape.leapfrog_fields);
+  }
+}
+
+/// Sets a lane of all constants. Both structs hold their numbers in the same order, then an int.
+template <class T>
+static void set_lane(BodyConstants<LaneNumbers<T>>& all, std::size_t lane,
+                     const BodyConstants<T>& one) {
+  constexpr std::size_t count = offsetof(BodyConstants<T>, is_accelerated) / sizeof(T);
+  static_assert(offsetof(BodyConstants<LaneNumbers<T>>, is_accelerated) ==
+                count * sizeof(LaneNumbers<T>));
+  const auto* const from = reinterpret_cast<const std::byte*>(&one);
+  auto* const to = reinterpret_cast<std::byte*>(&all);
+  for (std::size_t n = 0; n < count; ++n)
+    std::memcpy(to + n * sizeof(LaneNumbers<T>) + lane * sizeof(T), from + n * sizeof(T),
+                sizeof(T));
+  all.is_accelerated |= one.is_accelerated;
+}
+
+template <class T, int W>
+ExtraLinkConstants<LaneNumbers<T>>
+PackedRows<T, W>::member_link_constants([[maybe_unused]] std::size_t link) const {
+  ExtraLinkConstants<LaneNumbers<T>> all{};
+  if constexpr (W == simd::lanes<T>)
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+      const auto one = extra_link_constants<T>(*members_[m], members_[m]->extra_links[link]);
+      all.is_material = one.is_material;
+      all.axis = one.axis;
+      all.edge_i.value[m] = one.edge_i;
+      all.edge_j.value[m] = one.edge_j;
+      set_lane(all.body, m, one.body);
+    }
+  return all;
+}
+
+template <class T, int W>
+void PackedRows<T, W>::set_constants() {
+  const auto constants = [](const Problem& problem, std::size_t b) {
+    BodyConstants<T> body = body_constants<T>(problem.bodies[b], problem.stabilization);
+    for (const Signal& a : problem.frame_acceleration) body.is_accelerated |= !is_zero_always(a);
+    return body;
+  };
+  for (std::size_t b = 0; b < members_.front()->bodies.size(); ++b) {
+    if (!is_ensemble()) {
+      bodies_.push_back(constants(*members_.front(), b));
+      continue;
+    }
+    member_bodies_.emplace_back();
+    if constexpr (W == simd::lanes<T>)
+      for (std::size_t m = 0; m < members_.size(); ++m)
+        set_lane(member_bodies_.back(), m, constants(*members_[m], b));
   }
 }
 
@@ -158,11 +197,12 @@ bool PackedRows<T, W>::reads_halo(int row) const {
 }
 
 template <class T, int W>
-std::optional<std::size_t> PackedRows<T, W>::first_failed(int row, const T* packs,
-                                                          int fields) const {
+std::optional<std::size_t> PackedRows<T, W>::first_failed(int row, const T* packs, int fields,
+                                                          int member) const {
   std::optional<std::size_t> failed;
   each_cell(lattice, lattice.rows[std::size_t(row)], [&](std::size_t element, int x) {
-    if (failed || (part_ != nullptr && part_->layer[element] > 0)) return;
+    if (failed || x % lattice.x_stride != member) return;
+    if (part_ != nullptr && part_->layer[element] > 0) return;
     const T* lane =
         packs + std::ptrdiff_t(x / W - rows[std::size_t(row)].first_pack) * fields * W + x % W;
     for (int f = 0; f < fields; ++f)
@@ -182,7 +222,7 @@ void PackedRows<T, W>::mark_links() {
     each_cell(lattice, row, [&](std::size_t, int x) {
       PackMasks& masks = of_row[std::size_t(x / W - rows[r].first_pack)];
       const auto bit = simd::LaneMask(1u << (x % W));
-      if (lattice.is_present(row, x + 1)) masks.link_x |= bit;
+      if (lattice.is_present(row, x + lattice.x_stride)) masks.link_x |= bit;
       if (links_to(row.upper_y, x)) masks.link_y |= bit;
       if (links_to(row.upper_z, x)) masks.link_z |= bit;
       if (links_to(row.lower_y, x)) masks.below_y |= bit;
@@ -202,28 +242,37 @@ typename PackedRows<T, W>::AppliedRow& PackedRows<T, W>::applied_row(std::size_t
 }
 
 template <class T, int W>
-void PackedRows<T, W>::apply_loads(const Problem& problem) {
+void PackedRows<T, W>::apply_loads() {
+  for (std::size_t n = 0; n < members_.front()->loads.size(); ++n) apply_load(n);
+}
+
+template <class T, int W>
+void PackedRows<T, W>::apply_load(std::size_t n) {
   const std::size_t components = layout.wrench.size();
-  for (std::size_t n = 0; n < problem.loads.size(); ++n) {
-    const Load& load = problem.loads[n];
-    std::vector<Place> places;
-    for (const std::size_t element : load.elements) places.push_back(place_of(*this, element));
-    for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
-      const std::size_t r = places[from].row;
-      while (to < places.size() && places[to].row == r) ++to;
-      const int first = places[from].pack, packs = places[to - 1].pack - first + 1;
-      AppliedRow& row = applied_row(r);
-      Buffer<T> values(std::size_t(packs) * components * W, memory);
-      for (std::size_t p = from; p < to; ++p)
-        for (std::size_t c = 0; c < components; ++c) {
-          const std::size_t w = std::size_t(layout.wrench[c]);
-          values.data()[(std::size_t(places[p].pack - first) * components + c) * W +
-                        std::size_t(places[p].lane)] =
-              T(w < 3 ? load.force[w] : load.torque[w - 3]);
-        }
-      row.patterns.push_back({values.data(), int(3 + n), first, packs});
-      row.values.push_back(std::move(values));
-    }
+  struct Loaded {
+    Place place;
+    const Load* load;
+  };
+  std::vector<Loaded> all;
+  for (std::size_t m = 0; m < members_.size(); ++m)
+    for (const std::size_t element : members_[m]->loads[n].elements)
+      all.push_back({place_of(*this, element_of(m, element)), &members_[m]->loads[n]});
+  std::ranges::stable_sort(
+      all, {}, [](const Loaded& one) { return std::pair(one.place.row, one.place.pack); });
+  for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+    const std::size_t r = all[from].place.row;
+    while (to < all.size() && all[to].place.row == r) ++to;
+    const int first = all[from].place.pack, packs = all[to - 1].place.pack - first + 1;
+    AppliedRow& row = applied_row(r);
+    Buffer<T> values(std::size_t(packs) * components * W, memory);
+    for (const auto& [place, load] : std::span(all).subspan(from, to - from))
+      for (std::size_t c = 0; c < components; ++c) {
+        const std::size_t w = std::size_t(layout.wrench[c]);
+        values.data()[(std::size_t(place.pack - first) * components + c) * W +
+                      std::size_t(place.lane)] = T(w < 3 ? load->force[w] : load->torque[w - 3]);
+      }
+    row.patterns.push_back({values.data(), int(3 + n), first, packs});
+    row.values.push_back(std::move(values));
   }
 }
 
@@ -234,7 +283,8 @@ void PackedRows<T, W>::apply_extra_links(const Problem& problem) {
   extra_.resize(rows.size());
   const int constant_one = int(3 + problem.loads.size());
   for (const ExtraLink& link : problem.extra_links) {
-    const std::size_t linked[] = {row_of(lattice, link.i), row_of(lattice, link.j)};
+    const std::size_t linked[] = {row_of(lattice, element_of(0, link.i)),
+                                  row_of(lattice, element_of(0, link.j))};
     stage_halo = std::max(stage_halo, std::abs(int(linked[0]) - int(linked[1])));
     for (const std::size_t r : linked) {
       if (!extra_[r].empty()) continue;
@@ -245,24 +295,26 @@ void PackedRows<T, W>::apply_extra_links(const Problem& problem) {
 }
 
 template <class T, int W>
-void PackedRows<T, W>::apply_clamps(const Problem& problem) {
+void PackedRows<T, W>::apply_clamps() {
   const std::size_t components = layout.wrench.size();
-  for (const Clamp& clamp : problem.clamps) {
-    const Place place = place_of(*this, clamp.element);
-    AppliedRow& row = applied_row(place.row);
-    if (row.free_lanes.empty())
-      row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, all_lanes);
-    for (std::size_t c = 0; c < components; ++c)
-      if ((clamp.dofs >> layout.wrench[c] & 1) != 0)
-        row.free_lanes[std::size_t(place.pack) * components + c] &=
-            simd::LaneMask(~(1u << place.lane));
-  }
+  for (std::size_t m = 0; m < members_.size(); ++m)
+    for (const Clamp& clamp : members_[m]->clamps) {
+      const Place place = place_of(*this, element_of(m, clamp.element));
+      AppliedRow& row = applied_row(place.row);
+      if (row.free_lanes.empty())
+        row.free_lanes.assign(std::size_t(rows[place.row].packs) * components, all_lanes);
+      for (std::size_t c = 0; c < components; ++c)
+        if ((clamp.dofs >> layout.wrench[c] & 1) != 0)
+          row.free_lanes[std::size_t(place.pack) * components + c] &=
+              simd::LaneMask(~(1u << place.lane));
+    }
 }
 
 template <class T, int W>
 std::size_t PackedRows<T, W>::bytes() const {
   std::size_t sum = rows.size() * sizeof(PackedRow<T>) + applied_index_.size() * sizeof(int);
   for (const auto& masks : masks_) sum += masks.size() * sizeof(PackMasks);
+  sum += member_bodies_.size() * sizeof(member_bodies_[0]);
   for (const auto& row : applied_) {
     sum += sizeof(AppliedRow) + row->free_lanes.size() * sizeof(simd::LaneMask);
     for (const Buffer<T>& values : row->values) sum += values.bytes();
@@ -284,6 +336,7 @@ BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
   if (body.law == LinkLaw::paper) set_paper_constants(c, body.axis[0]);
   for (std::size_t a = 0; a < 3; ++a) {
     c.edge[a] = T(body.edge[a]);
+    c.half_edge[a] = c.edge[a] / 2;
     set_material_constants(c.axis[a], body.axis[a]);
     c.inertia[a] = T(body.inertia[a] / unit);
     c.inverse_inertia[a] = T(unit / body.inertia[a]);

@@ -2,11 +2,13 @@
 /// A problem cut into rows of packs: everything that is constant during a run.
 #include "kernels/model.hpp"
 #include "solver/decomposition/part.hpp"
+#include "solver/model/ensemble.hpp"
 #include "variants/engine/buffer.hpp"
 #include "variants/engine/kernel_set.hpp"
 
 #include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 namespace dss {
@@ -22,6 +24,7 @@ struct PackedRow {
   /// Null until the executor sets it. Devices have their own kernels, so there it stays null.
   const KernelSet<T>* kernels = nullptr;
   const BodyConstants<T>* body = nullptr;
+  const BodyConstants<LaneNumbers<T>>* members = nullptr; ///< of an ensemble, in place of `body`
   const PackMasks* masks = nullptr;
   const Applied<T>* applied = nullptr;
 };
@@ -32,10 +35,11 @@ class PackedRows {
 public:
   static constexpr int lanes = W;
   static constexpr simd::LaneMask all_lanes = simd::LaneMask((1u << W) - 1);
-  /// @param part    null, or the part that `problem` is
-  /// @param memory  for what devices need too; outlives this object
-  PackedRows(const Problem& problem, Model model, const Part* part,
-             Memory& memory = Memory::heap());
+  /// @param part      null, or the part that `problem` is
+  /// @param memory    for what devices need too; outlives this object
+  /// @param ensemble  null, or an ensemble of W members, of which `problem` is the first
+  PackedRows(const Problem& problem, Model model, const Part* part, Memory& memory = Memory::heap(),
+             const Ensemble* ensemble = nullptr);
   PackedRows(const PackedRows&) = delete;
   PackedRows& operator=(const PackedRows&) = delete;
 
@@ -72,8 +76,23 @@ public:
   bool reads_halo(int row) const;
   /// The first own element of a row that is not finite, if there is one. Halo elements do not
   /// count: the outermost lack links, so their values mean nothing, and all are received anew.
-  std::optional<std::size_t> first_failed(int row, const T* packs, int fields) const;
+  /// @param member  of an ensemble: whose elements are looked at
+  std::optional<std::size_t> first_failed(int row, const T* packs, int fields,
+                                          int member = 0) const;
 
+  /// The members of an ensemble, or the problem alone.
+  std::span<const Problem* const> members() const { return members_; }
+  bool is_ensemble() const { return members_.size() > 1; }
+  /// The number of an element of a member among the elements of all.
+  std::size_t element_of(std::size_t member, std::size_t element) const {
+    return element * members_.size() + member;
+  }
+  /// Lanes whose results are checked, of an ensemble those of members that have not failed.
+  simd::LaneMask live_lanes = all_lanes;
+  bool is_live(int member) const { return !is_ensemble() || (live_lanes >> member & 1) != 0; }
+
+  /// Constants of an extra link of all members of an ensemble.
+  ExtraLinkConstants<LaneNumbers<T>> member_link_constants(std::size_t link) const;
   /// Where the wrenches [N, N m] of a row's extra links go, or null: layout.wrench components a
   /// pack. They are applied with a signal of constant 1.
   T* extra_wrench(std::size_t row) { return extra_.empty() ? nullptr : extra_[row].data(); }
@@ -87,10 +106,12 @@ private:
     std::vector<simd::LaneMask> free_lanes;
   };
   void choose_shapes(const Problem& problem, Model model);
+  void set_constants();
   void find_layers();
   void mark_links();
-  void apply_loads(const Problem& problem);
-  void apply_clamps(const Problem& problem);
+  void apply_loads();
+  void apply_load(std::size_t n);
+  void apply_clamps();
   void apply_extra_links(const Problem& problem);
   AppliedRow& applied_row(std::size_t row);
 
@@ -99,7 +120,9 @@ private:
   std::vector<std::uint8_t> row_layer_;
   std::vector<bool> has_halo_; ///< rows with a halo element
   std::vector<RowShape> shapes_;
-  std::vector<BodyConstants<T>> bodies_;
+  std::vector<const Problem*> members_;
+  std::vector<BodyConstants<T>> bodies_;                     ///< unless it is an ensemble
+  std::vector<BodyConstants<LaneNumbers<T>>> member_bodies_; ///< of an ensemble
   /// Equal rows share them, so that they stay in L1.
   std::set<std::vector<PackMasks>> masks_;
   std::vector<int> applied_index_; ///< from row to index in applied_, or -1

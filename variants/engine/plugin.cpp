@@ -4,6 +4,11 @@
 #include "variants/engine/compiled_kernels.hpp"
 #include "variants/engine/row_executor.hpp"
 
+/// Members of an ensemble lie in the lanes of packs.
+static int ensemble_lanes(dss::Precision precision) {
+  return dss::is_single(precision) ? dss::simd::lanes<float> : dss::simd::lanes<double>;
+}
+
 extern "C" const dss::Plugin* dss_plugin() {
   static constexpr dss::Plugin plugin{.abi = dss::plugin_abi,
                                       .name = DSS_VARIANT,
@@ -13,6 +18,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .is_distributed = false,
                                       .create = dss::create_row_executor,
                                       .kernels = dss::compiled_kernels,
-                                      .has_tiles = true};
+                                      .has_tiles = true,
+                                      .ensemble_lanes = ensemble_lanes};
   return &plugin;
 }

@@ -5,24 +5,28 @@
 #include "variants/isa/denormals.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
+#include <stdexcept>
 
 namespace dss {
 
 template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
-      packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part),
-      rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }) {
+      packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, Memory::heap(),
+              setup.ensemble),
+      rows_(packed_, setup_.method, setup_.precision, setup_.steps(),
+            [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows)
-    row.kernels = &find_kernels<T>(setup.model, row.shape.terms);
+    row.kernels =
+        &find_kernels<T>(setup.model, row.shape.terms,
+                         packed_.is_ensemble() ? LaneKind::members : LaneKind::neighbours);
   const bool is_staged = !why_staged().empty();
+  if (is_staged && packed_.is_ensemble())
+    throw std::logic_error("an ensemble is not computed stage by stage");
   if (is_staged) refuse_tile(setup_, "it is computed stage by stage");
   if (!setup_.problem.extra_links.empty()) refuse_tile(setup_, "extra links join its rows");
   if (is_staged)
-    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(),
-                    setup_.threads, part_);
+    staged_.emplace(packed_, setup_.method, setup_.dt, rows_.storage(), setup_.threads, part_);
   else
     make_blocks();
 }
@@ -63,13 +67,14 @@ void RowExecutor<T>::make_blocks() {
   blocks_.make(packed_, cuts, stored_fields(), steps_a_pass_, method.stages);
   std::vector<Block<T>>& blocks = blocks_.all();
   form_.is_in_row_order = is_part();
-  const ExtraLinks<T> extra_links(setup_.problem, packed_);
+  const ExtraLinks<T> extra_links(packed_);
   form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, cuts,
                            form_.is_in_row_order, extra_links.rows(), setup_.tile);
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (!blocks[b].is_remote())
-      steps_.emplace_back(packed_, method, setup_.dt, rows_.storage(), signal_count(setup_.problem),
-                          blocks, b, PassShape{steps_a_pass_, form_}, extra_links);
+      steps_.emplace_back(packed_, method, setup_.steps(), rows_.storage(),
+                          signal_count(setup_.problem), blocks, b, PassShape{steps_a_pass_, form_},
+                          extra_links);
 }
 
 template <class T>
@@ -111,6 +116,7 @@ void RowExecutor<T>::refresh_halo() {
 template <class T>
 void RowExecutor<T>::write(std::size_t first, std::span<const double> fields) {
   stop_leapfrog();
+  revive_members();
   parity_ = 0;
   rows_.write(first, fields);
   blocks_.publish_all(parity_);
@@ -130,6 +136,7 @@ void RowExecutor<T>::save(std::size_t first, std::span<double> kept) {
 template <class T>
 void RowExecutor<T>::restore(std::size_t first, std::span<const double> kept) {
   end_rates_ = {};
+  revive_members();
   is_started_ = rows_.restore(first, kept);
   blocks_.publish_all(parity_);
 }
@@ -142,9 +149,11 @@ Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
       zero(std::size_t(packed_.max_packs) * std::size_t(packed_.fields() * W));
   rows_.copy_plain(plain.data());
   const auto plain_row = [&](int r) { return plain.data() + rows_.plain_offset(r); };
-  ExtraLinks<T> extra_links(setup_.problem, packed_);
+  ExtraLinks<T> extra_links(packed_);
   extra_links.evaluate(plain_row, packed_.fields());
-  StepSignals<T> values(signals.size(), 1);
+  StepSignals<T> values(signal_count(setup_.problem), 1, packed_.members().size());
+  Buffer<T> ones(std::size_t{W});
+  std::fill_n(ones.data(), W, T(1));
   values.set(signals.data(), 1);
   CarryRings<T> carry(packed_);
   for (int r = 0; r < int(packed_.rows.size()); ++r) {
@@ -154,6 +163,7 @@ Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
     task.base = zero.data(); // out = 0 + 1 f
     task.out = rates.data() + rows_.plain_offset(r);
     task.beta = 1;
+    task.betas = ones.data();
     packed_.rows[std::size_t(r)].kernels->stage(task);
   }
   return rates;
@@ -185,7 +195,7 @@ template <class T>
 Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
   if (steps <= 0) return {};
   if (setup_.method.has_error_stage) return advance_by_tries(*this, setup_, steps, signals);
-  const std::size_t width = signal_count(setup_.problem);
+  const std::size_t width = signal_width();
   if (rows_.is_staggered() && !is_started_)
     start_leapfrog(signals.first(width)), is_started_ = true;
   end_rates_ = {};
@@ -193,36 +203,16 @@ Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
   return staged_ ? run_staged(steps, signals) : run_blocks(steps, signals);
 }
 
-/// The first failure of a run. Several threads may meet one at the same time.
-class FirstFailure {
-public:
-  bool is_met() const { return step_ >= 0; }
-  long step() const { return step_; }
-  void meet(long step, std::size_t element) {
-    const std::lock_guard lock(mutex_);
-    if (step_ < 0 || step < step_ || (step == step_ && element < element_))
-      step_ = step, element_ = element;
-  }
-  Outcome outcome(long steps) const {
-    return is_met() ? Outcome{false, step_, element_} : Outcome{true, steps, 0};
-  }
-
-private:
-  std::mutex mutex_;
-  std::atomic<long> step_{-1};
-  std::size_t element_ = 0;
-};
-
 // After a failure a part continues, because its neighbours wait for it. They soon fail too, and all
 // parts learn of it at the end.
 template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
-  const std::size_t step_width = signal_count(setup_.problem) * std::size_t(setup_.method.stages);
+  const std::size_t step_width = signal_width() * std::size_t(setup_.method.stages);
   const long at_once = steps_a_pass_, passes = (steps + at_once - 1) / at_once;
   std::vector<Block<T>>& blocks = blocks_.all();
   const std::size_t first_own = blocks_.first_own();
   const bool is_overlapped = is_part() && part_->is_overlapped && threads_ == 1;
-  FirstFailure failure;
+  std::vector<FirstFailure> failures(packed_.members().size());
   if (is_part()) exchange(&Halo::send, parity_);
   const auto work = [&](int thread, auto&& synchronise) {
     const FlushDenormals guard;
@@ -232,7 +222,7 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
       const int parity = (parity_ + int(pass & 1)) & 1;
       const bool is_last = pass + 1 == passes;
       for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
-        blocks[first_own + b].failed_row = -1;
+        std::ranges::fill(blocks[first_own + b].failures, typename Block<T>::Failure{});
       if (is_overlapped) {
         step_overlapped(values, parity, is_last);
       } else {
@@ -241,19 +231,45 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
         steps_[std::size_t(thread)](values, int(std::min(at_once, steps - n)), parity);
       }
       for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
-        if (Block<T>& block = blocks[first_own + b]; block.failed_row >= 0)
-          failure.meet(n + block.failed_step,
-                       *packed_.first_failed(block.failed_row, block.row(block.failed_row),
-                                             stored_fields()));
+        for (std::size_t m = 0; m < failures.size(); ++m)
+          if (const auto& failed = blocks[first_own + b].failures[m]; failed.step >= 0)
+            failures[m].meet(n + failed.step, failed.element);
       synchronise();
-      if (!is_part() && failure.is_met() && failure.step() < n + at_once)
+      if (!is_part() && have_all_failed(failures, n + at_once))
         break; // a faster thread may already have failed in the next pass
       if (is_part() && !is_overlapped && !is_last && thread == 0) exchange(&Halo::send, parity ^ 1);
     }
   };
   run_team(threads_, work);
   parity_ = (parity_ + int(passes & 1)) & 1;
-  return failure.outcome(steps);
+  return outcome_of(failures, steps);
+}
+
+template <class T>
+bool RowExecutor<T>::have_all_failed(const std::vector<FirstFailure>& failures, long before) const {
+  for (std::size_t m = 0; m < failures.size(); ++m)
+    if (packed_.is_live(int(m)) && !(failures[m].is_met() && failures[m].step() < before))
+      return false;
+  return true;
+}
+
+template <class T>
+Outcome RowExecutor<T>::outcome_of(const std::vector<FirstFailure>& failures, long steps) {
+  if (!packed_.is_ensemble()) return failures.front().outcome(steps);
+  const bool is_over = have_all_failed(failures, steps);
+  for (std::size_t m = 0; m < failures.size(); ++m) {
+    if (!packed_.is_live(int(m))) continue;
+    outcomes_[m] = failures[m].outcome(steps);
+    outcomes_[m].element /= failures.size();
+    if (!outcomes_[m].is_finite) packed_.live_lanes &= simd::LaneMask(~(1u << m));
+  }
+  return is_over ? outcomes_.front() : Outcome{true, steps, 0};
+}
+
+template <class T>
+void RowExecutor<T>::revive_members() {
+  packed_.live_lanes = packed_.all_lanes;
+  if (packed_.is_ensemble()) outcomes_.assign(packed_.members().size(), Outcome{});
 }
 
 template <class T>
@@ -272,8 +288,7 @@ void RowExecutor<T>::step_overlapped(const double* signals, int parity, bool is_
 
 template <class T>
 Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) {
-  const std::size_t width = signal_count(setup_.problem),
-                    step_width = width * std::size_t(setup_.method.stages);
+  const std::size_t width = signal_width(), step_width = width * std::size_t(setup_.method.stages);
   staged_->forget_failures();
   FirstFailure failure;
   if (is_part()) exchange(&Halo::send, current_copy());

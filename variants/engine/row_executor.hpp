@@ -8,10 +8,33 @@
 #include "variants/engine/state_rows.hpp"
 #include "variants/engine/wavefront.hpp"
 
+#include <atomic>
+#include <mutex>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace dss {
+
+/// The first failure of a run, or of a member. Several threads may meet one at the same time.
+class FirstFailure {
+public:
+  bool is_met() const { return step_ >= 0; }
+  long step() const { return step_; }
+  void meet(long step, std::size_t element) {
+    const std::lock_guard lock(mutex_);
+    if (step_ < 0 || step < step_ || (step == step_ && element < element_))
+      step_ = step, element_ = element;
+  }
+  Outcome outcome(long steps) const {
+    return is_met() ? Outcome{false, step_, element_} : Outcome{true, steps, 0};
+  }
+
+private:
+  std::mutex mutex_;
+  std::atomic<long> step_{-1};
+  std::size_t element_ = 0;
+};
 
 /// Computes a problem, or a part of one, in numbers of type T. The schedule is either the wavefront
 /// (blocks_, steps_) or stage by stage (staged_).
@@ -19,7 +42,8 @@ template <class T>
 class RowExecutor final : public Executor,
                           public StepTrials,
                           public PartHalos,
-                          public StateTransfer {
+                          public StateTransfer,
+                          public MemberOutcomes {
 public:
   explicit RowExecutor(const Setup& setup);
   void write(std::size_t first, std::span<const double> fields) override;
@@ -40,6 +64,8 @@ public:
   int kept_fields() const override { return rows_.kept_fields(); }
   void save(std::size_t first, std::span<double> kept) override;
   void restore(std::size_t first, std::span<const double> kept) override;
+  MemberOutcomes* member_outcomes() override { return packed_.is_ensemble() ? this : nullptr; }
+  std::span<const Outcome> outcomes() const override { return outcomes_; }
 
 private:
   static constexpr int W = simd::lanes<T>;
@@ -69,6 +95,16 @@ private:
   void step_overlapped(const double* signals, int parity, bool is_last);
   Outcome run_staged(long steps, std::span<const double> signals);
 
+  /// Numbers of a row of signals.
+  std::size_t signal_width() const {
+    return signal_count(setup_.problem) * packed_.members().size();
+  }
+  /// Makes the outcomes of the last advance, and leaves out the members that failed.
+  Outcome outcome_of(const std::vector<FirstFailure>& failures, long steps);
+  /// Whether all members failed before a step; false while one is left.
+  bool have_all_failed(const std::vector<FirstFailure>& failures, long before) const;
+  void revive_members();
+
   const Setup setup_;
   const PartSetup* part_; ///< null for a whole problem and for a part without neighbours
   PackedRows<T> packed_;
@@ -83,6 +119,7 @@ private:
   std::vector<double> end_signals_;
   /// Leapfrog: rates at the end of the last advance, computed when first read.
   Buffer<T> end_rates_;
+  std::vector<Outcome> outcomes_; ///< of the members of an ensemble
 };
 
 /// Makes the executor of a module that consists of the row engine.

@@ -50,6 +50,8 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   task.stride = int(pack_size);
   task.masks = p.masks;
   task.body = p.body;
+  task.members = p.members;
+  task.live_lanes = &packed.live_lanes;
   task.applied = p.applied;
   task.in = input(row);
   if (r.upper_y >= 0) task.upper_y = aligned(r.upper_y), task.carry_y = carry.y(row) + carry_offset;

@@ -6,8 +6,9 @@ namespace dss {
 
 template <class T>
 std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage& storage,
-                                          int lanes, double dt) {
-  if (method.has_error_stage) dt = 1;
+                                          int lanes, std::span<const double> dt) {
+  static constexpr double whole_step = 1;
+  if (method.has_error_stage) dt = {&whole_step, 1};
   std::vector<StageUpdate<T>> updates;
   for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
     StageUpdate<T> update;
@@ -25,7 +26,12 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage
     update.low = storage.first_low() * lanes;
     if (storage.is_predicted())
       update.smoothing = T(method.smoothing), update.steps_ahead = T((1 - method.smoothing) / 2);
-    update.beta = T(dt * method.beta[s] / (first == 0 ? 1 : first));
+    const auto beta = [&](double step) {
+      return T(step * method.beta[s] / (first == 0 ? 1 : first));
+    };
+    update.beta = beta(dt.front());
+    if (dt.size() > 1) update.betas = Buffer<T>(dt.size());
+    for (std::size_t m = 0; m < update.betas.size(); ++m) update.betas.data()[m] = beta(dt[m]);
     if (update.increments.size() > RowTask<T>::most_increments)
       throw std::logic_error("method with more increments than a row task holds");
     updates.push_back(std::move(update));
@@ -34,8 +40,8 @@ std::vector<StageUpdate<T>> stage_updates(const Method& method, const RowStorage
 }
 
 template std::vector<StageUpdate<double>> stage_updates(const Method&, const RowStorage&, int,
-                                                        double);
+                                                        std::span<const double>);
 template std::vector<StageUpdate<float>> stage_updates(const Method&, const RowStorage&, int,
-                                                       double);
+                                                       std::span<const double>);
 
 } // namespace dss

@@ -14,13 +14,12 @@ void refuse_tile(const Setup& setup, std::string_view why) {
 }
 
 template <class T, int W>
-StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method,
-                             double dt, const RowStorage& storage, int threads,
-                             const PartSetup* exchange)
+StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Method& method, double dt,
+                             const RowStorage& storage, int threads, const PartSetup* exchange)
     : packed_(packed), method_(method), exchange_(exchange), fields_(storage.stored()),
       pack_size_(std::size_t(fields_) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
       failed_rows_(cuts_.size() - 1, -1), storage_(storage),
-      updates_(stage_updates<T>(method, storage, W, dt)), extra_links_(problem, packed) {
+      updates_(stage_updates<T>(method, storage, W, {&dt, 1})), extra_links_(packed) {
   const int copies = std::max(method.stages + int(method.has_error_stage), 2);
   for (int m = 0; m < copies; ++m)
     stages_.emplace_back(packed.readable_packs() * pack_size_, packed.memory);

@@ -23,8 +23,8 @@ class StagedRows {
 public:
   /// @param dt        step [s]
   /// @param exchange  null, or how the part exchanges its halo
-  StagedRows(PackedRows<T, W>& packed, const Problem& problem, const Method& method, double dt,
-             const RowStorage& storage, int threads, const PartSetup* exchange);
+  StagedRows(PackedRows<T, W>& packed, const Method& method, double dt, const RowStorage& storage,
+             int threads, const PartSetup* exchange);
   T* row(int r) { return stage_row(0, r); }
   /// Methods with an error stage: sets the length of the next steps [s]. A step does not change the
   /// state; its result is in the tried rows.

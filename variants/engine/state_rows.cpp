@@ -65,11 +65,11 @@ void StateRows<T, W>::read(std::size_t first, std::span<double> fields, const T*
     const Place place = place_of(packed_, element);
     const std::size_t pack = packed_.rows[place.row].pack_offset + std::size_t(place.pack);
     const T* const rates = end_rates + pack * std::size_t(packed_.fields() * W) + place.lane;
-    each_velocity([&](int f, int half) {
+    const T half = half_step(place.lane);
+    each_velocity([&](int f, int at) {
       out[std::size_t(packed_.layout.fields[std::size_t(f)])] =
-          storage_.is_compensated()
-              ? value(lane, f, half) + double(half_step_) * double(rates[f * W])
-              : double(simd::fma(half_step_, rates[f * W], lane[half * W]));
+          storage_.is_compensated() ? value(lane, f, at) + double(half) * double(rates[f * W])
+                                    : double(simd::fma(half, rates[f * W], lane[at * W]));
     });
   });
 }
@@ -153,11 +153,12 @@ void StateRows<T, W>::start(const T* rates) {
         T* const lane = row_(r) + std::ptrdiff_t(p) * stored_fields() * W + l;
         const T* const rate =
             rates + plain_offset(r) + std::size_t(p) * std::size_t(packed_.fields() * W) + l;
-        each_velocity([&](int f, int half) {
+        const T half = half_step(l);
+        each_velocity([&](int f, int at) {
           if (storage_.is_compensated())
-            keep(value(lane, f, f) - double(half_step_) * double(rate[f * W]), lane, f, half);
+            keep(value(lane, f, f) - double(half) * double(rate[f * W]), lane, f, at);
           else
-            lane[half * W] = simd::fma(-half_step_, rate[f * W], lane[f * W]);
+            lane[at * W] = simd::fma(-half, rate[f * W], lane[f * W]);
         });
       }
 }

@@ -17,12 +17,14 @@ class StateRows {
 public:
   using RowAddress = std::function<T*(int)>;
   /// @param packed, method  outlive this object
-  /// @param dt              step [s]
+  /// @param dt              step [s]; of an ensemble: of each member
   /// @param row             function from a row's number to the address of its present state
-  StateRows(const PackedRows<T, W>& packed, const Method& method, Precision precision, double dt,
-            RowAddress row)
+  StateRows(const PackedRows<T, W>& packed, const Method& method, Precision precision,
+            std::span<const double> dt, RowAddress row)
       : packed_(packed), method_(method), precision_(precision),
-        storage_(packed, method, precision), half_step_(T(dt / 2)), row_(std::move(row)) {}
+        storage_(packed, method, precision), row_(std::move(row)) {
+    for (const double step : dt) half_steps_.push_back(T(step / 2));
+  }
 
   bool is_staggered() const { return method_.is_staggered(); }
   const RowStorage& storage() const { return storage_; }
@@ -76,6 +78,7 @@ private:
     return plain + pack * std::size_t(packed_.fields() * W) + x % W;
   }
 
+  T half_step(int lane) const { return half_steps_[std::size_t(lane) % half_steps_.size()]; }
   /// Gets the fields of an element that the model has.
   void fields_out(const T* lane, std::span<double> out) const;
   /// A number in double precision, including its low part. `f` is its index in the model's fields.
@@ -96,7 +99,7 @@ private:
   const Method& method_;
   const Precision precision_;
   const RowStorage storage_;
-  const T half_step_;
+  std::vector<T> half_steps_; ///< [s]; one, or one a lane
   const RowAddress row_;
 };
 

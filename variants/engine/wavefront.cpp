@@ -98,21 +98,23 @@ int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowS
 }
 
 template <class T, int W>
-WavefrontStep<T, W>::WavefrontStep(PackedRows<T, W>& packed, const Method& method, double dt,
-                                   const RowStorage& storage, std::size_t signal_count,
-                                   std::vector<Block<T, W>>& blocks, std::size_t index,
-                                   PassShape shape, const ExtraLinks<T, W>& extra_links)
+WavefrontStep<T, W>::WavefrontStep(PackedRows<T, W>& packed, const Method& method,
+                                   std::span<const double> dt, const RowStorage& storage,
+                                   std::size_t signal_count, std::vector<Block<T, W>>& blocks,
+                                   std::size_t index, PassShape shape,
+                                   const ExtraLinks<T, W>& extra_links)
     : packed_(packed), fields_(storage.stored()), stages_(method.stages), steps_(shape.steps),
       row_size_(std::size_t(packed.max_packs) * std::size_t(fields_ * W)),
       links_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
-      block_(blocks[index]), signals_(signal_count, steps_ * method.stages),
-      extra_links_(extra_links), extra_wrenches_(packed, extra_links.rows()) {
+      block_(blocks[index]),
+      signals_(signal_count, steps_ * method.stages, packed.members().size()),
+      updates_(stage_updates<T>(method, storage, W, dt)), extra_links_(extra_links),
+      extra_wrenches_(packed, extra_links.rows()) {
   find_published_rows(blocks);
-  const std::vector<StageUpdate<T>> updates = stage_updates<T>(method, storage, W, dt);
   const std::vector<PassTask> tasks = order(shape.form);
-  make_places(tasks, updates);
-  tasks_[0] = make_tasks(tasks, updates, 0);
-  if (blocks.size() > 1 && steps_ == 1) tasks_[1] = make_tasks(tasks, updates, 1);
+  make_places(tasks);
+  tasks_[0] = make_tasks(tasks, 0);
+  if (blocks.size() > 1 && steps_ == 1) tasks_[1] = make_tasks(tasks, 1);
   places_.reset();
 }
 
@@ -152,10 +154,9 @@ std::vector<PassTask> WavefrontStep<T, W>::order(SweepForm form) const {
 }
 
 template <class T, int W>
-void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order,
-                                      const std::vector<StageUpdate<T>>& updates) {
+void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order) {
   std::vector<std::vector<int>> increments;
-  for (const StageUpdate<T>& update : updates) {
+  for (const StageUpdate<T>& update : updates_) {
     increments.emplace_back();
     for (const auto& [stage, alpha] : update.increments) increments.back().push_back(stage);
   }
@@ -171,8 +172,7 @@ void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order,
 }
 
 template <class T, int W>
-auto WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order,
-                                     const std::vector<StageUpdate<T>>& updates, int parity)
+auto WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order, int parity)
     -> std::vector<RowStage> {
   std::vector<RowStage> tasks;
   tasks.reserve(order.size());
@@ -196,8 +196,8 @@ auto WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order,
     if (const Applied<T>* applied = extra_wrenches_.applied(r)) stage.task.applied = applied;
     if (what.work == RowWork::stage) {
       T* const base = stepped_row(r, parity);
-      updates[std::size_t(s)].set(stage.task, base, is_last ? base : stage_row(s, r),
-                                  [&](int m) { return stage_row(m, r); });
+      updates_[std::size_t(s)].set(stage.task, base, is_last ? base : stage_row(s, r),
+                                   [&](int m) { return stage_row(m, r); });
     }
     tasks.push_back(stage);
   }
@@ -248,17 +248,26 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
   for (std::size_t n = 0; n < all.size(); ++n) {
     const RowStage& stage = all[n];
     if (n + 1 < all.size()) fetch(all[n + 1]);
-    if (stage.sweep < count && !compute(stage) && block_.owns(stage.row) &&
-        packed_.first_failed(stage.row, block_.row(stage.row), fields_)) {
-      const bool is_earlier = count > stage.sweep + 1 || block_.failed_row < 0;
-      block_.failed_row = is_earlier ? stage.row : std::min(block_.failed_row, stage.row);
-      block_.failed_step = stage.sweep / stages_;
+    if (stage.sweep < count && !compute(stage) && block_.owns(stage.row) && note_failures(stage) &&
+        !packed_.is_ensemble())
       count = stage.sweep + 1;
-    }
     if (stage.is_published && stage.sweep + 1 == steps * stages_)
       block_.publish(stage.row, parity ^ 1);
     if (std::ptrdiff_t(n) == watched_task_) watched_rows_done_();
   }
+}
+
+template <class T, int W>
+bool WavefrontStep<T, W>::note_failures(const RowStage& stage) {
+  bool has_failed = false;
+  for (std::size_t m = 0; m < block_.failures.size(); ++m) {
+    if (!packed_.is_live(int(m))) continue;
+    const auto element = packed_.first_failed(stage.row, block_.row(stage.row), fields_, int(m));
+    if (!element) continue;
+    block_.failures[m].meet(stage.sweep / stages_, *element);
+    has_failed = true;
+  }
+  return has_failed;
 }
 
 /// Tasks are read once a pass, so those of a large body are out of the cache by then.

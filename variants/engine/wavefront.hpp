@@ -54,17 +54,17 @@ int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowS
 template <class T, int W = simd::lanes<T>>
 class WavefrontStep {
 public:
-  /// @param dt      step [s]
+  /// @param dt      step [s]; of an ensemble: of each member
   /// @param blocks  all blocks
   /// @param index   of this block
   /// @param shape   the same for all blocks
-  WavefrontStep(PackedRows<T, W>& packed, const Method& method, double dt,
+  WavefrontStep(PackedRows<T, W>& packed, const Method& method, std::span<const double> dt,
                 const RowStorage& storage, std::size_t signal_count,
                 std::vector<Block<T, W>>& blocks, std::size_t index, PassShape shape,
                 const ExtraLinks<T, W>& extra_links);
   /// Computes one pass. It updates the block's own rows in place and publishes them under the other
-  /// parity. Sets the block's failed_row and failed_step to the first row that is non-finite after
-  /// the first failing step.
+  /// parity. Sets the block's failures. Steps after a failure are left out, except of an ensemble,
+  /// where the other members go on.
   /// @param signals  rows of the pass's stages (signal_rows.hpp)
   /// @param steps    at most those of the constructor
   /// @param parity   which published copies are current
@@ -111,9 +111,8 @@ private:
   void find_published_rows(std::vector<Block<T, W>>& blocks);
   void copy_halo(int parity);
   std::vector<PassTask> order(SweepForm form) const;
-  void make_places(const std::vector<PassTask>& order, const std::vector<StageUpdate<T>>& updates);
-  std::vector<RowStage> make_tasks(const std::vector<PassTask>& order,
-                                   const std::vector<StageUpdate<T>>& updates, int parity);
+  void make_places(const std::vector<PassTask>& order);
+  std::vector<RowStage> make_tasks(const std::vector<PassTask>& order, int parity);
   RowStage extra_task(const PassTask& what, int parity);
   /// The links of a sweep, as set_row takes them.
   struct SweepLinks {
@@ -125,6 +124,9 @@ private:
   static void fetch(const RowStage& next);
   /// @return false if a result is not finite
   bool compute(const RowStage& stage);
+  /// Looks for elements of a row that are not finite after a step.
+  /// @return whether there is one
+  bool note_failures(const RowStage& stage);
   void plan_fetches(const std::vector<PassTask>& order, int parity, std::vector<RowStage>& tasks);
 
   const PackedRows<T, W>& packed_;
@@ -132,6 +134,7 @@ private:
   const std::size_t row_size_, links_size_; ///< of a place [numbers]
   Block<T, W>& block_;
   StepSignals<T> signals_;
+  std::vector<StageUpdate<T>> updates_; ///< of each stage
   ExtraLinks<T, W> extra_links_;
   ExtraWrenches<T> extra_wrenches_;
   /// [parity][row]: rows of other blocks that this one reads.

@@ -13,7 +13,8 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       problem_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, device,
                layout),
-      rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }),
+      rows_(packed_, setup_.method, setup_.precision, setup_.steps(),
+            [this](int r) { return row(r); }),
       halo_rows_(problem_) {
   const PartWorksAlone alone(part_);
   // A GPU computes more work-items at once than there are rows, and a wavefront over all of them
@@ -23,8 +24,7 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
                          (is_part() && part_->is_every_stage);
   if (is_staged) refuse_tile(setup_, "it is computed stage by stage");
   if (is_staged)
-    staged_.emplace(packed_, setup_.problem, setup_.method, setup_.dt, rows_.storage(),
-                    layout.bands, part_);
+    staged_.emplace(packed_, setup_.method, setup_.dt, rows_.storage(), layout.bands, part_);
   else
     make_blocks();
   if (staged_) add_stages();
@@ -92,7 +92,7 @@ void ResidentExecutor<T, W>::make_blocks() {
   for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
     if (blocks[b].is_remote()) continue;
     add_neighbours(cuts, int(band++), halo);
-    WavefrontStep<T, W> step(packed_, method, setup_.dt, rows_.storage(),
+    WavefrontStep<T, W> step(packed_, method, setup_.steps(), rows_.storage(),
                              signal_count(setup_.problem), blocks, b, {steps_a_pass_, form_}, {});
     for (const int parity : {0, 1}) {
       const int begin = problem_.next_place();

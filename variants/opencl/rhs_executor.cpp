@@ -13,8 +13,9 @@ namespace dss::opencl {
 template <class T, int W>
 RhsExecutor<T, W>::RhsExecutor(const Setup& setup, const Device& device, const Layout& layout)
     : setup_(setup), rates_(setup.problem, setup.model, nullptr, device, layout, false),
-      rows_(packed_, setup_.method, setup_.precision, setup_.dt, [this](int r) { return row(r); }),
-      updates_(stage_updates<T>(setup_.method, rows_.storage(), W, setup_.dt)) {
+      rows_(packed_, setup_.method, setup_.precision, setup_.steps(),
+            [this](int r) { return row(r); }),
+      updates_(stage_updates<T>(setup_.method, rows_.storage(), W, setup_.steps())) {
   const std::size_t stored = packed_.readable_packs() * std::size_t(rows_.stored_fields() * W);
   state_ = dss::Buffer<T>(stored);
   plain_ = dss::Buffer<T>(rates_.size());
@@ -125,7 +126,9 @@ int RhsExecutor<T, W>::update_stage(int stage) {
         task, row(r), is_last ? row(r) : stage_row(stage, r),
         [&](int m) { return stage_row(m, r); }, step_);
     task.body = packed_row.body;
-    RowUpdate<Physics, T, W> update(task, scales_of(packed_, r).parts[3].factor);
+    const RateScales<T> scales = scales_of(packed_, r);
+    RowUpdate<Physics, T, W> update(task,
+                                    {task.beta, scales.parts[1].factor, scales.parts[3].factor});
     const T* const in = stage == 0 ? row(r) : stage_row(stage - 1, r);
     const T* const sums = sums_.data() + rows_.plain_offset(r);
     const auto element_at = [](const T* at) {

@@ -34,13 +34,15 @@ std::vector<Exact> exact_row(const CompiledKernel& kernel, std::size_t elements,
       in[n / fields * elements * fields + e * fields + n % fields] =
           exact_operand(kernel, int(n), e);
   with_physics<Exact>(kernel.model, [&]<class P>() {
-    constexpr Terms terms{.is_damped = true};
-    run_row_case(RowCase{kernel.is_last, int(fields), 1}, in.data(), out.data(), elements,
-                 row_elements, [&](const RowTask<Exact>& task) {
-                   const StageRow<P, Exact, terms> row{task};
-                   RowUpdate<P, Exact> update(task, row.turn_scale());
-                   row.run(update);
-                 });
+    const auto run = [&]<bool is_material>() {
+      run_row_case(RowCase{kernel.is_last, is_material, int(fields), 1}, in.data(), out.data(),
+                   elements, row_elements, [&](const RowTask<Exact>& task) {
+                     const StageRow<P, Exact, row_case_terms(is_material)> row{task};
+                     RowUpdate<P, Exact> update(task, row.update_scales());
+                     row.run(update);
+                   });
+    };
+    kernel.is_material ? run.template operator()<true>() : run.template operator()<false>();
   });
   out.resize(elements * fields);
   return out;

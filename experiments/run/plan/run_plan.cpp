@@ -194,6 +194,7 @@ void read_reference(const RunRequest& request, RunPlan& plan) {
 }
 
 std::string why_run_has_no_watch(const RunRequest& request, const RunPlan& plan) {
+  if (request.is_member) return "it is one of an ensemble";
   if (request.ranks > 1) return "it is one on several ranks";
   if (!request.hybrid.empty()) return "it is one of a hybrid";
   if (plan.adaptive) return "its steps are adaptive";

@@ -30,6 +30,8 @@ struct RunRequest {
   std::optional<double> rtol, atol;      ///< with rtol, steps are adaptive
   bool is_root = true;                   ///< all ranks run the same code; the root writes the files
   bool is_forced = false;                ///< run above the stability limit
+  std::string ensemble;                  ///< file of members, see members_file.hpp; or empty
+  bool is_member = false;                ///< it is one member of an ensemble
   std::optional<double> stability_limit; ///< limit [s] if already known; it is then not predicted
   long warmup_steps = 0;                 ///< steps before the clock starts; the state is then reset
   double warmup_s = 0;                   ///< least time of the warm-up of several workers [s]

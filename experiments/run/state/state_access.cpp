@@ -59,23 +59,33 @@ std::vector<double> whole_state(Executor& executor, std::size_t element_count) {
   return state;
 }
 
+std::optional<std::size_t> first_not_finite(std::span<const double> state) {
+  const auto bad =
+      std::ranges::find_if_not(state, [](double field) { return std::isfinite(field); });
+  if (bad == state.end()) return std::nullopt;
+  return std::size_t(bad - state.begin()) / field_count;
+}
+
 std::optional<std::size_t> first_not_finite(Executor& executor, std::size_t element_count) {
   std::optional<std::size_t> found;
   for_each_piece(executor, element_count, [&](std::size_t first, std::span<const double> fields) {
-    const auto bad =
-        std::ranges::find_if_not(fields, [](double field) { return std::isfinite(field); });
-    if (!found && bad != fields.end())
-      found = first + std::size_t(bad - fields.begin()) / field_count;
+    if (const auto bad = found ? std::nullopt : first_not_finite(fields)) found = first + *bad;
   });
   return found;
+}
+
+double max_displacement(std::span<const double> state) {
+  double most = 0;
+  for (std::size_t element = 0; element < state.size(); element += field_count)
+    most =
+        std::max(most, std::hypot(state[element + ux], state[element + uy], state[element + uz]));
+  return most;
 }
 
 double max_displacement(Executor& executor, std::size_t element_count) {
   double most = 0;
   for_each_piece(executor, element_count, [&](std::size_t, std::span<const double> fields) {
-    for (std::size_t element = 0; element < fields.size(); element += field_count)
-      most = std::max(most,
-                      std::hypot(fields[element + ux], fields[element + uy], fields[element + uz]));
+    most = std::max(most, max_displacement(fields));
   });
   return most;
 }

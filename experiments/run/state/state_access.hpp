@@ -24,9 +24,11 @@ void for_each_piece(Executor& executor, std::size_t element_count,
 std::vector<double> whole_state(Executor& executor, std::size_t element_count);
 
 /// The first element with a number that is not finite, if any.
+std::optional<std::size_t> first_not_finite(std::span<const double> state);
 std::optional<std::size_t> first_not_finite(Executor& executor, std::size_t element_count);
 
 /// Largest length of a displacement [m].
+double max_displacement(std::span<const double> state);
 double max_displacement(Executor& executor, std::size_t element_count);
 
 /// 64-bit digest of a state's bits (FNV-1a over its 64-bit words). -0 counts as +0. Numbers below

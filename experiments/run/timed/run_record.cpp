@@ -12,9 +12,15 @@ nlohmann::ordered_json record_of(const std::string& scene, const std::vector<Ove
   return json;
 }
 
+nlohmann::ordered_json run_json(const RunResult& result) {
+  nlohmann::ordered_json json;
+  for (const RunField& field : run_fields()) json[field.key] = field.value(result);
+  return json;
+}
+
 nlohmann::ordered_json run_json(const RunRequest& request, const RunResult& result) {
   nlohmann::ordered_json json = record_of(result.scene, request.overrides);
-  for (const RunField& field : run_fields()) json[field.key] = field.value(result);
+  json.update(run_json(result));
   return json;
 }
 

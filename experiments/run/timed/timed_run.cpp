@@ -25,7 +25,8 @@ DeviceUse since(const DeviceUse& before, DeviceUse now) {
 
 TimedRun::TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result)
     : plan_(plan), request_(request), problem_(plan.scene.problem), result_(result),
-      executor_(created(plan.model)), series_(new_series()), is_root_(request.is_root) {
+      executor_(created(plan.model)), series_(new_series()), is_root_(request.is_root),
+      oracle_check_(plan) {
   if (plan.reference) meter_.emplace(problem_, plan.reference->states);
   if (plan.model_choice.is_bounded)
     monitor_.emplace(problem_, plan.model, plan.model_choice.tolerance, plan.steps, plan.dt);
@@ -147,9 +148,8 @@ bool TimedRun::pass_all_stops() {
 }
 
 std::vector<long> TimedRun::stops() const {
-  std::vector<long> steps = plan_.frame_steps;
-  if (plan_.expected) steps.push_back(plan_.expected->steps);
-  if (has_tail()) steps.push_back(tail_start());
+  std::vector<long> steps = oracle_check_.stops();
+  steps.insert(steps.end(), plan_.frame_steps.begin(), plan_.frame_steps.end());
   for (long k = 1; meter_ && k <= plan_.reference->times.count; ++k)
     steps.push_back(k * plan_.steps_between);
   if (const long between = balance_interval(); between > 0)
@@ -266,15 +266,10 @@ double TimedRun::adapt_again(Usage& usage) {
 
 void TimedRun::look(long step) {
   const std::size_t count = problem_.lattice.element_count;
-  if (plan_.expected && step == plan_.expected->steps) {
-    CheckResult& check = result_.check;
-    check.is_done = true;
-    check.how = plan_.adaptive ? fmt::format("oracle at t = {:g} s", double(step) * plan_.dt)
-                               : fmt::format("oracle after {} steps", step);
-    check.tolerance = plan_.tolerance().run;
+  if (oracle_check_.is_wanted(step)) {
     const std::vector<double> state = whole_state(*executor_, count);
     const WorkAlone alone(*executor_, is_root_);
-    if (is_root_) check.error = state_error(problem_, plan_.expected->state, state);
+    if (is_root_) oracle_check_.look(step, state, equations(), result_.check);
   }
   if (const long between = balance_interval(); between > 0 && step > 0 && step % between == 0) {
     const DeviceUse before = device_use(*executor_);
@@ -283,33 +278,11 @@ void TimedRun::look(long step) {
   }
   if (meter_ && step > 0 && step % plan_.steps_between == 0)
     meter_->add(std::size_t(step / plan_.steps_between - 1), whole_state(*executor_, count));
-  if (has_tail() && step == tail_start()) tail_state_ = whole_state(*executor_, count);
-  if (has_tail() && step == plan_.steps) check_tail();
   if (std::binary_search(plan_.frame_steps.begin(), plan_.frame_steps.end(), step)) {
     const std::vector<double> state = whole_state(*executor_, count);
     const WorkAlone alone(*executor_, is_root_);
     series_.add(problem_, state, equations(), double(step) * plan_.dt);
   }
-}
-
-bool TimedRun::has_tail() const {
-  return plan_.expected && plan_.tail_steps > 0 && !plan_.adaptive &&
-         plan_.expected->steps < plan_.steps && plan_.method->family == Method::Family::runge_kutta;
-}
-
-void TimedRun::check_tail() {
-  const long steps = plan_.steps - tail_start();
-  const std::vector<double> state = whole_state(*executor_, problem_.lattice.element_count);
-  if (!is_root_) return;
-  const WorkAlone alone(*executor_, true);
-  const auto expected = continue_by_oracle(problem_, *plan_.method, equations(), plan_.dt,
-                                           tail_start(), steps, tail_state_);
-  result_.check.tail_error = state_error(problem_, expected, state);
-  result_.check.how += fmt::format(", and over the last {}", steps);
-}
-
-long TimedRun::tail_start() const {
-  return std::max(plan_.expected->steps, plan_.steps - plan_.tail_steps);
 }
 
 } // namespace dss

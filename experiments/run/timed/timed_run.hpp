@@ -3,8 +3,10 @@
 /// is inspected. Only advance() is timed.
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/timed/adaptive_steps.hpp"
+#include "experiments/run/timed/oracle_check.hpp"
 #include "experiments/run/timed/output.hpp"
 #include "experiments/run/timed/run_result.hpp"
+#include "experiments/run/timed/verdict.hpp"
 
 #include <memory>
 #include <optional>
@@ -12,9 +14,6 @@
 #include <vector>
 
 namespace dss {
-
-/// Signals are computed for this many steps at once, so steps are advanced in such chunks.
-constexpr long signal_steps = 256;
 
 /// Scope in which only the root rank works and the other ranks wait.
 class WorkAlone {
@@ -90,11 +89,6 @@ private:
   double adapt_again(Usage& usage);
 
   void look(long step);
-  /// True if the last steps are checked. Only Runge-Kutta runs can be: a leapfrog method cannot
-  /// restart from a state without its half-step velocities.
-  bool has_tail() const;
-  long tail_start() const;
-  void check_tail();
 
   // The following functions follow the energy (timed_run_energy.cpp).
 
@@ -159,7 +153,7 @@ private:
   std::optional<BalanceStart> balance_start_;
   std::optional<EnergyBalance> balance_; ///< if it is followed on the way
   DeviceUse used_by_looks_;
-  std::vector<double> tail_state_;
+  OracleCheck oracle_check_;
   std::optional<AccuracyMeter> meter_;
   /// set if --model auto chose a model of small rotations
   std::optional<ModelMonitor> monitor_;

@@ -1,6 +1,7 @@
 /// Follows the energy of a run, for its balance.
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/timed_run.hpp"
+#include "experiments/run/timed/verdict.hpp"
 #include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>
@@ -9,15 +10,10 @@
 namespace dss {
 namespace {
 
-/// Larger scenes have no balance: it holds the state several times.
-constexpr std::size_t balanced_elements = 250'000;
 /// Runs of at most this many element-steps and steps are computed once more with a look at each
 /// step, some 1 us an element, and some 10 us a look.
 constexpr double looked_at_by_steps = 1.2e6;
 constexpr long most_steps_looked_at = 20'000;
-/// Looks on the way in other runs: at most this many, and in all this many elements.
-constexpr long most_energy_looks = 16;
-constexpr long most_looked_at = 2'000'000;
 
 } // namespace
 
@@ -35,10 +31,7 @@ bool TimedRun::is_balanced_by_steps() const {
 
 long TimedRun::balance_interval() const {
   if (!balance_ || plan_.adaptive) return 0;
-  const auto count = long(problem_.lattice.element_count);
-  const long looks = std::clamp(most_looked_at / count, 1L, most_energy_looks);
-  const long chunks = (plan_.steps + looks * signal_steps - 1) / (looks * signal_steps);
-  return std::max(1L, chunks) * signal_steps;
+  return energy_look_interval(problem_.lattice.element_count, plan_.steps);
 }
 
 void TimedRun::begin_balance(long step, const std::vector<double>* state) {

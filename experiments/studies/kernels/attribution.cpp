@@ -36,8 +36,8 @@ const InstructionSet& isa_of(const CompiledKernel& kernel) {
 const CompiledKernel& row_kernel(const Plugin& plugin, const AttributionCase& one, bool is_last) {
   if (plugin.kernels != nullptr)
     for (const CompiledKernel& kernel : plugin.kernels())
-      if (kernel.is_row && kernel.is_last == is_last && kernel.model == one.model &&
-          kernel.precision == one.precision)
+      if (kernel.is_row && kernel.is_last == is_last && !kernel.is_material &&
+          kernel.model == one.model && kernel.precision == one.precision)
         return kernel;
   throw InputError(
       fmt::format("attribution: variant {} has no rows of model {}", plugin.name, name(one.model)));

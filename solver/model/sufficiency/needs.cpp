@@ -39,9 +39,8 @@ Need need(std::string name, bool is_needed, std::string why, std::string why_not
 }
 
 Need damping(const Problem& problem, Model model) {
-  const bool is_damped = any_link(problem, [](LinkLaw, const AxisConstants& a) {
-    return a.d_normal != 0 || a.d_shear != 0 || a.d_rot != Vec3{};
-  });
+  const bool is_damped =
+      any_link(problem, [](LinkLaw, const AxisConstants& a) { return a.is_damped(); });
   return need("damping of links", is_damped && !is_in_translation(problem, model),
               "links have d or dt",
               is_damped ? "no link is strained" : "all constants d and dt are zero");

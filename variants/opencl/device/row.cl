@@ -15,7 +15,7 @@ static inline exchange NAME(masked)(exchange x, const uint mask) {
 }
 static inline paper_law NAME(paper_law_of)(global const body_constants* body, int axis) {
   if (!FLAGS.is_oblong) axis = 0;
-  paper_law law = {SPLAT(body->edge[axis]), SPLAT(body->edge[axis] / 2), SPLAT(body->tau),
+  paper_law law = {SPLAT(body->edge[axis]), SPLAT(body->half_edge[axis]), SPLAT(body->tau),
                    SPLAT(body->kt2), SPLAT(body->dt)};
   return law;
 }
@@ -81,7 +81,7 @@ static inline REAL NAME(update)(device d, global const row_stage* task,
   if (is_applied) NAME(hold)(d, task, pack, &sum.force, &angular);
   const device_row row = {d.arena, task};
   const row_update k =
-      update_of_row(row, task->beta * d.step, body->inverse_mass,
-                    FLAGS.is_gyroscopic ? 1 : body->inverse_inertia[2]);
+      update_of_row(row, SPLAT(task->beta * d.step), SPLAT(body->inverse_mass),
+                    SPLAT(FLAGS.is_gyroscopic ? 1 : body->inverse_inertia[2]));
   return updated(k, place, i.e, sum.force, angular, check);
 }

@@ -1,0 +1,55 @@
+#pragma once
+/// Members of an ensemble that one executor computes: a member a lane of its packs.
+#include "experiments/run/plan/run_plan.hpp"
+#include "variants/api/api.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace dss {
+
+/// Members that advance together. Lanes without a member compute the first one once more.
+class MemberBatch {
+public:
+  /// @param members  at least one and at most `lanes`; alike in the sense of group_members; they
+  ///     outlive this object
+  /// @param lanes    members that the executor computes; 1: an executor of a problem alone
+  MemberBatch(std::vector<const RunPlan*> members, int lanes, const Setup& setup);
+
+  std::size_t size() const { return members_.size(); }
+  /// Writes the initial state of all members.
+  void restart();
+  /// Computes the signals of the next steps.
+  void prepare(long steps);
+  /// Advances all members that are alive by the steps of the last prepare().
+  void advance();
+  long step() const { return step_; }
+  /// Where a member failed: the step counts from the start. Empty while it is alive.
+  const std::optional<Outcome>& failure(std::size_t member) const { return failures_[member]; }
+  bool is_alive() const;
+  /// The present state of a member, 13 numbers an element. It is valid until the next advance().
+  std::span<const double> state(std::size_t member);
+  Executor& executor() { return *executor_; }
+
+private:
+  const RunPlan& plan_of_lane(std::size_t lane) const {
+    return *members_[lane < members_.size() ? lane : 0];
+  }
+  std::size_t lanes() const { return ensemble_ ? ensemble_->size() : 1; }
+
+  std::vector<const RunPlan*> members_;
+  std::optional<Ensemble> ensemble_;
+  std::unique_ptr<Executor> executor_;
+  long step_ = 0, next_steps_ = 0;
+  std::vector<double> signals_; ///< of the next steps
+  std::vector<std::optional<Outcome>> failures_;
+  std::vector<std::vector<double>> states_; ///< of each member; empty: not read since the last step
+};
+
+/// Groups members that one executor can compute: of equal model, method, steps, terms and loads.
+/// @return their indices, in batches of at most `lanes`
+std::vector<std::vector<std::size_t>> group_members(std::span<const RunPlan> members, int lanes);
+
+} // namespace dss

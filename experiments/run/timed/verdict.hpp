@@ -1,0 +1,36 @@
+#pragma once
+/// What the plan and the final state say of a run, and whether its energy can be right.
+#include "experiments/run/plan/run_plan.hpp"
+#include "experiments/run/timed/run_result.hpp"
+
+#include <vector>
+
+namespace dss {
+
+/// Above this size, a second copy of the state would need too much memory.
+constexpr std::size_t energy_elements = 2'000'000;
+
+/// Larger scenes have no energy balance: it holds the state several times.
+constexpr std::size_t balanced_elements = 250'000;
+
+/// Signals are computed for this many steps at once, so steps are advanced in such chunks.
+constexpr long signal_steps = 256;
+
+/// Steps between looks at the energy on the way: a whole number of chunks.
+long energy_look_interval(std::size_t elements, long steps);
+
+/// A result with everything that is known before the run.
+RunResult described(const RunPlan& plan, const RunRequest& request);
+
+/// Finds the energy of the final state, its drift and its stability limit.
+void describe_state(const RunPlan& plan, Rotation rotation, const std::vector<double>& state,
+                    RunResult& result);
+
+/// Judges whether displacements and energy are finite: a state may be finite and what follows from
+/// it may not. @throws InputError if that holds from the start
+void judge_range(const RunPlan& plan, Rotation rotation, RunResult& result);
+
+/// Judges the energy balance of the result, if it has one: the root alone has.
+void judge_energy(const RunPlan& plan, RunResult& result);
+
+} // namespace dss

@@ -1,0 +1,31 @@
+#include "solver/model/needed_terms.hpp"
+
+namespace dss {
+
+std::vector<Terms> needed_terms(const Problem& problem, Model model) {
+  const int axes = descriptor(model).axes;
+  Terms common;
+  common.is_tied = problem.stabilization.is_present();
+  for (const Body& body : problem.bodies) {
+    for (const AxisConstants& a : body.axis) {
+      common.is_damped |= a.is_damped();
+      common.is_bending |= body.law == LinkLaw::paper && a.k_rot != Vec3{};
+    }
+    common.is_gyroscopic |=
+        body.has_tensor_inertia() && !is_of_plane(model) && model != Model::axial;
+  }
+  // Rows do not compute extra links. Still, leapfrog must carry predicted velocities for damped
+  // ones, and in all parts alike.
+  common.is_damped |= problem.has_damped_links_elsewhere;
+  for (const ExtraLink& link : problem.extra_links) common.is_damped |= link.constants.is_damped();
+  std::vector<Terms> needs(problem.bodies.size(), common);
+  for (std::size_t b = 0; b < needs.size(); ++b) {
+    const Body& body = problem.bodies[b];
+    needs[b].is_material = body.law == LinkLaw::material;
+    needs[b].is_oblong =
+        (axes > 1 && body.edge[1] != body.edge[0]) || (axes > 2 && body.edge[2] != body.edge[0]);
+  }
+  return needs;
+}
+
+} // namespace dss

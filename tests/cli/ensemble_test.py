@@ -1,0 +1,128 @@
+"""`run --ensemble`: members side by side, each as a run of its own."""
+import csv
+import json
+import os
+import unittest
+
+import jsonschema
+
+from program import ProgramTest, dssbench, why_no_variant
+
+ROOT = os.path.join(os.path.dirname(__file__), "..", "..")
+BRACKETS = os.path.join(ROOT, "examples", "ensemble", "brackets.json")
+SHORT = ["--steps", 40, "--model", "spatial"]
+
+
+class Ensemble(ProgramTest):
+    def run_json(self, *arguments, code=0):
+        result = dssbench("run", *arguments, "--json", "-")
+        self.assertEqual(result.returncode, code, result.stderr)
+        return json.loads(result.stdout)
+
+    def members(self, *sets):
+        return self.write("m.json", json.dumps({"members": [{"set": s} for s in sets]}))
+
+    def single_digest(self, scene, values, *arguments):
+        sets = [word for key, value in values.items()
+                for word in ("--set", f"{key}={json.dumps(value)}")]
+        return self.run_json(scene, *sets, *arguments)["state_digest"]
+
+    def test_members_are_runs_of_their_own_to_the_last_bit(self):
+        with open(BRACKETS, encoding="utf-8") as file:
+            listed = json.load(file)["members"]
+        variants = [v for v in ("scalar", "avx2", "avx512") if why_no_variant(v) is None]
+        for variant in variants:
+            for precision, method in (("f64", "rk4"), ("f32", "velocity_verlet")):
+                options = [*SHORT, "--variant", variant, "--precision", precision,
+                           "--integrator", method]
+                whole = self.run_json("l_bracket", "--ensemble", BRACKETS, *options)
+                self.assertEqual(whole["elements"], 152 * len(listed))
+                for member, own in zip(listed, whole["members"], strict=True):
+                    self.assertEqual((own["name"], own["status"]), (member["name"], "ok"))
+                    single = self.single_digest("l_bracket", member.get("set", {}), *options)
+                    self.assertEqual(own["state_digest"], single, (variant, member["name"]))
+
+    def test_a_whole_has_the_same_digest_in_every_variant_and_on_threads(self):
+        variants = [v for v in ("scalar", "avx2", "avx512", "opencl") if why_no_variant(v) is None]
+        runs = [("--variant", v) for v in variants if v != "scalar"]
+        runs += [(*run, "--threads", 2) for run in runs]
+        digests = {self.run_json("two_bodies", "--ensemble", 11, *SHORT, *run)["state_digest"]
+                   for run in runs}
+        self.assertLessEqual(len(digests), 1)
+
+    def test_a_member_that_fails_ends_alone_and_is_named(self):
+        members = self.members({}, {"run.dt": 2.5e-6}, {})
+        options = ["--ensemble", members, "--model", "spatial", "--steps", 3000, "--force"]
+        whole = self.run_json("l_bracket", *options, code=3)
+        states = [member["status"] for member in whole["members"]]
+        self.assertEqual(states, ["ok", "unstable", "ok"])
+        first, _, last = (member["state_digest"] for member in whole["members"])
+        self.assertEqual(first, last)
+        single = dssbench("run", "l_bracket", "--set", "run.dt=2.5e-6", *options[2:])
+        words = dssbench("run", "l_bracket", *options).stderr
+        self.assertIn("member 2: the state is not finite after step", words)
+        step = whole["members"][1]["steps"]
+        self.assertIn(f"after step {step} ", single.stderr)
+        self.assertIn(f"after step {step} ", words)
+
+    def test_every_member_writes_its_files(self):
+        members = self.write("m.csv", "name,k\nsoft,900\nhard,1100\n")
+        result = dssbench("run", "two_elements", "--ensemble", members, "--steps", 50,
+                          "--output", self.path("o.vtu"), "--state", self.path("s.csv"),
+                          "--frames", 2, "--json", self.path("r.json"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in ("soft", "hard"):
+            for file in (f"o-{name}_0000.vtu", f"o-{name}_0002.vtu", f"o-{name}.pvd"):
+                self.assertTrue(os.path.exists(self.path(file)), os.listdir(self.directory))
+            with open(self.path(f"s-{name}.csv"), encoding="utf-8") as file:
+                self.assertEqual(len(list(csv.DictReader(file))), 2)
+        record = json.loads(self.read("r.json"))
+        soft, hard = record["members"]
+        self.assertEqual((soft["set"], hard["set"]), ({"k": "900"}, {"k": "1100"}))
+        self.assertNotEqual(soft["energy_j"], hard["energy_j"])
+        self.assertIsNotNone(soft["energy_error"])
+        self.assertIn("soft", result.stdout)
+
+    def test_samples_repeat_the_bits(self):
+        record = self.run_json("two_elements", "--ensemble", 5, "--steps", 20, "--samples", 3,
+                               "--repeat-for", 0.002)
+        self.assertEqual((record["samples"], record["status"]), (3, "ok"))
+        self.assertGreater(record["element_steps_per_s"], 0)
+
+    def test_bad_members_are_refused_before_anything_runs(self):
+        def refused(words, file, *options):
+            self.assert_refused(2, words, "run", "two_elements", "--ensemble", file, *options,
+                                "--json", self.path("none.json"))
+            self.assertFalse(os.path.exists(self.path("none.json")))
+
+        refused(["has no members"], self.write("a.json", '{"members": []}'))
+        refused(["has no members"], self.write("a.csv", "name,k\n"))
+        refused(["member 1", "no parameter", "kk"], self.members({"kk": 1}))
+        refused(["/members/0", "sets", "set"],
+                self.write("b.json", '{"members": [{"sets": {"k": 1}}]}'))
+        refused(["member 1", "nan"], self.write("n.csv", "k\nnan\n"))
+        refused(["member 1", "inf"], self.write("i.csv", "k\ninf\n"))
+        refused(["null", "/members/0/set/k"], self.members({"k": None}))
+        refused(["two members", "twin"], self.write("t.csv", "name,k\ntwin,1\ntwin,2\n"))
+        refused(["../up", "file names"], self.write("u.csv", "name,k\n../up,1\n"))
+        refused(["member 2", "3 elements, not 2", "same elements"],
+                self.members({}, {"bodies/0/geometry/box/0": 3}))
+        refused(["--rtol"], self.members({}), "--integrator", "dopri5", "--rtol", 1e-6)
+        refused([".json or .csv"], "members.txt")
+        refused(["give 1 to"], "0")
+        refused(["GB", "give fewer"], "1000000", "--set", "bodies/0/geometry/box/0=4000000")
+        refused(["--analysis"], "2", "--analysis", "static")
+
+    def test_the_schema_describes_the_examples(self):
+        folder = os.path.join(ROOT, "experiments", "run", "ensemble")
+        with open(os.path.join(folder, "members.schema.json"), encoding="utf-8") as file:
+            schema = json.load(file)
+        with open(BRACKETS, encoding="utf-8") as file:
+            jsonschema.validate(json.load(file), schema)
+        for bad in ({"members": []}, {"members": [{"sets": {}}]}, {"members": [{"name": "a/b"}]}):
+            with self.assertRaises(jsonschema.ValidationError):
+                jsonschema.validate(bad, schema)
+
+
+if __name__ == "__main__":
+    unittest.main()
