@@ -59,8 +59,12 @@ void for_each_on_all_cores(std::size_t count, const std::function<void(std::size
 void for_each_on_team(int threads, std::size_t count,
                       const std::function<void(std::size_t, std::size_t)>& work) {
   Turns turns(count, work);
-#pragma omp parallel num_threads(threads) if (threads > 1)
-  turns.take(std::size_t(omp_get_thread_num()));
+  if (threads == 1) {
+    turns.take(0); // a region of one thread would make the regions inside it nested
+  } else {
+#pragma omp parallel num_threads(threads)
+    turns.take(std::size_t(omp_get_thread_num()));
+  }
   turns.rethrow();
 }
 

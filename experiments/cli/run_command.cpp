@@ -1,6 +1,7 @@
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/run_summary.hpp"
+#include "experiments/run/ensemble/ensemble_plan.hpp"
 #include "experiments/run/ensemble/ensemble_run.hpp"
 #include "experiments/run/plan/job.hpp"
 #include "experiments/run/plan/names.hpp"
@@ -29,7 +30,8 @@ struct RunArguments {
 /// Reports all mistakes that can be found without ranks before any rank is started.
 void require_startable(RunRequest request) {
   request.is_model_auto = true;
-  const RunPlan plan = plan_run(request);
+  const RunPlan plan = request.ensemble.empty() ? plan_run(request)
+                                                : std::move(plan_ensemble(request).plans.front());
   if (request.ranks > most_ranks_here())
     throw InputError(fmt::format("--ranks {}: more than {} are too many for this machine; start "
                                  "them by mpirun and your hosts",
@@ -47,28 +49,24 @@ void require_no_tile_of_parts(const RunRequest& request) {
                                  request.tile));
 }
 
-/// Runs an ensemble. Members that failed are named after the others have been written.
+/// Runs an ensemble. One line names the members that failed, after the others have been written.
 int run_members(const RunRequest& request) {
   const EnsembleResult result = run_ensemble(request);
+  const RunResult& whole = result.whole;
   if (!request.json.empty() && request.is_root)
     write_json(request.json, ensemble_json(request, result));
   if (request.json != "-") print_ensemble(result);
-  if (result.whole.status == "ok") return exit_success;
-  bool is_unstable = false;
-  for (const auto& [member, own] : result.members) {
-    if (own.status == "ok") continue;
-    is_unstable |= own.status == "unstable";
-    fmt::print(stderr, "dssbench: {}: member {}: {}\n", own.scene, member.name, own.reason);
-  }
-  if (!result.whole.reason.empty())
-    fmt::print(stderr, "dssbench: {}: {}\n", result.whole.scene, result.whole.reason);
-  return is_unstable ? exit_unstable : exit_check_failed;
+  if (whole.status == "ok") return exit_success;
+  fmt::print(stderr, "dssbench: {}: {}\n", whole.scene, whole.reason);
+  return whole.status == "unstable" ? exit_unstable : exit_check_failed;
 }
 
 int run(const CLI::App& command, const RunArguments& arguments) {
   RunRequest request = arguments.request;
   request.overrides = parse_overrides(arguments.set);
   const std::string analysis = chosen_analysis(command, request, arguments.analysis);
+  if (request.ensemble.empty() && command.count("--ensemble") > 0)
+    throw InputError("--ensemble: give a file that ends in .json or .csv, or a number of members");
   if (analysis != "dynamic" && !request.ensemble.empty())
     throw InputError("--ensemble: members are computed in time; give --analysis dynamic");
   if (analysis != "dynamic") return run_analysis(analysis, request, arguments.analysis);

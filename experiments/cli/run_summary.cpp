@@ -134,11 +134,11 @@ void print_ensemble(const EnsembleResult& result) {
              1e-6 * whole.element_steps_per_s());
   std::vector<std::vector<std::string>> rows;
   for (const auto& [member, own] : result.members)
-    rows.push_back({member.name, own.status, fmt::format("{}", own.steps),
+    rows.push_back({member.name, own.status, own.model, fmt::format("{}", own.steps),
                     fmt::format("{:g}", own.dt_s), fmt::format("{:.6g}", own.max_displacement_m),
                     own.energy_j ? fmt::format("{:.6g}", *own.energy_j) : "",
                     fmt::format("{:016x}", own.digest)});
-  fmt::print("{}", text_table({"member", "status", "steps", "step [s]", "displacement [m]",
+  fmt::print("{}", text_table({"member", "status", "model", "steps", "step [s]", "displacement [m]",
                                "energy [J]", "state"},
                               rows));
   for (const std::string& file : whole.files) fmt::print("wrote {}\n", file);

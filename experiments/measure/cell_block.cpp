@@ -146,6 +146,9 @@ Block read_block(ObjectNode& object, const Sets& scale_sets, const CellRules& ru
   if (const auto ensemble = object.find("ensemble")) {
     const std::vector<int> counts = ensemble->counts(1);
     block.members.assign(counts.begin(), counts.end());
+    if (block.ranks.back() > 1 || !block.hybrids.front().empty())
+      ensemble->fail("members run side by side on one rank without hybrids; give ranks and hybrids "
+                     "a block of their own");
   }
   object.allow(rules.block_keys);
   object.finish();

@@ -12,7 +12,8 @@ KERNEL_COLUMNS = {
     "measured_ns_per_element_high": "to", "share_of_roof": "share of its roof",
     "limiter": "limiter", "check": "check", "status": "status", "reason": "reason"}
 # A step consists of these kernels; the others are parts of them.
-WHOLE = ["rk4_step", "rates", "stage_row", "stage_row_last", "stage_row_material"]
+WHOLE = ["rk4_step", "rates", "stage_row", "stage_row_last", "stage_row_material",
+         "stage_row_material_last"]
 ROOFLINE_FILTERS = [
     Filter("precision", "Precision", is_single=True), Filter("threads", "Threads", is_single=True),
     Filter("variant", "Variant"),

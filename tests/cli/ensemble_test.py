@@ -83,6 +83,55 @@ class Ensemble(ProgramTest):
         self.assertIsNotNone(soft["energy_error"])
         self.assertIn("soft", result.stdout)
 
+    def test_a_member_that_fails_leaves_no_files(self):
+        members = self.write("m.json", json.dumps({"members": [
+            {"name": "a"}, {"name": "b", "set": {"run.dt": 0.2}}, {"name": "c"}]}))
+        result = dssbench("run", "two_elements", "--ensemble", members, "--steps", 41, "--force",
+                          "--model", "spatial", "--frames", 3, "--output", self.path("o.vtu"),
+                          "--state", self.path("s.csv"), "--json", self.path("r.json"))
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("1 of 3 members failed; member b: ", result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1)
+        states = [own["status"] for own in json.loads(self.read("r.json"))["members"]]
+        self.assertEqual(states, ["ok", "unstable", "ok"])
+        files = os.listdir(self.directory)
+        self.assertTrue({"s-a.csv", "s-c.csv", "o-a.pvd", "o-c.pvd"} <= set(files), files)
+        self.assertEqual([file for file in files if "-b" in file], [])
+
+    def test_members_are_judged_as_runs_of_their_own(self):
+        # At its stability limit a run gains energy: the balance of every step shows it.
+        limit = self.run_json("two_elements", "--model", "spatial")["stability_limit_s"]
+        options = ["two_elements", "--model", "spatial", "--force", "--dt", limit, "--steps", 20]
+        single = self.run_json(*options, code=1)
+        member = self.run_json(*options, "--ensemble", 2, code=1)["members"][1]
+        self.assertEqual((single["status"], member["status"]), ("wrong", "wrong"))
+        self.assertEqual(single["energy_error"], member["energy_error"])
+
+    def test_the_rate_counts_the_steps_that_members_take(self):
+        members = self.members({"run.steps": 10}, {"run.steps": 2000})
+        whole = self.run_json("two_elements", "--ensemble", members, "--model", "spatial")
+        self.assertAlmostEqual(whole["element_steps_per_s"] * whole["wall_s"], 2 * 2010, places=3)
+        self.assertIsNone(whole["end_s"])
+
+    def test_models_are_those_of_single_runs_that_need_no_watch(self):
+        for scene in ("two_elements", "chain", "two_bodies"):
+            whole = self.run_json(scene, "--ensemble", 2, "--steps", 20)
+            single = self.run_json(scene, "--steps", 20)
+            if not single["model_choice"]["is_bounded"]:
+                self.assertEqual(whole["members"][1]["state_digest"], single["state_digest"])
+
+    def test_ranks_and_hybrids_compute_member_after_member(self):
+        if why_no_variant("mpi") is not None:
+            self.skipTest("no mpi")
+        single = self.run_json("l_bracket", *SHORT)["state_digest"]
+        for options in (["--ranks", 2, "--warmup", 5, "--warmup-time", 0.02],
+                        ["--variant", "hybrid"]):
+            whole = self.run_json("l_bracket", "--ensemble", 2, *SHORT, *options)
+            self.assertEqual([own["state_digest"] for own in whole["members"]], [single] * 2)
+            self.assertEqual(whole["ranks"], 2 if "--ranks" in options else 1)
+        self.assert_refused(2, ["member 2", "kk"], "run", "two_elements", "--ranks", 2,
+                            "--ensemble", self.members({}, {"kk": 1}))
+
     def test_samples_repeat_the_bits(self):
         record = self.run_json("two_elements", "--ensemble", 5, "--steps", 20, "--samples", 3,
                                "--repeat-for", 0.002)
@@ -108,6 +157,15 @@ class Ensemble(ProgramTest):
         refused(["member 2", "3 elements, not 2", "same elements"],
                 self.members({}, {"bodies/0/geometry/box/0": 3}))
         refused(["--rtol"], self.members({}), "--integrator", "dopri5", "--rtol", 1e-6)
+        refused(["--check-state"], self.members({}, {"k": 5}), "--check-state", "state")
+        refused(["row 2 is empty"], self.write("e.csv", "k,d\n1,2\n,\n"))
+        refused(["two columns", "k"], self.write("d.csv", "k,k\n1,2\n"))
+        refused(["member 1", "energy at the start"],
+                self.members({"initial/0/displacement/0": 1e200}))
+        refused(["give a file"], "")
+        self.assert_refused(2, ["cannot write"], "run", "two_elements", "--ensemble", 2,
+                            "--state", self.path("s.csv"), "--json", "/nonexist/r.json")
+        self.assertFalse(os.path.exists(self.path("s-1.csv")))
         refused([".json or .csv"], "members.txt")
         refused(["give 1 to"], "0")
         refused(["GB", "give fewer"], "1000000", "--set", "bodies/0/geometry/box/0=4000000")

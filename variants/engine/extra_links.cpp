@@ -47,6 +47,8 @@ void ExtraLinks<T, W>::compute(int n, const T* row_i, const T* row_j, int fields
   }
   const KernelSet<T>& kernels = *packed_->rows[link.places[0].row].kernels;
   alignas(64) T wrench[2][6 * W];
+  // A model without the link's axis leaves them as they are.
+  for (T* const end : wrench) std::fill_n(end, wrench_size(), T(0));
   if (packed_->is_ensemble())
     kernels.member_links(member_links_[std::size_t(n)], state[0], state[1], wrench[0], wrench[1]);
   else

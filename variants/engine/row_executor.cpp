@@ -234,6 +234,7 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
         for (std::size_t m = 0; m < failures.size(); ++m)
           if (const auto& failed = blocks[first_own + b].failures[m]; failed.step >= 0)
             failures[m].meet(n + failed.step, failed.element);
+      if (threads_ == 1) leave_out(failures); // others would read the lanes meanwhile
       synchronise();
       if (!is_part() && have_all_failed(failures, n + at_once))
         break; // a faster thread may already have failed in the next pass
@@ -258,12 +259,18 @@ Outcome RowExecutor<T>::outcome_of(const std::vector<FirstFailure>& failures, lo
   if (!packed_.is_ensemble()) return failures.front().outcome(steps);
   const bool is_over = have_all_failed(failures, steps);
   for (std::size_t m = 0; m < failures.size(); ++m) {
-    if (!packed_.is_live(int(m))) continue;
+    if (!outcomes_[m].is_finite) continue; // it failed earlier
     outcomes_[m] = failures[m].outcome(steps);
     outcomes_[m].element /= failures.size();
-    if (!outcomes_[m].is_finite) packed_.live_lanes &= simd::LaneMask(~(1u << m));
   }
+  leave_out(failures);
   return is_over ? outcomes_.front() : Outcome{true, steps, 0};
+}
+
+template <class T>
+void RowExecutor<T>::leave_out(const std::vector<FirstFailure>& failures) {
+  for (std::size_t m = 0; m < failures.size() && packed_.is_ensemble(); ++m)
+    if (failures[m].is_met()) packed_.live_lanes &= simd::LaneMask(~(1u << m));
 }
 
 template <class T>

@@ -99,6 +99,8 @@ private:
   std::size_t signal_width() const {
     return signal_count(setup_.problem) * packed_.members().size();
   }
+  /// Checks the lanes of these members no more.
+  void leave_out(const std::vector<FirstFailure>& failures);
   /// Makes the outcomes of the last advance, and leaves out the members that failed.
   Outcome outcome_of(const std::vector<FirstFailure>& failures, long steps);
   /// Whether all members failed before a step; false while one is left.

@@ -2,7 +2,11 @@
 
 #include "experiments/run/ensemble/member_batch.hpp"
 #include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+#include "solver/model/energy.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,11 +14,21 @@
 namespace dss {
 namespace {
 
-/// Options of a single run that its members do not take.
-void require_plain(const RunRequest& request) {
-  const auto refuse = [](const std::string& what) { throw InputError("--ensemble: " + what); };
-  if (request.rtol) refuse("members take equal steps; give --steps and --dt in place of --rtol");
-  if (!request.reference.empty()) refuse("a solution belongs to one run; leave --reference out");
+[[noreturn]] void refuse(const RunRequest& request, const std::string& what) {
+  throw InputError(fmt::format("--ensemble {}: {}", request.ensemble, what));
+}
+
+/// Refuses options of a single run that members do not take.
+void require_plain(const RunRequest& request, const std::vector<MemberSet>& members) {
+  if (request.rtol)
+    refuse(request, "members take equal steps; give --steps and --dt in place of --rtol");
+  const bool are_equal =
+      std::ranges::all_of(members, [](const MemberSet& member) { return member.set.empty(); });
+  if (!request.reference.empty() || (!request.check_state.empty() && !are_equal))
+    refuse(request, "a state or a solution belongs to one run; leave --check-state and "
+                    "--reference out");
+  if (request.is_root && !request.json.empty() && request.json != "-")
+    require_writable(request.json);
 }
 
 /// The file of a member: F.vtu becomes F-NAME.vtu.
@@ -36,24 +50,49 @@ RunRequest request_of(const RunRequest& request, const MemberSet& member) {
   return own;
 }
 
-/// Each member keeps its state, and so does its batch.
+/// Each member keeps its state in its batch, as it was read, and in its balance of the energy.
 void require_memory(const RunRequest& request, std::size_t members, std::size_t elements) {
-  const double needed =
-                   2.0 * double(members) * double(elements) * double(field_count * sizeof(double)),
+  constexpr double states = 6;
+  const double needed = states * double(members) * double(elements) *
+                        double(field_count * sizeof(double)),
                machine = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
   if (needed > machine)
-    throw InputError(fmt::format("{}: {} members of {} elements need {:.3g} GB or more; this "
-                                 "machine has {:.3g}; give fewer",
-                                 request.ensemble, members, elements, 1e-9 * needed,
-                                 1e-9 * machine));
+    refuse(request,
+           fmt::format("{} members of {} elements need {:.3g} GB or more; this machine has "
+                       "{:.3g}; give fewer",
+                       members, elements, 1e-9 * needed, 1e-9 * machine));
+}
+
+void require_finite_start(const RunPlan& plan) {
+  const Problem& problem = plan.scene.problem;
+  if (!std::isfinite(total_energy(problem, initial_state(problem), Rotation::quaternion)))
+    throw InputError("the energy at the start is beyond the range of numbers; give masses, lengths "
+                     "and velocities in SI units");
+}
+
+/// The plan of a member. Equal members share what was planned for the first.
+RunPlan plan_of(const RunRequest& own, const MemberSet& member, const EnsemblePlan& before) {
+  if (!before.plans.empty() && member.set.empty() && before.members.front().set.empty()) {
+    if (own.is_root) require_outputs_writable(own);
+    return before.plans.front();
+  }
+  RunPlan plan = plan_run(own);
+  require_finite_start(plan);
+  if (before.plans.empty()) return plan;
+  const std::string why =
+      why_other_topology(before.plans.front().scene.problem, plan.scene.problem);
+  if (!why.empty())
+    throw InputError(fmt::format("{} as member {} has; members have the same elements and links",
+                                 why, before.members.front().name));
+  return plan;
 }
 
 } // namespace
 
 EnsemblePlan plan_ensemble(const RunRequest& request) {
-  require_plain(request);
   EnsemblePlan plan;
   plan.members = read_members(request.ensemble);
+  require_plain(request, plan.members);
   plan.plans.reserve(plan.members.size());
   for (const MemberSet& member : plan.members) {
     const auto place = [&](const std::string& what) {
@@ -61,19 +100,15 @@ EnsemblePlan plan_ensemble(const RunRequest& request) {
     };
     plan.requests.push_back(request_of(request, member));
     try {
-      plan.plans.push_back(plan_run(plan.requests.back()));
+      plan.plans.push_back(plan_of(plan.requests.back(), member, plan));
     } catch (const InputError& error) {
       throw InputError(place(error.what()));
     } catch (const UnstableError& error) {
       throw UnstableError(place(error.what()));
     }
-    const Problem &first = plan.plans.front().scene.problem, &own = plan.plans.back().scene.problem;
-    if (const std::string why = why_other_topology(first, own); !why.empty())
-      throw InputError(place(fmt::format("{} as member {} has; members have the same elements and "
-                                         "links",
-                                         why, plan.members.front().name)));
     if (plan.plans.size() == 1)
-      require_memory(request, plan.members.size(), first.lattice.element_count);
+      require_memory(request, plan.members.size(),
+                     plan.plans.front().scene.problem.lattice.element_count);
   }
   const Plugin& plugin = *plan.plans.front().plugin;
   if (plugin.ensemble_lanes != nullptr)

@@ -18,16 +18,18 @@ struct MemberResult {
 
 /// The results of an ensemble.
 struct EnsembleResult {
-  /// The ensemble as one run: elements and links of all members, the digest of their digests. Not
-  /// "ok" if a member is not; the reason names the first such member.
+  /// The ensemble as one run: elements and links of all members, the digest of the states of all
+  /// that did not fail, batch by batch. Not "ok" if a member is not; the reason names such members.
+  /// What is not the same for all members is left out.
   RunResult whole;
   std::vector<MemberResult> members;
   std::size_t batches = 0; ///< executors; each computes one member or several
   int lanes = 1;           ///< members of a batch, at most
 };
 
-/// Runs all members of request.ensemble, each with the bits of a run of its own. A member that
-/// becomes unstable ends alone. Writes the output files of each: F.vtu becomes F-NAME.vtu.
+/// Runs all members of request.ensemble, each with the bits of a run of its own by the same model.
+/// A member that becomes unstable ends alone. Writes the output files of each: F.vtu becomes
+/// F-NAME.vtu.
 /// @throws InputError before anything runs: members whose elements or links differ, what plan_run
 ///     refuses for a member, and options that ensembles do not take
 EnsembleResult run_ensemble(const RunRequest& request);

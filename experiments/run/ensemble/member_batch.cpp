@@ -110,16 +110,18 @@ bool MemberBatch::is_alive() const {
   return std::ranges::any_of(failures_, [](const auto& failure) { return !failure; });
 }
 
-std::span<const double> MemberBatch::state(std::size_t member) {
-  if (states_[member].empty()) {
-    const std::size_t elements = members_.front()->scene.problem.lattice.element_count;
-    const std::vector<double> all = whole_state(*executor_, elements * lanes());
-    for (std::size_t m = 0; m < members_.size(); ++m) {
-      states_[m].resize(elements * field_count);
-      for (std::size_t n = 0; n < states_[m].size(); n += field_count)
-        std::copy_n(&all[n * lanes() + m * field_count], field_count, &states_[m][n]);
-    }
+void MemberBatch::read() {
+  const std::size_t elements = members_.front()->scene.problem.lattice.element_count;
+  const std::vector<double> all = whole_state(*executor_, elements * lanes());
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    states_[m].resize(elements * field_count);
+    for (std::size_t n = 0; n < states_[m].size(); n += field_count)
+      std::copy_n(&all[n * lanes() + m * field_count], field_count, &states_[m][n]);
   }
+}
+
+std::span<const double> MemberBatch::state(std::size_t member) {
+  if (states_[member].empty()) read();
   return states_[member];
 }
 

@@ -29,6 +29,8 @@ public:
   /// Where a member failed: the step counts from the start. Empty while it is alive.
   const std::optional<Outcome>& failure(std::size_t member) const { return failures_[member]; }
   bool is_alive() const;
+  /// Reads the present state of all members. Collective; state() does so too if it must.
+  void read();
   /// The present state of a member, 13 numbers an element. It is valid until the next advance().
   std::span<const double> state(std::size_t member);
   Executor& executor() { return *executor_; }

@@ -33,7 +33,14 @@ std::vector<MemberSet> members_of_json(const std::string& path) {
 std::vector<MemberSet> members_of_csv(const std::string& path) {
   const Table table = read_csv(path);
   std::vector<MemberSet> members;
+  std::vector<std::string> columns = table.columns;
+  std::ranges::sort(columns);
+  if (const auto twice = std::ranges::adjacent_find(columns); twice != columns.end())
+    throw InputError(fmt::format("{}: two columns are named \"{}\"; names differ", path, *twice));
   for (const Record& row : table.rows) {
+    if (std::ranges::all_of(row, [](const auto& item) { return item.second.empty(); }))
+      throw InputError(fmt::format("{}: row {} is empty; give its member a name or a value", path,
+                                   members.size() + 1));
     const std::string number = std::to_string(members.size() + 1), named = text_in(row, "name");
     MemberSet member{named.empty() ? number : named, {}};
     for (const std::string& key : table.columns)

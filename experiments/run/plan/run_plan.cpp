@@ -150,12 +150,6 @@ std::optional<StepTolerance> chosen_tolerance(const RunRequest& request, const M
   return StepTolerance{*request.rtol, atol};
 }
 
-void require_outputs_writable(const RunRequest& request) {
-  for (const std::string& path :
-       {request.output, request.state_csv, request.json == "-" ? std::string() : request.json})
-    if (!path.empty()) require_writable(path);
-}
-
 OracleState expected_state(const RunRequest& request, const RunPlan& plan) {
   OracleState expected = read_oracle_state(request.check_state);
   if (request.check_step != 0 && request.check_step != expected.steps)
@@ -225,6 +219,12 @@ ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
 }
 
 } // namespace
+
+void require_outputs_writable(const RunRequest& request) {
+  for (const std::string& path :
+       {request.output, request.state_csv, request.json == "-" ? std::string() : request.json})
+    if (!path.empty()) require_writable(path);
+}
 
 std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const Method& method,
                                Rotation rotation) {

@@ -42,6 +42,9 @@ struct RunPlan {
 /// Makes the plan of a request. @throws InputError, UnstableError as run_scene
 RunPlan plan_run(const RunRequest& request);
 
+/// Requires that the files of a request can be written. @throws InputError
+void require_outputs_writable(const RunRequest& request);
+
 /// A feature that a variant does not have but the run needs.
 struct Lack {
   std::string option; ///< option that asks for the feature: "--rotation tait_bryan"

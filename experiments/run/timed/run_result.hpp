@@ -76,9 +76,11 @@ struct RunResult {
   std::vector<std::string> files; ///< written files, as text
   /// status other than "ok": "unstable", "wrong", "bound"; reason: what happened, and where
   std::string status = "ok", reason;
+  /// Elements x steps, if not all elements took all steps: of an ensemble.
+  std::optional<double> element_steps;
   double sample_s() const { return wall_s * double(runs); } ///< time of that sample [s]
   double element_steps_per_s() const {
-    return wall_s > 0 ? double(elements) * double(steps) / wall_s : 0;
+    return wall_s > 0 ? element_steps.value_or(double(elements) * double(steps)) / wall_s : 0;
   }
 };
 

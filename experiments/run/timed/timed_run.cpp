@@ -33,15 +33,7 @@ TimedRun::TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& re
 }
 
 void TimedRun::run() {
-  result_.schedule = executor_->schedule();
-  result_.bytes = executor_->bytes();
-  result_.workers = executor_->workers();
-  result_.ranks = rank_info(*executor_);
-  if (!result_.ranks.variant.empty()) {
-    result_.variant = fmt::format("{}:{}", plan_.plugin->name, result_.ranks.variant);
-    result_.isa = result_.ranks.isa;
-    result_.has_fma = result_.ranks.has_fma;
-  }
+  describe_executor(*executor_, *plan_.plugin, result_);
   warm_up();
   write_initial_state(*executor_, problem_);
   begin_balance(0);

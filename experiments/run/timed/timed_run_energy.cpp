@@ -8,15 +8,6 @@
 #include <utility>
 
 namespace dss {
-namespace {
-
-/// Runs of at most this many element-steps and steps are computed once more with a look at each
-/// step, some 1 us an element, and some 10 us a look.
-constexpr double looked_at_by_steps = 1.2e6;
-constexpr long most_steps_looked_at = 20'000;
-
-} // namespace
-
 bool TimedRun::has_balance() const {
   return request_.has_balance && !plan_.reference && equations() != Rotation::small &&
          problem_.lattice.element_count <= balanced_elements;
@@ -25,8 +16,7 @@ bool TimedRun::has_balance() const {
 bool TimedRun::is_balanced_by_steps() const {
   // With adaptive steps, the number of steps is known at the end.
   const long steps = plan_.adaptive ? result_.steps : plan_.steps;
-  return steps <= most_steps_looked_at &&
-         double(problem_.lattice.element_count) * double(steps) <= looked_at_by_steps;
+  return dss::is_balanced_by_steps(problem_.lattice.element_count, steps);
 }
 
 long TimedRun::balance_interval() const {

@@ -63,6 +63,25 @@ long energy_look_interval(std::size_t elements, long steps) {
   return std::max(1L, chunks) * signal_steps;
 }
 
+bool is_balanced_by_steps(std::size_t elements, long steps) {
+  constexpr double most_looked_at = 1.2e6; // some 1 us an element
+  constexpr long most_steps = 20'000;      // some 10 us a look
+  return steps <= most_steps && double(elements) * double(steps) <= most_looked_at;
+}
+
+void describe_executor(Executor& executor, const Plugin& plugin, RunResult& result) {
+  result.schedule = executor.schedule();
+  result.bytes = executor.bytes();
+  result.workers = executor.workers();
+  result.ranks = rank_info(executor);
+  result.hybrid = hybrid_info(executor);
+  result.device_use.device = device_use(executor).device;
+  if (result.ranks.variant.empty()) return;
+  result.variant = fmt::format("{}:{}", plugin.name, result.ranks.variant);
+  result.isa = result.ranks.isa;
+  result.has_fma = result.ranks.has_fma;
+}
+
 RunResult described(const RunPlan& plan, const RunRequest& request) {
   RunResult result;
   result.scene = plan.scene.name;

@@ -19,6 +19,13 @@ constexpr long signal_steps = 256;
 /// Steps between looks at the energy on the way: a whole number of chunks.
 long energy_look_interval(std::size_t elements, long steps);
 
+/// Runs of at most so many element-steps and steps are computed once more, with a look at the
+/// energy after each step.
+bool is_balanced_by_steps(std::size_t elements, long steps);
+
+/// Says what computes: schedule, memory, workers, ranks and their variant, members of a hybrid.
+void describe_executor(Executor& executor, const Plugin& plugin, RunResult& result);
+
 /// A result with everything that is known before the run.
 RunResult described(const RunPlan& plan, const RunRequest& request);
 

@@ -1,0 +1,98 @@
+#include "experiments/run/ensemble/member_run.hpp"
+
+#include "experiments/run/state/state_access.hpp"
+#include "experiments/run/timed/breakdown.hpp"
+#include "experiments/run/timed/verdict.hpp"
+#include "solver/error.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace dss {
+
+MemberRun::MemberRun(const RunPlan& plan, const RunRequest& request)
+    : plan_(plan), request_(request), result_(described(plan, request)),
+      series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1),
+      oracle_check_(plan) {}
+
+bool MemberRun::has_balance() const {
+  return request_.has_balance && equations() != Rotation::small &&
+         plan_.scene.problem.lattice.element_count <= balanced_elements;
+}
+
+std::uint64_t MemberRun::digest_of(std::span<const double> state) const {
+  StateDigest digest(plan_.precision);
+  digest.add(state);
+  return digest.value();
+}
+
+void MemberRun::guarded(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const UnstableError& error) {
+    result_.status = "unstable";
+    result_.reason = error.what();
+  }
+  if (!is_ok()) series_.discard();
+}
+
+void MemberRun::look(std::span<const double> state, long step) {
+  const Problem& problem = plan_.scene.problem;
+  const double time = double(step) * plan_.dt;
+  if (step == 0 && has_balance()) balance_.emplace(problem, equations(), state, time, false);
+  const long between = energy_look_interval(problem.lattice.element_count, plan_.steps);
+  if (balance_ && step > 0 && (step % between == 0 || step == plan_.steps))
+    balance_->look(state, time);
+  if (oracle_check_.is_wanted(step)) oracle_check_.look(step, state, equations(), result_.check);
+  if (std::ranges::binary_search(plan_.frame_steps, step))
+    guarded([&] { series_.add(problem, {state.begin(), state.end()}, equations(), time); });
+}
+
+void MemberRun::fail(const Outcome& failure) {
+  guarded([&] {
+    result_.steps = failure.step + 1;
+    throw UnstableError(
+        fmt::format("{}; take --dt below {:.6g} s",
+                    breakdown_text(failure.what, failure.step, plan_.dt, failure.element),
+                    plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt));
+  });
+}
+
+void MemberRun::end(std::span<const double> state) {
+  const std::vector<double> copy(state.begin(), state.end());
+  guarded([&] {
+    result_.max_displacement_m = max_displacement(state);
+    result_.digest = digest_of(state);
+    if (plan_.scene.problem.lattice.element_count <= energy_elements)
+      describe_state(plan_, equations(), copy, result_);
+    judge_range(plan_, equations(), result_);
+    if (!is_ok()) return;
+    if (!request_.state_csv.empty()) {
+      if (request_.is_root) write_state(request_.state_csv, plan_.scene.problem, copy, equations());
+      result_.files.push_back(request_.state_csv);
+    }
+    if (const std::string written = series_.finish(); !written.empty())
+      result_.files.push_back(written);
+  });
+  if (is_ok() && balance_) result_.balance = balance_->shares();
+}
+
+void MemberRun::begin_steps() {
+  balance_.emplace(plan_.scene.problem, equations(), initial_state(plan_.scene.problem), 0.0,
+                   !plan_.method->is_implicit());
+}
+
+void MemberRun::look_at_step(std::span<const double> state, long step) {
+  balance_->look(state, double(step) * plan_.dt);
+  if (step == plan_.steps) result_.balance = balance_->shares();
+}
+
+void MemberRun::judge(std::span<const double> last) {
+  judge_check(result_);
+  judge_energy(plan_, result_);
+  if (!is_ok() || digest_of(last) == result_.digest) return;
+  result_.status = "wrong";
+  result_.reason = "the bits of a later run from the same state are not those of the first";
+}
+
+} // namespace dss

@@ -1,0 +1,58 @@
+#pragma once
+/// What one member of an ensemble makes of its states on the way: looks at its energy, checks,
+/// files, its result.
+#include "experiments/run/plan/run_plan.hpp"
+#include "experiments/run/timed/oracle_check.hpp"
+#include "experiments/run/timed/output.hpp"
+#include "experiments/run/timed/run_result.hpp"
+#include "solver/model/rotation_vector.hpp"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace dss {
+
+/// One member. A failure of any kind becomes its status, and removes its files.
+class MemberRun {
+public:
+  /// @param plan, request  of the member; they outlive this object
+  MemberRun(const RunPlan& plan, const RunRequest& request);
+  bool is_ok() const { return result_.status == "ok"; }
+  const RunResult& result() const { return result_; }
+  const OracleCheck& oracle_check() const { return oracle_check_; }
+  /// True if the energy of the member is followed.
+  bool has_balance() const;
+  /// Takes the state after `step` steps, for everything that wants it. Called at step 0, at all
+  /// stops and at the end.
+  void look(std::span<const double> state, long step);
+  /// The member became unstable; steps count from the start.
+  void fail(const Outcome& failure);
+  /// Takes the final state.
+  void end(std::span<const double> state);
+  /// Begins a second run whose every step is looked at: for the whole balance of the energy.
+  void begin_steps();
+  void look_at_step(std::span<const double> state, long step);
+  /// Judges check and energy, after all runs.
+  /// @param last  the final state of the last run, whose bits must be those of the first
+  void judge(std::span<const double> last);
+  void discard_files() { series_.discard(); }
+
+private:
+  Rotation equations() const {
+    return plan_.rotation == Rotation::quaternion ? rotation_of(plan_.model) : plan_.rotation;
+  }
+  std::uint64_t digest_of(std::span<const double> state) const;
+  /// Makes an UnstableError of the member its status.
+  void guarded(const std::function<void()>& act);
+
+  const RunPlan& plan_;
+  const RunRequest& request_;
+  RunResult result_;
+  FrameSeries series_;
+  OracleCheck oracle_check_;
+  std::optional<EnergyBalance> balance_;
+};
+
+} // namespace dss
