@@ -4,8 +4,8 @@
  * for the material law. Masses and ties are scaled to match. */
 NUMBER edge[3], half_edge[3]; /* half: a product in the row would cost a register */
 NUMBER edge_ratio;            /* edge along y over edge along x */
-NUMBER inverse_unit;        /* 1 / unit */
-NUMBER tau, kt2, dt;        /* paper's law */
+NUMBER inverse_unit;          /* 1 / unit */
+NUMBER tau, kt2, dt;          /* paper's law */
 struct {
   NUMBER k_s, k_ns, d_s, d_ns, k_z, k_xz, k_yz, d_z, d_xz, d_yz;
 } axis[3]; /* material law */
