@@ -13,6 +13,10 @@ BRACKETS = os.path.join(ROOT, "examples", "ensemble", "brackets.json")
 SHORT = ["--steps", 40, "--model", "spatial"]
 
 
+def members_of(record):
+    return record["ensemble"]["members"]
+
+
 class Ensemble(ProgramTest):
     def run_json(self, *arguments, code=0):
         result = dssbench("run", *arguments, "--json", "-")
@@ -37,7 +41,7 @@ class Ensemble(ProgramTest):
                            "--integrator", method]
                 whole = self.run_json("l_bracket", "--ensemble", BRACKETS, *options)
                 self.assertEqual(whole["elements"], 152 * len(listed))
-                for member, own in zip(listed, whole["members"], strict=True):
+                for member, own in zip(listed, members_of(whole), strict=True):
                     self.assertEqual((own["name"], own["status"]), (member["name"], "ok"))
                     single = self.single_digest("l_bracket", member.get("set", {}), *options)
                     self.assertEqual(own["state_digest"], single, (variant, member["name"]))
@@ -54,14 +58,14 @@ class Ensemble(ProgramTest):
         members = self.members({}, {"run.dt": 2.5e-6}, {})
         options = ["--ensemble", members, "--model", "spatial", "--steps", 3000, "--force"]
         whole = self.run_json("l_bracket", *options, code=3)
-        states = [member["status"] for member in whole["members"]]
+        states = [member["status"] for member in members_of(whole)]
         self.assertEqual(states, ["ok", "unstable", "ok"])
-        first, _, last = (member["state_digest"] for member in whole["members"])
+        first, _, last = (member["state_digest"] for member in members_of(whole))
         self.assertEqual(first, last)
         single = dssbench("run", "l_bracket", "--set", "run.dt=2.5e-6", *options[2:])
         words = dssbench("run", "l_bracket", *options).stderr
         self.assertIn("member 2: the state is not finite after step", words)
-        step = whole["members"][1]["steps"]
+        step = members_of(whole)[1]["steps"]
         self.assertIn(f"after step {step} ", single.stderr)
         self.assertIn(f"after step {step} ", words)
 
@@ -77,7 +81,7 @@ class Ensemble(ProgramTest):
             with open(self.path(f"s-{name}.csv"), encoding="utf-8") as file:
                 self.assertEqual(len(list(csv.DictReader(file))), 2)
         record = json.loads(self.read("r.json"))
-        soft, hard = record["members"]
+        soft, hard = members_of(record)
         self.assertEqual((soft["set"], hard["set"]), ({"k": "900"}, {"k": "1100"}))
         self.assertNotEqual(soft["energy_j"], hard["energy_j"])
         self.assertIsNotNone(soft["energy_error"])
@@ -92,7 +96,7 @@ class Ensemble(ProgramTest):
         self.assertEqual(result.returncode, 3)
         self.assertIn("1 of 3 members failed; member b: ", result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1)
-        states = [own["status"] for own in json.loads(self.read("r.json"))["members"]]
+        states = [own["status"] for own in members_of(json.loads(self.read("r.json")))]
         self.assertEqual(states, ["ok", "unstable", "ok"])
         files = os.listdir(self.directory)
         self.assertTrue({"s-a.csv", "s-c.csv", "o-a.pvd", "o-c.pvd"} <= set(files), files)
@@ -103,7 +107,7 @@ class Ensemble(ProgramTest):
         limit = self.run_json("two_elements", "--model", "spatial")["stability_limit_s"]
         options = ["two_elements", "--model", "spatial", "--force", "--dt", limit, "--steps", 20]
         single = self.run_json(*options, code=1)
-        member = self.run_json(*options, "--ensemble", 2, code=1)["members"][1]
+        member = members_of(self.run_json(*options, "--ensemble", 2, code=1))[1]
         self.assertEqual((single["status"], member["status"]), ("wrong", "wrong"))
         self.assertEqual(single["energy_error"], member["energy_error"])
 
@@ -118,7 +122,7 @@ class Ensemble(ProgramTest):
             whole = self.run_json(scene, "--ensemble", 2, "--steps", 20)
             single = self.run_json(scene, "--steps", 20)
             if not single["model_choice"]["is_bounded"]:
-                self.assertEqual(whole["members"][1]["state_digest"], single["state_digest"])
+                self.assertEqual(members_of(whole)[1]["state_digest"], single["state_digest"])
 
     def test_ranks_and_hybrids_compute_member_after_member(self):
         if why_no_variant("mpi") is not None:
@@ -127,7 +131,7 @@ class Ensemble(ProgramTest):
         for options in (["--ranks", 2, "--warmup", 5, "--warmup-time", 0.02],
                         ["--variant", "hybrid"]):
             whole = self.run_json("l_bracket", "--ensemble", 2, *SHORT, *options)
-            self.assertEqual([own["state_digest"] for own in whole["members"]], [single] * 2)
+            self.assertEqual([own["state_digest"] for own in members_of(whole)], [single] * 2)
             self.assertEqual(whole["ranks"], 2 if "--ranks" in options else 1)
         self.assert_refused(2, ["member 2", "kk"], "run", "two_elements", "--ranks", 2,
                             "--ensemble", self.members({}, {"kk": 1}))

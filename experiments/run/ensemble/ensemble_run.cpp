@@ -347,16 +347,16 @@ EnsembleResult run_ensemble(const RunRequest& request) {
 
 nlohmann::ordered_json ensemble_json(const RunRequest& request, const EnsembleResult& result) {
   nlohmann::ordered_json json = run_json(request, result.whole);
-  json["batches"] = result.batches;
-  json["lanes"] = result.lanes;
-  json["members"] = nlohmann::ordered_json::array();
+  nlohmann::ordered_json members = nlohmann::ordered_json::array();
   for (const MemberResult& member : result.members) {
     nlohmann::ordered_json own = {{"name", member.member.name},
                                   {"set", nlohmann::ordered_json::object()}};
     for (const Override& item : member.member.set) own["set"][item.key] = item.value;
     own.update(run_json(member.result));
-    json["members"].push_back(std::move(own));
+    members.push_back(std::move(own));
   }
+  json["ensemble"] = {
+      {"batches", result.batches}, {"lanes", result.lanes}, {"members", std::move(members)}};
   return json;
 }
 

@@ -34,7 +34,7 @@ struct EnsembleResult {
 ///     refuses for a member, and options that ensembles do not take
 EnsembleResult run_ensemble(const RunRequest& request);
 
-/// The record of an ensemble: that of `whole`, then "members" with a record each.
+/// The record of an ensemble: that of `whole`, then "ensemble" with a record of each member.
 nlohmann::ordered_json ensemble_json(const RunRequest& request, const EnsembleResult& result);
 
 } // namespace dss
