@@ -3,6 +3,7 @@
 #include "solver/model/ensemble.hpp"
 #include "tests/equivalence/comparison.hpp"
 #include "tests/fixtures/problems.hpp"
+#include "variants/engine/kernel_set.hpp"
 
 #include <gtest/gtest.h>
 
@@ -142,6 +143,7 @@ TEST_P(EveryEnsemble, has_the_bits_of_single_runs_in_every_method) {
 TEST_P(EveryEnsemble, has_the_bits_of_single_runs_in_every_model) {
   for (const Scheme& scheme : brief_schemes())
     for (const Model model : models) {
+      if (!is_built(model)) continue;
       if (model == Model::axial) {
         for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material})
           expect_bits_of_single_runs(fixture::make_bars(3, 4, law), scheme, model);
