@@ -1,12 +1,11 @@
 #include "experiments/run/ensemble/ensemble_plan.hpp"
 
 #include "experiments/run/ensemble/member_batch.hpp"
+#include "experiments/run/timed/verdict.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
-#include "solver/model/energy.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -63,13 +62,6 @@ void require_memory(const RunRequest& request, std::size_t members, std::size_t 
                        members, elements, 1e-9 * needed, 1e-9 * machine));
 }
 
-void require_finite_start(const RunPlan& plan) {
-  const Problem& problem = plan.scene.problem;
-  if (!std::isfinite(total_energy(problem, initial_state(problem), Rotation::quaternion)))
-    throw InputError("the energy at the start is beyond the range of numbers; give masses, lengths "
-                     "and velocities in SI units");
-}
-
 /// The plan of a member. Equal members share what was planned for the first.
 RunPlan plan_of(const RunRequest& own, const MemberSet& member, const EnsemblePlan& before) {
   if (!before.plans.empty() && member.set.empty() && before.members.front().set.empty()) {
@@ -77,7 +69,7 @@ RunPlan plan_of(const RunRequest& own, const MemberSet& member, const EnsemblePl
     return before.plans.front();
   }
   RunPlan plan = plan_run(own);
-  require_finite_start(plan);
+  require_finite_start(plan.scene.problem, Rotation::quaternion);
   if (before.plans.empty()) return plan;
   const std::string why =
       why_other_topology(before.plans.front().scene.problem, plan.scene.problem);

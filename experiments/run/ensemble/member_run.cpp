@@ -1,12 +1,9 @@
 #include "experiments/run/ensemble/member_run.hpp"
 
 #include "experiments/run/state/state_access.hpp"
-#include "experiments/run/timed/breakdown.hpp"
-#include "experiments/run/timed/verdict.hpp"
 #include "solver/error.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace dss {
 
@@ -14,11 +11,6 @@ MemberRun::MemberRun(const RunPlan& plan, const RunRequest& request)
     : plan_(plan), request_(request), result_(described(plan, request)),
       series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1),
       oracle_check_(plan) {}
-
-bool MemberRun::has_balance() const {
-  return request_.has_balance && equations() != Rotation::small &&
-         plan_.scene.problem.lattice.element_count <= balanced_elements;
-}
 
 std::uint64_t MemberRun::digest_of(std::span<const double> state) const {
   StateDigest digest(plan_.precision);
@@ -51,10 +43,7 @@ void MemberRun::look(std::span<const double> state, long step) {
 void MemberRun::fail(const Outcome& failure) {
   guarded([&] {
     result_.steps = failure.step + 1;
-    throw UnstableError(
-        fmt::format("{}; take --dt below {:.6g} s",
-                    breakdown_text(failure.what, failure.step, plan_.dt, failure.element),
-                    plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt));
+    throw UnstableError(breakdown_reason(plan_, failure, failure.step));
   });
 }
 

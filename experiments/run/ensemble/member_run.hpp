@@ -5,7 +5,7 @@
 #include "experiments/run/timed/oracle_check.hpp"
 #include "experiments/run/timed/output.hpp"
 #include "experiments/run/timed/run_result.hpp"
-#include "solver/model/rotation_vector.hpp"
+#include "experiments/run/timed/verdict.hpp"
 
 #include <functional>
 #include <optional>
@@ -23,7 +23,7 @@ public:
   const RunResult& result() const { return result_; }
   const OracleCheck& oracle_check() const { return oracle_check_; }
   /// True if the energy of the member is followed.
-  bool has_balance() const;
+  bool has_balance() const { return has_energy_balance(plan_, request_, equations()); }
   /// Takes the state after `step` steps, for everything that wants it. Called at step 0, at all
   /// stops and at the end.
   void look(std::span<const double> state, long step);
@@ -40,9 +40,7 @@ public:
   void discard_files() { series_.discard(); }
 
 private:
-  Rotation equations() const {
-    return plan_.rotation == Rotation::quaternion ? rotation_of(plan_.model) : plan_.rotation;
-  }
+  Rotation equations() const { return equations_of(plan_, plan_.model); }
   std::uint64_t digest_of(std::span<const double> state) const;
   /// Makes an UnstableError of the member its status.
   void guarded(const std::function<void()>& act);

@@ -1,7 +1,6 @@
 #include "experiments/run/timed/timed_run.hpp"
 #include "experiments/base/clock.hpp"
 #include "experiments/run/state/state_access.hpp"
-#include "experiments/run/timed/breakdown.hpp"
 #include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>
@@ -186,10 +185,7 @@ bool TimedRun::is_finite_after(long step) {
 void TimedRun::report_breakdown(long step, const Outcome& outcome, RunResult& result) const {
   result.status = "unstable";
   result.steps = step + 1;
-  result.reason =
-      fmt::format("{}: {}; take --dt below {:.6g} s", problem_.name,
-                  breakdown_text(outcome.what, step, plan_.dt, outcome.element),
-                  plan_.dt > plan_.stability_limit ? plan_.stability_limit : 0.5 * plan_.dt);
+  result.reason = fmt::format("{}: {}", problem_.name, breakdown_reason(plan_, outcome, step));
 }
 
 void TimedRun::sum_over_ranks(const Traffic& before) {

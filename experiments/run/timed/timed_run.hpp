@@ -53,9 +53,7 @@ public:
 
   /// The model that computed last, and the rotations with which the oracle has the same equations.
   Model model() const { return model_; }
-  Rotation equations() const {
-    return plan_.rotation == Rotation::quaternion ? rotation_of(model_) : plan_.rotation;
-  }
+  Rotation equations() const { return equations_of(plan_, model_); }
   Executor& executor() { return *executor_; }
 
 private:
@@ -92,9 +90,6 @@ private:
 
   // The following functions follow the energy (timed_run_energy.cpp).
 
-  /// False if the request says so, for scenes that are too large, for runs against a solution,
-  /// whose errors say more, and for Rotation::small, whose equations keep no energy.
-  bool has_balance() const;
   /// Follows the energy from the state that was written to the executor, after `step` steps.
   /// @param state  null: the initial state
   void begin_balance(long step, const std::vector<double>* state = nullptr);

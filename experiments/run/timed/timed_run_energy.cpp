@@ -8,11 +8,6 @@
 #include <utility>
 
 namespace dss {
-bool TimedRun::has_balance() const {
-  return request_.has_balance && !plan_.reference && equations() != Rotation::small &&
-         problem_.lattice.element_count <= balanced_elements;
-}
-
 bool TimedRun::is_balanced_by_steps() const {
   // With adaptive steps, the number of steps is known at the end.
   const long steps = plan_.adaptive ? result_.steps : plan_.steps;
@@ -27,7 +22,7 @@ long TimedRun::balance_interval() const {
 void TimedRun::begin_balance(long step, const std::vector<double>* state) {
   balance_.reset();
   balance_start_.reset();
-  if (!has_balance()) return;
+  if (!has_energy_balance(plan_, request_, equations())) return;
   balance_start_ = {state != nullptr ? *state : initial_state(problem_), step};
   if (plan_.adaptive || !is_balanced_by_steps())
     balance_.emplace(problem_, equations(), balance_start_->state, double(step) * plan_.dt, false);

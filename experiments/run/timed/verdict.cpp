@@ -1,5 +1,5 @@
 #include "experiments/run/timed/verdict.hpp"
-#include "experiments/run/state/state_access.hpp"
+#include "experiments/run/timed/breakdown.hpp"
 #include "solver/error.hpp"
 #include "solver/model/energy.hpp"
 #include "solver/numerics/stability.hpp"
@@ -63,6 +63,28 @@ long energy_look_interval(std::size_t elements, long steps) {
   return std::max(1L, chunks) * signal_steps;
 }
 
+Rotation equations_of(const RunPlan& plan, Model model) {
+  return plan.rotation == Rotation::quaternion ? rotation_of(model) : plan.rotation;
+}
+
+bool has_energy_balance(const RunPlan& plan, const RunRequest& request, Rotation equations) {
+  return request.has_balance && !plan.reference && equations != Rotation::small &&
+         plan.scene.problem.lattice.element_count <= balanced_elements;
+}
+
+std::string breakdown_reason(const RunPlan& plan, const Outcome& outcome, long step) {
+  return fmt::format("{}; take --dt below {:.6g} s",
+                     breakdown_text(outcome.what, step, plan.dt, outcome.element),
+                     plan.dt > plan.stability_limit ? plan.stability_limit : 0.5 * plan.dt);
+}
+
+void require_finite_start(const Problem& problem, Rotation rotation) {
+  if (!std::isfinite(total_energy(problem, initial_state(problem), rotation)))
+    throw InputError(fmt::format("{}: the energy at the start is beyond the range of numbers; give "
+                                 "masses, lengths and velocities in SI units",
+                                 problem.name));
+}
+
 bool is_balanced_by_steps(std::size_t elements, long steps) {
   constexpr double most_looked_at = 1.2e6; // some 1 us an element
   constexpr long most_steps = 20'000;      // some 10 us a look
@@ -122,10 +144,7 @@ void judge_range(const RunPlan& plan, Rotation rotation, RunResult& result) {
   if (std::isfinite(result.max_displacement_m) && std::isfinite(result.energy_j.value_or(0)))
     return;
   const Problem& problem = plan.scene.problem;
-  if (!std::isfinite(total_energy(problem, initial_state(problem), rotation)))
-    throw InputError(fmt::format("{}: the energy at the start is beyond the range of numbers; give "
-                                 "masses, lengths and velocities in SI units",
-                                 problem.name));
+  require_finite_start(problem, rotation);
   result.status = "unstable";
   result.reason = fmt::format("{}: displacements or energy at the end are beyond the range of "
                               "numbers; take --dt below {:.6g} s",

@@ -19,6 +19,20 @@ constexpr long signal_steps = 256;
 /// Steps between looks at the energy on the way: a whole number of chunks.
 long energy_look_interval(std::size_t elements, long steps);
 
+/// The rotations with which the oracle has the equations of a run by this model.
+Rotation equations_of(const RunPlan& plan, Model model);
+
+/// False if the request says so, for scenes that are too large, for runs against a solution, whose
+/// errors say more, and for Rotation::small, whose equations keep no energy.
+bool has_energy_balance(const RunPlan& plan, const RunRequest& request, Rotation equations);
+
+/// What happened to a run that became unstable after a step, counted from the start, and what to
+/// do.
+std::string breakdown_reason(const RunPlan& plan, const Outcome& outcome, long step);
+
+/// @throws InputError if the energy at the start is beyond the range of numbers
+void require_finite_start(const Problem& problem, Rotation rotation);
+
 /// Runs of at most so many element-steps and steps are computed once more, with a look at the
 /// energy after each step.
 bool is_balanced_by_steps(std::size_t elements, long steps);
