@@ -2,6 +2,7 @@
 #include "variants/engine/body_group.hpp"
 #include "variants/engine/fetch_plan.hpp"
 #include "variants/engine/pass_places.hpp"
+#include "variants/engine/seams.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,19 +32,15 @@ Lattice scattered_bodies(int nx, int ny, int nz, unsigned seed) {
 /// Sweeps over a block of rows and the halo that later sweeps read.
 std::vector<SweepRows> sweeps_of(const Lattice& lattice, int begin, int end, int count,
                                  std::span<const LinkedRows> extra = {}) {
-  const int rows = int(lattice.rows.size());
-  int reach = lattice.row_reach();
-  for (const auto& [i, j] : extra) reach = std::max(reach, std::abs(i - j));
-  std::vector<SweepRows> sweeps;
-  for (int n = 0; n < count; ++n) {
-    const int halo = (count - 1 - n) * reach;
-    sweeps.push_back({std::max(0, begin - halo), std::min(rows, end + halo)});
-  }
-  return sweeps;
+  RowDivision division;
+  division.halo = division.order.halo(lattice, extra);
+  division.cuts = {begin, end};
+  return block_sweeps(division, int(lattice.rows.size()), count).front();
 }
 
 struct Case {
   Lattice lattice;
+  RowOrder order;
   std::vector<SweepRows> sweeps;
   SweepForm form;
   std::vector<LinkedRows> extra;
@@ -54,6 +51,20 @@ struct Case {
 std::vector<std::vector<LinkedRows>> sets_of_links(const Lattice& lattice) {
   const int rows = int(lattice.rows.size());
   return {{}, {{0, 2}, {3, 3}}, {{0, 4}, {rows - 1, 1}, {rows - 2, 2}, {3, 3}, {rows - 2, 2}}};
+}
+
+/// Calls check(case) for blocks that hand over rows where they meet, in the order of sweeps.
+template <class Check>
+void each_handed_over(const Lattice& lattice, const std::vector<LinkedRows>& extra, int count,
+                      int tile, Check&& check) {
+  const int rows = int(lattice.rows.size());
+  RowDivision division;
+  division.order = RowOrder(lattice, extra);
+  division.halo = division.order.halo(lattice, extra);
+  division.seams = SeamKind::handed_over;
+  division.cuts = {0, rows / 3, rows / 3 + 1, rows / 2, rows};
+  for (const std::vector<SweepRows>& sweeps : block_sweeps(division, rows, count))
+    check(Case{lattice, division.order, sweeps, {tile, false}, extra});
 }
 
 /// Calls check(case) for blocks, sweeps and tiles of awkward sizes.
@@ -69,14 +80,17 @@ void each_case(Check&& check) {
             for (const auto& [begin, end] :
                  {std::pair{0, rows}, {rows / 3, rows}, {0, rows / 2}, {rows / 3, rows / 2}})
               check(Case{lattice,
+                         {},
                          sweeps_of(lattice, begin, end, count, extra),
                          {tile, is_in_row_order},
                          extra});
+          for (const std::vector<LinkedRows>& extra : sets_of_links(lattice))
+            each_handed_over(lattice, extra, count, tile, check);
         }
 }
 
 std::vector<PassTask> order_of(const Case& c) {
-  return order_pass(c.lattice, c.sweeps, c.form, c.extra);
+  return order_pass(c.lattice, c.order, c.sweeps, c.form, c.extra);
 }
 
 TEST(PassOrder, ComputesEachRowOfASweepOnce) {
@@ -87,11 +101,16 @@ TEST(PassOrder, ComputesEachRowOfASweepOnce) {
     std::size_t all = 0;
     for (std::size_t n = 0; n < c.sweeps.size(); ++n) {
       for (int r = c.sweeps[n].begin; r < c.sweeps[n].end; ++r)
-        EXPECT_EQ((times[{int(n), r}]), 1) << "sweep " << n << ", row " << r;
-      all += std::size_t(c.sweeps[n].end - c.sweeps[n].begin);
+        EXPECT_EQ((times[{int(n), c.order.row(r)}]), 1) << "sweep " << n << ", place " << r;
+      all += std::size_t(std::max(0, c.sweeps[n].end - c.sweeps[n].begin));
     }
     EXPECT_EQ(times.size(), all);
   });
+}
+
+/// Whether the case's block computes a row in a sweep.
+bool computes(const Case& c, int sweep, int row) {
+  return c.sweeps[std::size_t(sweep)].has(c.order.place(row));
 }
 
 /// The rows whose output of the sweep before a task reads.
@@ -117,7 +136,7 @@ TEST(PassOrder, ComesToARowAfterAllThatItReads) {
     for (const PassTask& task : order_of(c)) {
       const int before = task.sweep - 1;
       for (const int read : rows_read(c, task)) {
-        EXPECT_TRUE((before < 0 || done.contains({before, read})));
+        EXPECT_TRUE((before < 0 || !computes(c, before, read) || done.contains({before, read})));
         EXPECT_FALSE(done.contains({task.sweep, read})) << "the row is a sweep too far";
       }
       if (task.is_extra()) continue;
@@ -186,10 +205,15 @@ TEST(BodyGroups, AreShiftedSoThatLinkedRowsAreClose) {
 TEST(BodyGroups, ThatAreLinkedHaveNoRowsForTiles) {
   const Lattice lattice = plates({{9, 4}, {9, 7}});
   const std::vector<LinkedRows> in_first{{0, 9}}, between{{0, 36}};
-  EXPECT_EQ(most_rows_across(lattice, {0, 99}, false, {}), 7);
-  EXPECT_EQ(most_rows_across(lattice, {0, 36}, false, {}), 4);
-  EXPECT_EQ(most_rows_across(lattice, {0, 99}, false, in_first), 7);
-  EXPECT_EQ(most_rows_across(lattice, {0, 99}, false, between), 0);
+  RowDivision division;
+  division.cuts = {0, 99};
+  EXPECT_EQ(most_rows_across(lattice, division, false, {}), 7);
+  EXPECT_EQ(most_rows_across(lattice, division, false, in_first), 7);
+  EXPECT_EQ(most_rows_across(lattice, division, false, between), 0);
+  division.cuts = {0, 36};
+  EXPECT_EQ(most_rows_across(lattice, division, false, {}), 4);
+  division.order = RowOrder(lattice, in_first);
+  EXPECT_EQ(most_rows_across(lattice, division, false, in_first), 7);
 }
 
 TEST(BodyGroups, TakeTheDirectionOfTheirLinks) {
@@ -217,11 +241,13 @@ TEST(PassPlaces, KeepWhatIsStillRead) {
         EXPECT_EQ(stage_rows[places.stage_row(read, r)], std::pair(read, r));
       };
       if (stage > 0)
-        for (const int r : rows_read(c, task)) expect_kept(stage - 1, r);
+        for (const int r : rows_read(c, task))
+          if (computes(c, stage - 1, r)) expect_kept(stage - 1, r);
       if (task.is_extra()) continue;
       const Row& row = c.lattice.rows[std::size_t(task.row)];
       if (task.work == RowWork::stage)
-        for (const int m : increments[std::size_t(stage)]) expect_kept(m, task.row);
+        for (const int m : increments[std::size_t(stage)])
+          if (computes(c, m, task.row)) expect_kept(m, task.row);
       for (const int axis : {1, 2}) {
         auto& of_axis = links[axis - 1];
         const int lower = row.lower(axis), upper = row.upper(axis);
@@ -246,7 +272,8 @@ TEST(PassPlaces, OfOneTileAreThoseOfAFewPlanes) {
   Lattice block;
   append_body(block, {8, 20, 40, std::vector<std::uint8_t>(8 * 20 * 40, 1)}, 0);
   const std::vector<SweepRows> sweeps = sweeps_of(block, 0, 20 * 40, 4);
-  const PassPlaces places(block, order_pass(block, sweeps, {}), 4, 4, {{}, {}, {}, {0, 1, 2}}, {});
+  const PassPlaces places(block, order_pass(block, {}, sweeps, {}), 4, 4, {{}, {}, {}, {0, 1, 2}},
+                          {});
   EXPECT_LE(places.stage_row_count(), 6 * 20 + 10); // 3 + 2 + 1 planes
   EXPECT_LE(places.links_count(2), 4 * 20 + 4);
   EXPECT_LE(places.links_count(1), 4 + 4);

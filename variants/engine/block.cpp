@@ -7,33 +7,23 @@
 namespace dss {
 
 template <class T, int W>
-Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fields, int halo,
-                   int steps)
-    : begin(first), end(last), stored_begin(steps == 1 ? begin : std::max(0, begin - halo)),
-      stored_end(steps == 1 ? end : std::min(int(packed.rows.size()), end + halo)),
-      packed_(&packed), pack_size_(std::size_t(fields) * std::size_t(W)), halo_(halo) {
-  // One pack more: rows look one pack ahead.
-  state_ = Buffer<T>((packed.packs_of(stored_begin, stored_end) + 1) * pack_size_, packed.memory);
+Block<T, W>::Block(const PackedRows<T, W>& packed, const RowOrder& order, int first, int last,
+                   int fields, OuterRows published, OuterRows apart, bool is_remote)
+    : begin(first), end(last), packed_(&packed), order_(&order),
+      pack_size_(std::size_t(fields) * std::size_t(W)), outer_(published) {
   failures.resize(packed.members().size());
-  make_published();
-}
-
-template <class T, int W>
-Block<T, W>::Block(const PackedRows<T, W>& packed, int first, int last, int fields, int halo)
-    : begin(first), end(last), stored_begin(first), stored_end(first), packed_(&packed),
-      pack_size_(std::size_t(fields) * std::size_t(W)), halo_(halo) {
-  make_published();
-}
-
-template <class T, int W>
-void Block<T, W>::make_published() {
-  std::size_t packs = 0;
-  for (int r = begin; r < end; ++r) {
-    published_offset_.push_back(packs * pack_size_);
-    if (is_published(r)) packs += std::size_t(packed_->rows[std::size_t(r)].packs);
+  std::size_t all = 0, outer = 0;
+  for (int place = begin; place < end; ++place) {
+    const int r = order.row(place);
+    offset_.push_back(all);
+    published_offset_.push_back(outer);
+    all += row_length(r) + (apart.has(place) ? pack_size_ : 0);
+    if (is_published(r)) outer += row_length(r);
   }
+  // One pack more: rows look one pack ahead.
+  if (!is_remote) state_ = Buffer<T>(all + pack_size_, packed.memory);
   for (auto& copy : published_)
-    copy = Buffer<T>(packs == 0 ? 0 : (packs + 1) * pack_size_, packed_->memory);
+    copy = Buffer<T>(outer == 0 ? 0 : outer + pack_size_, packed.memory);
 }
 
 template <class T, int W>

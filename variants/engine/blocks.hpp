@@ -11,19 +11,35 @@ namespace dss {
 template <class T, int W = simd::lanes<T>>
 class Blocks {
 public:
-  /// Makes all blocks.
-  /// @param cuts    first row of each own block, then the end of the last
-  /// @param fields  numbers that a pack holds for each element
-  /// @param steps   steps of a pass
-  /// @param stages  of a step
-  void make(const PackedRows<T, W>& packed, const std::vector<int>& cuts, int fields, int steps,
-            int stages) {
-    const int rows = int(packed.rows.size()), halo = steps * stages * packed.stage_halo;
-    if (packed.own_begin > 0) blocks_.emplace_back(packed, 0, packed.own_begin, fields, halo);
+  /// Makes all blocks. Where they recompute their seams, each publishes its outer rows; where they
+  /// hand over, only a part does.
+  /// @param division  outlives this object
+  /// @param fields    numbers that a pack holds for each element
+  /// @param sweeps    of a pass
+  void make(const PackedRows<T, W>& packed, const RowDivision& division, int fields, int sweeps) {
+    division_ = &division;
+    const int rows = int(packed.rows.size()), halo = sweeps * division.halo;
+    const auto outer = [&](int begin, int end) {
+      OuterRows outer_rows;
+      if (begin > 0) outer_rows.below = begin + halo;
+      if (end < rows) outer_rows.from = end - halo;
+      return outer_rows;
+    };
+    const bool is_each = division.seams == SeamKind::recomputed;
+    const auto add = [&](int begin, int end, OuterRows published, bool is_remote) {
+      OuterRows apart;
+      if (!is_each && division.blocks() > 1)
+        apart = {begin + halo + division.halo, end - division.halo};
+      blocks_.emplace_back(packed, division.order, begin, end, fields, published, apart, is_remote);
+    };
+    const std::vector<int>& cuts = division.cuts;
+    const int first = cuts.front(), last = cuts.back();
+    if (first > 0) add(0, first, outer(0, first), true);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-      blocks_.emplace_back(packed, cuts[b], cuts[b + 1], fields, halo, steps);
-    if (packed.own_end < rows) blocks_.emplace_back(packed, packed.own_end, rows, fields, halo);
+      add(cuts[b], cuts[b + 1], is_each ? outer(cuts[b], cuts[b + 1]) : outer(first, last), false);
+    if (last < rows) add(last, rows, outer(last, rows), true);
   }
+  const RowDivision& division() const { return *division_; }
   std::vector<Block<T, W>>& all() { return blocks_; }
   const std::vector<Block<T, W>>& all() const { return blocks_; }
   std::size_t first_own() const { return blocks_.front().is_remote() ? 1 : 0; }
@@ -47,11 +63,13 @@ public:
   /// Publishes the rows that other blocks read, in the copy of this parity.
   void publish_all(int parity) {
     for (Block<T, W>& block : blocks_)
-      for (int r = block.begin; r < block.end && !block.is_remote(); ++r)
-        if (block.is_published(r)) block.publish(r, parity);
+      for (int place = block.begin; place < block.end && !block.is_remote(); ++place)
+        if (const int r = division_->order.row(place); block.is_published(r))
+          block.publish(r, parity);
   }
 
 private:
+  const RowDivision* division_ = nullptr;
   /// A part's halo rows before and behind its own rows are remote blocks, first and last.
   std::vector<Block<T, W>> blocks_;
 };

@@ -6,20 +6,27 @@
 namespace dss {
 namespace {
 
+/// From the first row of any sweep to behind the last one.
+SweepRows all_rows(std::span<const SweepRows> sweeps) {
+  SweepRows all = sweeps.front();
+  for (const SweepRows& rows : sweeps)
+    all = {std::min(all.begin, rows.begin), std::max(all.end, rows.end)};
+  return all;
+}
+
 /// Which extra links a row has, and which of them a sweep has computed already.
 class ExtraWork {
 public:
-  ExtraWork(std::span<const LinkedRows> extra, SweepRows rows, std::size_t sweeps)
-      : first_row_(rows.begin), computed_(sweeps, std::vector<std::uint8_t>(extra.size())) {
+  ExtraWork(std::span<const LinkedRows> extra, std::size_t rows, std::size_t sweeps)
+      : computed_(sweeps, std::vector<std::uint8_t>(extra.size())) {
     if (extra.empty()) return;
-    links_of_.resize(std::size_t(rows.end - rows.begin));
+    links_of_.resize(rows);
     for (std::size_t n = 0; n < extra.size(); ++n)
-      for (const int row : {extra[n].i, extra[n].j})
-        if (rows.has(row)) add(links_of_[std::size_t(row - first_row_)], int(n));
+      for (const int row : {extra[n].i, extra[n].j}) add(links_of_[std::size_t(row)], int(n));
   }
   std::span<const int> links_of(int row) const {
     if (links_of_.empty()) return {};
-    return links_of_[std::size_t(row - first_row_)];
+    return links_of_[std::size_t(row)];
   }
   /// @return whether this is the first time that the sweep asks for the link
   bool begin(int sweep, int link) {
@@ -31,17 +38,16 @@ private:
   static void add(std::vector<int>& links, int link) {
     if (links.empty() || links.back() != link) links.push_back(link); // both ends in one row
   }
-  int first_row_;
   std::vector<std::vector<int>> links_of_;          ///< empty if there are no extra links
   std::vector<std::vector<std::uint8_t>> computed_; ///< [sweep][link]
 };
 
 class Order {
 public:
-  Order(const Lattice& lattice, std::span<const SweepRows> sweeps, int tile,
+  Order(const Lattice& lattice, const RowOrder& rows, std::span<const SweepRows> sweeps, int tile,
         std::span<const LinkedRows> extra)
-      : lattice_(lattice), sweeps_(sweeps), form_tile_(tile),
-        extra_(extra, sweeps.front(), sweeps.size()) {}
+      : lattice_(lattice), rows_(rows), sweeps_(sweeps), form_tile_(tile),
+        extra_(extra, lattice.rows.size(), sweeps.size()) {}
   void add_group(const BodyGroup& group) {
     const int last = int(sweeps_.size()) - 1, across = group.members().front().planes.across,
               tiles = form_tile_ == no_tiles || group.is_linked()
@@ -72,15 +78,16 @@ private:
     for (int c = begin; c < end; ++c)
       for (int n = 0; n < int(sweeps_.size()); ++n)
         if (const int r = planes.row(k - n * lag, c - n * skew);
-            r >= 0 && sweeps_[std::size_t(n)].has(r))
+            r >= 0 && sweeps_[std::size_t(n)].has(rows_.place(r)))
           add(n, r);
   }
   void add(int sweep, int row) {
     const Row& r = lattice_.rows[std::size_t(row)];
     const int begin = sweeps_[std::size_t(sweep)].begin;
     // Rows before the sweep's first leave no links by themselves.
-    if (r.lower_y >= 0 && r.lower_y < begin) put(RowWork::upper_link_y, sweep, r.lower_y);
-    if (r.lower_z >= 0 && r.lower_z < begin) put(RowWork::upper_link_z, sweep, r.lower_z);
+    const auto is_before = [&](int lower) { return lower >= 0 && rows_.place(lower) < begin; };
+    if (is_before(r.lower_y)) put(RowWork::upper_link_y, sweep, r.lower_y);
+    if (is_before(r.lower_z)) put(RowWork::upper_link_z, sweep, r.lower_z);
     const std::span<const int> links = extra_.links_of(row);
     for (const int link : links)
       if (extra_.begin(sweep, link)) put(RowWork::extra_link, sweep, link);
@@ -92,6 +99,7 @@ private:
   }
 
   const Lattice& lattice_;
+  const RowOrder& rows_;
   const std::span<const SweepRows> sweeps_;
   const int form_tile_;
   ExtraWork extra_;
@@ -100,11 +108,17 @@ private:
 
 } // namespace
 
-std::vector<PassTask> order_pass(const Lattice& lattice, std::span<const SweepRows> sweeps,
-                                 SweepForm form, std::span<const LinkedRows> extra) {
-  Order order(lattice, sweeps, form.tile, extra);
-  for (const BodyGroup& group : body_groups(lattice, sweeps.front(), extra, form.is_in_row_order))
-    order.add_group(group);
+std::vector<PassTask> order_pass(const Lattice& lattice, const RowOrder& rows,
+                                 std::span<const SweepRows> sweeps, SweepForm form,
+                                 std::span<const LinkedRows> extra) {
+  Order order(lattice, rows, sweeps, form.tile, extra);
+  const auto add = [&](std::span<const BodyGroup> groups) {
+    for (const BodyGroup& group : groups) order.add_group(group);
+  };
+  if (rows.is_by_number())
+    add(body_groups(lattice, all_rows(sweeps), extra, form.is_in_row_order));
+  else
+    add(rows.groups());
   return std::move(order.tasks);
 }
 
@@ -112,11 +126,17 @@ std::string tiles_text(int tile) {
   return tile == no_tiles ? "" : ", tiles of " + std::to_string(tile) + " rows";
 }
 
-int most_rows_across(const Lattice& lattice, SweepRows rows, bool is_in_row_order,
+int most_rows_across(const Lattice& lattice, const RowDivision& division, bool is_in_row_order,
                      std::span<const LinkedRows> extra) {
   int most = 0;
-  for (const BodyGroup& group : body_groups(lattice, rows, extra, is_in_row_order))
-    if (!group.is_linked()) most = std::max(most, group.members().front().planes.across);
+  const auto add = [&](std::span<const BodyGroup> groups) {
+    for (const BodyGroup& group : groups)
+      if (!group.is_linked()) most = std::max(most, group.members().front().planes.across);
+  };
+  if (!division.order.is_by_number()) add(division.order.groups());
+  for (int b = 0; b < division.blocks() && division.order.is_by_number(); ++b)
+    add(body_groups(lattice, {division.cuts[std::size_t(b)], division.cuts[std::size_t(b) + 1]},
+                    extra, is_in_row_order));
   return most;
 }
 

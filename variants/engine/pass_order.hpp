@@ -2,7 +2,7 @@
 /// The order of the tasks of a pass over rows (DESIGN.md section 4). A pass makes one sweep for
 /// each stage of its steps. Sweeps follow one another over the rows, so that a row is used again
 /// while it is in the cache.
-#include "variants/engine/body_group.hpp"
+#include "variants/engine/row_order.hpp"
 
 #include <string>
 
@@ -26,6 +26,24 @@ struct PassTask {
   int tile; ///< counted over all bodies
   bool is_extra() const { return work == RowWork::extra_link || work == RowWork::extra_sum; }
 };
+
+/// Calls visit(row) for each row whose present values a task reads: its own and upper ones, or
+/// those of an extra link.
+/// @param extra  rows of the extra links
+template <class Visit>
+void each_input(const Lattice& lattice, std::span<const LinkedRows> extra, const PassTask& task,
+                Visit&& visit) {
+  if (task.work == RowWork::extra_sum) return;
+  if (task.work == RowWork::extra_link) {
+    visit(extra[std::size_t(task.row)].i);
+    visit(extra[std::size_t(task.row)].j);
+    return;
+  }
+  const Row& row = lattice.rows[std::size_t(task.row)];
+  visit(task.row);
+  if (row.upper_y >= 0 && task.work != RowWork::upper_link_z) visit(row.upper_y);
+  if (row.upper_z >= 0 && task.work != RowWork::upper_link_y) visit(row.upper_z);
+}
 
 /// A tile that holds every row across.
 inline constexpr int no_tiles = 0;
@@ -52,14 +70,18 @@ struct SweepForm {
 /// planes apart (body_group.hpp). Each sweep is as many planes behind as the longest extra link and
 /// one more. An extra link is computed before the first of its two rows, when both rows are inputs
 /// of the sweep and neither is overwritten yet. Such bodies have no tiles.
-/// @param sweeps  rows of each sweep, those of a sweep within those of the one before
-/// @param extra   of each extra link; its rows are at most as far apart as sweeps differ in rows
-std::vector<PassTask> order_pass(const Lattice& lattice, std::span<const SweepRows> sweeps,
-                                 SweepForm form, std::span<const LinkedRows> extra = {});
+/// @param rows    the order of which sweeps are ranges
+/// @param sweeps  places of the rows of each sweep: those of the one before without a halo (the
+/// rows that a sweep
+///   needs beside its own), or a halo higher (seams.hpp)
+/// @param extra   of each extra link; its rows are at most a halo apart
+std::vector<PassTask> order_pass(const Lattice& lattice, const RowOrder& rows,
+                                 std::span<const SweepRows> sweeps, SweepForm form,
+                                 std::span<const LinkedRows> extra = {});
 
 /// Most rows across the sweeps' direction, over all bodies without extra links; 0 if there are
 /// none.
-int most_rows_across(const Lattice& lattice, SweepRows rows, bool is_in_row_order,
+int most_rows_across(const Lattice& lattice, const RowDivision& division, bool is_in_row_order,
                      std::span<const LinkedRows> extra);
 
 } // namespace dss

@@ -79,16 +79,7 @@ void PassPlaces::place_stage_rows(std::span<const PassTask> order, int stages,
   // Calls visit(stage, row) for each output of a stage that a task reads.
   const auto each_read = [&](const PassTask& task, auto&& visit) {
     const int stage = task.sweep % stages;
-    if (stage > 0 && task.work == RowWork::extra_link) {
-      visit(stage - 1, extra_[std::size_t(task.row)].i);
-      visit(stage - 1, extra_[std::size_t(task.row)].j);
-    }
-    if (task.is_extra()) return;
-    if (stage > 0) {
-      visit(stage - 1, task.row);
-      for (const int axis : {1, 2})
-        if (const int row = upper(task.row, axis); row >= 0) visit(stage - 1, row);
-    }
+    if (stage > 0) each_input(lattice_, extra_, task, [&](int row) { visit(stage - 1, row); });
     if (task.work == RowWork::stage)
       for (const int m : increments[std::size_t(stage)]) visit(m, task.row);
   };

@@ -20,7 +20,8 @@ RowExecutor<T>::RowExecutor(const Setup& setup)
     row.kernels =
         &find_kernels<T>(setup.model, row.shape.terms,
                          packed_.is_ensemble() ? LaneKind::members : LaneKind::neighbours);
-  const bool is_staged = !why_staged().empty();
+  why_staged_ = why_staged();
+  const bool is_staged = !why_staged_.empty();
   if (is_staged && packed_.is_ensemble())
     throw std::logic_error("an ensemble is not computed stage by stage");
   if (is_staged) refuse_tile(setup_, "it is computed stage by stage");
@@ -31,23 +32,18 @@ RowExecutor<T>::RowExecutor(const Setup& setup)
     make_blocks();
 }
 
-/// Most work for halos, over a block's own, with which the wavefront is taken. The break-even was
-/// not measured: it lies near the gain of the wavefront, which is 1 to 2 (README.md).
-static constexpr double most_halo_work = 0.5;
-
 template <class T>
-std::string_view RowExecutor<T>::why_staged() const {
+std::string_view RowExecutor<T>::why_staged() {
   const Method& method = setup_.method;
   if (method.has_error_stage) return "adaptive steps";
   if (part_ != nullptr && part_->is_every_stage) return "halos are exchanged in between";
   if (setup_.problem.extra_links.empty()) return "";
   if (is_part()) return "extra links may join rows of several parts";
-  const std::vector<int> cuts = cut_rows(packed_, setup_.threads);
-  const std::size_t blocks = cuts.size() - 1,
-                    halo = std::size_t(method.stages) * std::size_t(packed_.stage_halo);
-  // A halo as long as a block would have every row published.
-  const bool is_published_whole = blocks > 1 && halo * blocks >= packed_.rows.size();
-  if (is_published_whole || halo_work(packed_, cuts, method.stages) > most_halo_work)
+  if (setup_.threads == 1) return "";
+  // Else sweeps would differ by more than a block, so that threads would compute in turn.
+  const ExtraLinks<T> extra_links(packed_);
+  const long halo = divide_rows(packed_, extra_links.rows(), setup_.threads).halo;
+  if (method.stages * halo * setup_.threads > long(packed_.rows.size()))
     return "extra links join distant rows of several threads";
   return "";
 }
@@ -55,26 +51,27 @@ std::string_view RowExecutor<T>::why_staged() const {
 template <class T>
 void RowExecutor<T>::make_blocks() {
   const Method& method = setup_.method;
-  const int rows = int(packed_.rows.size()), halo = method.stages * packed_.reach;
-  std::vector<int> cuts = cut_rows(packed_, setup_.threads);
-  threads_ = int(cuts.size()) - 1;
-  // The rows that the upper neighbours wait for are a block of their own, which is computed first.
-  if (const int edge = packed_.own_end - halo; is_part() && part_->is_overlapped && threads_ == 1 &&
-                                               packed_.own_end < rows &&
-                                               edge - packed_.own_begin >= 2 * halo)
-    cuts = {packed_.own_begin, edge, packed_.own_end};
-  steps_a_pass_ = steps_a_pass(packed_, method, cuts);
-  blocks_.make(packed_, cuts, stored_fields(), steps_a_pass_, method.stages);
-  std::vector<Block<T>>& blocks = blocks_.all();
-  form_.is_in_row_order = is_part();
+  const int rows = int(packed_.rows.size());
   const ExtraLinks<T> extra_links(packed_);
-  form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, cuts,
-                           form_.is_in_row_order, extra_links.rows(), setup_.tile);
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (!blocks[b].is_remote())
-      steps_.emplace_back(packed_, method, setup_.steps(), rows_.storage(),
-                          signal_count(setup_.problem), blocks, b, PassShape{steps_a_pass_, form_},
-                          extra_links);
+  division_ = divide_rows(packed_, extra_links.rows(), setup_.threads);
+  shape_.steps = steps_a_pass(packed_, method, std::min(setup_.threads, rows), division_.halo);
+  const int sweeps = shape_.steps * method.stages;
+  cut_evenly(division_, packed_, setup_.threads, sweeps);
+  threads_ = division_.blocks();
+  // The rows that the upper neighbours wait for are the last ones of a block that is computed
+  // first.
+  const int halo = method.stages * division_.halo, edge = packed_.own_end - halo;
+  if (is_part() && part_->is_overlapped && threads_ == 1 && packed_.own_end < rows &&
+      edge - packed_.own_begin >= 3 * halo)
+    division_.cuts = {packed_.own_begin, edge + division_.halo - halo, packed_.own_end};
+  blocks_.make(packed_, division_, stored_fields(), sweeps);
+  shape_.form.is_in_row_order = is_part();
+  const int across =
+      most_rows_across(packed_.lattice, division_, shape_.form.is_in_row_order, extra_links.rows());
+  shape_.form.tile =
+      choose_tile(packed_, method, rows_.storage(), shape_.steps, across, setup_.tile);
+  wavefront_.emplace(packed_, method, setup_.steps(), rows_.storage(), signal_count(setup_.problem),
+                     blocks_, shape_, extra_links);
 }
 
 template <class T>
@@ -208,12 +205,13 @@ Outcome RowExecutor<T>::advance(long steps, std::span<const double> signals) {
 template <class T>
 Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) {
   const std::size_t step_width = signal_width() * std::size_t(setup_.method.stages);
-  const long at_once = steps_a_pass_, passes = (steps + at_once - 1) / at_once;
+  const long at_once = shape_.steps, passes = (steps + at_once - 1) / at_once;
   std::vector<Block<T>>& blocks = blocks_.all();
-  const std::size_t first_own = blocks_.first_own();
+  const std::size_t first_own = blocks_.first_own(), count = wavefront_->steps().size();
   const bool is_overlapped = is_part() && part_->is_overlapped && threads_ == 1;
   std::vector<FirstFailure> failures(packed_.members().size());
   if (is_part()) exchange(&Halo::send, parity_);
+  wavefront_->start(is_crowded(threads_));
   const auto work = [&](int thread, auto&& synchronise) {
     const FlushDenormals guard;
     for (long pass = 0; pass < passes; ++pass) {
@@ -221,25 +219,26 @@ Outcome RowExecutor<T>::run_blocks(long steps, std::span<const double> signals) 
       const double* const values = &signals[std::size_t(n) * step_width];
       const int parity = (parity_ + int(pass & 1)) & 1;
       const bool is_last = pass + 1 == passes;
-      for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
+      for (std::size_t b = std::size_t(thread); b < count; b += std::size_t(threads_))
         std::ranges::fill(blocks[first_own + b].failures, typename Block<T>::Failure{});
       if (is_overlapped) {
-        step_overlapped(values, parity, is_last);
+        step_overlapped(values, pass, parity, is_last);
       } else {
         if (is_part() && thread == 0) exchange(&Halo::receive, parity);
         if (is_part()) synchronise();
-        steps_[std::size_t(thread)](values, int(std::min(at_once, steps - n)), parity);
+        wavefront_->pass(thread, values, int(std::min(at_once, steps - n)), parity, pass);
       }
-      for (std::size_t b = std::size_t(thread); b < steps_.size(); b += std::size_t(threads_))
+      for (std::size_t b = std::size_t(thread); b < count; b += std::size_t(threads_))
         for (std::size_t m = 0; m < failures.size(); ++m)
           if (const auto& failed = blocks[first_own + b].failures[m]; failed.step >= 0)
             failures[m].meet(n + failed.step, failed.element);
       if (threads_ == 1) leave_out(failures); // others would read the lanes meanwhile
-      synchronise();
+      if (is_part()) synchronise();
       if (!is_part() && have_all_failed(failures, n + at_once))
         break; // a faster thread may already have failed in the next pass
       if (is_part() && !is_overlapped && !is_last && thread == 0) exchange(&Halo::send, parity ^ 1);
     }
+    if (!is_part()) wavefront_->leave(thread);
   };
   run_team(threads_, work);
   parity_ = (parity_ + int(passes & 1)) & 1;
@@ -280,16 +279,16 @@ void RowExecutor<T>::revive_members() {
 }
 
 template <class T>
-void RowExecutor<T>::step_overlapped(const double* signals, int parity, bool is_last) {
-  WavefrontStep<T>&lower = steps_.front(), &upper = steps_.back();
+void RowExecutor<T>::step_overlapped(const double* signals, long pass, int parity, bool is_last) {
+  const bool is_split = wavefront_->steps().size() == 2;
   const int edge =
       std::min(packed_.own_begin + setup_.method.stages * packed_.reach, packed_.own_end) - 1;
   overlapped_step(
-      part_->halo, parity, parity ^ 1, is_last, steps_.size() == 2,
-      [&] { upper(signals, 1, parity); },
+      part_->halo, parity, parity ^ 1, is_last, is_split,
+      [&] { wavefront_->pass(1, signals, 1, parity, pass); },
       [&](auto&& edge_is_done) {
-        lower.watch(edge, edge_is_done);
-        lower(signals, 1, parity);
+        wavefront_->step(0).watch(edge, edge_is_done);
+        wavefront_->pass(0, signals, 1, parity, pass);
       });
 }
 
@@ -318,17 +317,18 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
 
 template <class T>
 std::string RowExecutor<T>::schedule() const {
-  if (staged_) return "stage by stage: " + std::string(why_staged());
+  if (staged_) return "stage by stage: " + std::string(why_staged_);
   return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place" +
-         (steps_a_pass_ > 1 ? ", " + std::to_string(steps_a_pass_) + " steps a pass" : "") +
-         tiles_text(form_.tile) + (setup_.problem.extra_links.empty() ? "" : ", with extra links");
+         (shape_.steps > 1 ? ", " + std::to_string(shape_.steps) + " steps a pass" : "") +
+         tiles_text(shape_.form.tile) +
+         (setup_.problem.extra_links.empty() ? "" : ", with extra links");
 }
 
 template <class T>
 std::size_t RowExecutor<T>::bytes() const {
   std::size_t sum = packed_.bytes();
   for (const Block<T>& block : blocks_.all()) sum += block.bytes();
-  for (const WavefrontStep<T>& step : steps_) sum += step.bytes();
+  if (wavefront_) sum += wavefront_->bytes();
   return staged_ ? sum + staged_->bytes() : sum;
 }
 

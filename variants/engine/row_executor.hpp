@@ -37,7 +37,7 @@ private:
 };
 
 /// Computes a problem, or a part of one, in numbers of type T. The schedule is either the wavefront
-/// (blocks_, steps_) or stage by stage (staged_).
+/// (blocks_, wavefront_) or stage by stage (staged_).
 template <class T>
 class RowExecutor final : public Executor,
                           public StepTrials,
@@ -71,8 +71,8 @@ private:
   static constexpr int W = simd::lanes<T>;
   int stored_fields() const { return rows_.stored_fields(); }
   bool is_part() const { return part_ != nullptr; }
-  /// Why the wavefront does not serve; empty if it does.
-  std::string_view why_staged() const;
+  /// Finds why the wavefront does not serve; empty if it does.
+  std::string_view why_staged();
   void make_blocks();
   T* row(int r);
   /// Two places of a row of a copy that parts exchange: where it is kept, and its other place or
@@ -92,7 +92,7 @@ private:
   void stop_leapfrog();
   Outcome run_blocks(long steps, std::span<const double> signals);
   /// One step of a part by one thread. It sends as early and receives as late as possible.
-  void step_overlapped(const double* signals, int parity, bool is_last);
+  void step_overlapped(const double* signals, long pass, int parity, bool is_last);
   Outcome run_staged(long steps, std::span<const double> signals);
 
   /// Numbers of a row of signals.
@@ -111,11 +111,13 @@ private:
   const PartSetup* part_; ///< null for a whole problem and for a part without neighbours
   PackedRows<T> packed_;
   StateRows<T> rows_;
-  Blocks<T> blocks_;                    ///< of the wavefront
-  std::vector<WavefrontStep<T>> steps_; ///< of the wavefront, one for each own block
-  int threads_ = 1, steps_a_pass_ = 1;
-  SweepForm form_;
-  std::optional<StagedRows<T>> staged_; ///< stage by stage, in place of blocks_ and steps_
+  std::string_view why_staged_;
+  RowDivision division_; ///< of the wavefront
+  Blocks<T> blocks_;     ///< of the wavefront
+  std::optional<Wavefront<T>> wavefront_;
+  int threads_ = 1;
+  PassShape shape_;
+  std::optional<StagedRows<T>> staged_; ///< stage by stage, in place of blocks_ and wavefront_
   int parity_ = 0;
   bool is_started_ = false; ///< leapfrog: the stored velocities are those of the last half step
   std::vector<double> end_signals_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Blocks of rows, one for each thread, and the row tasks that all schedules consist of.
+/// The row tasks that all schedules consist of, and carry buffers.
 #include "variants/engine/packed_rows.hpp"
 
 #include <vector>
@@ -86,10 +86,5 @@ void each_prime(const PackedRows<T, W>& packed, int begin, int fields, CarryRing
         lower >= 0 && lower < begin)
       prime(lower, 2);
 }
-
-/// @return the first row of each of `parts` blocks of own rows with about equally many packs, then
-///   the end of the last
-template <class T, int W>
-std::vector<int> cut_rows(const PackedRows<T, W>& packed, int parts);
 
 } // namespace dss

@@ -8,6 +8,9 @@
 
 namespace dss {
 
+/// Whether threads have to share cores.
+inline bool is_crowded(int threads) { return threads > omp_get_num_procs(); }
+
 /// Runs work(thread, synchronise) on a team of exactly `threads` threads. With fewer, some blocks
 /// of rows would silently not be computed.
 /// @throws InputError if OpenMP grants fewer
@@ -18,7 +21,7 @@ void run_team(int threads, Work&& work) {
     return;
   }
   int granted = threads;
-  Barrier barrier(threads, threads > omp_get_num_procs());
+  Barrier barrier(threads, is_crowded(threads));
   omp_set_dynamic(0);
 #pragma omp parallel num_threads(threads)
   {

@@ -2,11 +2,12 @@
 /// The wavefront over rows (DESIGN.md section 4). A pass over the rows of a block computes one
 /// step, or several steps of a method in place. Each sweep of a pass follows the one before it
 /// through the rows (pass_order.hpp). Intermediate stages live in a few rows, and the state is
-/// updated in place. Blocks recompute a halo of `stage_halo` rows for each stage of the pass.
-/// Threads meet once a pass.
-#include "variants/engine/block.hpp"
+/// updated in place. Where blocks meet, seams.hpp says what each computes.
+#include "variants/engine/blocks.hpp"
 #include "variants/engine/extra_links.hpp"
 #include "variants/engine/pass_places.hpp"
+#include "variants/engine/pass_shape.hpp"
+#include "variants/engine/progress.hpp"
 #include "variants/engine/schedule.hpp"
 #include "variants/engine/stage_update.hpp"
 
@@ -15,72 +16,51 @@
 
 namespace dss {
 
-/// What a block computes for its halo in a pass, over what it computes for itself; the most of all
-/// blocks.
-/// @param cuts    from cut_rows
-/// @param sweeps  of a pass
-template <class T, int W>
-double halo_work(const PackedRows<T, W>& packed, const std::vector<int>& cuts, int sweeps);
-
-/// Steps that a pass computes. Methods in place can let a step follow the one before it, so several
-/// steps need only one trip through memory and one meeting of the threads. Up to eight if links
-/// reach one row (a plate), else up to four, since the tiles of more steps would be narrow. With
-/// several blocks, only so many that no block recomputes more than a sixteenth of its work.
-/// @param cuts  from cut_rows
-template <class T, int W>
-int steps_a_pass(const PackedRows<T, W>& packed, const Method& method,
-                 const std::vector<int>& cuts);
-
-/// What is the same for the passes of all blocks.
-struct PassShape {
-  int steps = 1; ///< steps of a pass
-  SweepForm form;
-};
-
-/// Rows across of the tiles of a pass: those asked for, else as many as fit in the caches;
-/// no_tiles if that is all.
-/// @param cuts   from cut_rows
-/// @param extra  rows of the extra links
-/// @param asked  as Setup::tile
-/// @throws InputError if the tile that was asked for does not fit in the caches
-template <class T, int W>
-int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
-                int steps, const std::vector<int>& cuts, bool is_in_row_order,
-                std::span<const LinkedRows> extra, int asked);
-
 /// Steps one block. What a task does to a row is the same in every pass, except for the parity of
 /// the published rows that it reads. So all row tasks are made once: making them anew would cost as
 /// much as several packs of a row.
 template <class T, int W = simd::lanes<T>>
 class WavefrontStep {
 public:
-  /// @param dt      step [s]; of an ensemble: of each member
-  /// @param blocks  all blocks
-  /// @param index   of this block
-  /// @param shape   the same for all blocks
+  /// @param dt     step [s]; of an ensemble: of each member
+  /// @param block  which this is, counted from the first own one
   WavefrontStep(PackedRows<T, W>& packed, const Method& method, std::span<const double> dt,
-                const RowStorage& storage, std::size_t signal_count,
-                std::vector<Block<T, W>>& blocks, std::size_t index, PassShape shape,
-                const ExtraLinks<T, W>& extra_links);
-  /// Computes one pass. It updates the block's own rows in place and publishes them under the other
-  /// parity. Sets the block's failures. Steps after a failure are left out, except of an ensemble,
-  /// where the other members go on.
-  /// @param signals  rows of the pass's stages (signal_rows.hpp)
-  /// @param steps    at most those of the constructor
-  /// @param parity   which published copies are current
-  void operator()(const double* signals, int steps, int parity);
+                const RowStorage& storage, std::size_t signal_count, Blocks<T, W>& blocks,
+                int block, PassShape shape, const ExtraLinks<T, W>& extra_links);
+  /// The order of the tasks of a pass.
+  /// @param sweeps  places of the rows of each
+  std::vector<PassTask> order(std::span<const SweepRows> sweeps) const;
+  /// Takes memory for what the tasks leave for one another and for other blocks.
+  void make_places(const std::vector<PassTask>& order, const PassReads& reads, const Seams& seams);
+  /// @param all  the steps of all blocks, which have their places
+  void make_tasks(const std::vector<PassTask>& order, std::span<WavefrontStep> all);
+  /// When the tasks of all blocks are made.
+  void forget_places() { places_.reset(); }
+  /// Computes one pass. It updates rows in place and publishes them under the other parity. Sets
+  /// the block's failures. Steps after a failure are left out, except of an ensemble, where the
+  /// other members go on.
+  /// @param signals   rows of the pass's stages (signal_rows.hpp)
+  /// @param steps     at most those of the shape
+  /// @param parity    which published copies are current
+  /// @param pass      how many passes were computed since all progress was reset
+  /// @param progress  of each block
+  void operator()(const double* signals, int steps, int parity, long pass,
+                  std::span<Progress> progress);
   /// Calls `done` in each pass as soon as this row and all before it are updated and published.
   void watch(int row, std::function<void()> done);
+  /// Of its extra links.
+  std::span<const LinkedRows> linked_rows() const { return extra_links_.rows(); }
   std::size_t bytes() const;
 
   struct RowStage {
     RowWork work;
-    bool is_published; ///< the task leaves a new state that other blocks read
     int sweep;
     int row; ///< of an extra link: its number; of a sum: ExtraLinks::index_of its row
     const KernelSet<T>* kernels; ///< null for devices and for extra links
     /// Of an extra link: `in` and `base` are the rows of its elements. Of a sum: `out`.
     RowTask<T> task;
+    bool is_published = false; ///< the task leaves a new state that others read
+    T* kept = nullptr; ///< where the row goes before the task overwrites it, for other blocks
   };
   /// The tasks of the passes of a parity, in their order.
   const std::vector<RowStage>& tasks(int parity) const {
@@ -88,31 +68,39 @@ public:
   }
 
 private:
-  T* published_row(int r, int parity) const {
-    return published_rows_[std::size_t(parity)][std::size_t(r)];
+  /// The place of a row's state during a pass: in a block, or published by one.
+  T* state_row(int r, int parity) {
+    return own().owns(r) ? own().row(r) : others_rows_[std::size_t(parity)][std::size_t(r)];
   }
-  /// The place of a row's state during a pass: in this block, or published by a neighbour.
-  T* stepped_row(int r, int parity) {
-    const bool is_here = r >= block_.stored_begin && r < block_.stored_end;
-    return is_here ? block_.row(r) : published_row(r, parity);
+  /// An output of this block, as Seams counts them: row r of Y_{output + 1}, or the row that a
+  /// sweep overwrites.
+  T* output_row(int output, int r) {
+    const int place = seams_->handed_over(block_, output, r);
+    return place != Seams::nowhere
+               ? handed_over_.data() + std::size_t(place) * (row_size_ + pack_size_)
+               : stage_rows_.data() + std::size_t(places_->stage_row(output, r)) * row_size_;
   }
-  /// Row r of Y_{stage + 1}, the output of a stage.
+  /// Row r of Y_{stage + 1}, of the block that computes it.
   T* stage_row(int stage, int r) {
-    return stage_rows_.data() + std::size_t(places_->stage_row(stage, r)) * row_size_;
+    return all_[std::size_t(seams_->owner(stage, r, block_))].output_row(stage, r);
   }
-  T* input_row(int stage, int r, int parity) {
-    return stage == 0 ? stepped_row(r, parity) : stage_row(stage - 1, r);
-  }
+  T* input_row(int sweep, int r, int parity);
   /// Where a row leaves links for its upper rows.
   T* links(int axis, int sweep, int r) {
     return links_[std::size_t(axis) - 1].data() +
            std::size_t(places_->links(axis, sweep, r)) * links_size_;
   }
-  void find_published_rows(std::vector<Block<T, W>>& blocks);
-  void copy_halo(int parity);
-  std::vector<PassTask> order(SweepForm form) const;
-  void make_places(const std::vector<PassTask>& order);
-  std::vector<RowStage> make_tasks(const std::vector<PassTask>& order, int parity);
+  Block<T, W>& own() { return blocks_.all()[blocks_.first_own() + std::size_t(block_)]; }
+  const RowDivision& division() const { return blocks_.division(); }
+  bool is_recomputed() const { return division().seams == SeamKind::recomputed; }
+  /// Whether this block answers for a row's new state: whether it is finite, and published.
+  bool answers_for(int r) {
+    const int place = division().order.place(r);
+    return is_recomputed() ? own().owns(r)
+                           : place >= division().cuts.front() && place < division().cuts.back();
+  }
+  void find_others_rows();
+  std::vector<RowStage> tasks_of(const std::vector<PassTask>& order, int parity);
   RowStage extra_task(const PassTask& what, int parity);
   /// The links of a sweep, as set_row takes them.
   struct SweepLinks {
@@ -130,17 +118,23 @@ private:
   void plan_fetches(const std::vector<PassTask>& order, int parity, std::vector<RowStage>& tasks);
 
   const PackedRows<T, W>& packed_;
-  const int fields_, stages_, steps_;
-  const std::size_t row_size_, links_size_; ///< of a place [numbers]
-  Block<T, W>& block_;
+  const PassShape shape_;
+  const int fields_, stages_;
+  const std::size_t pack_size_, row_size_, links_size_; ///< the latter of a place [numbers]
+  Blocks<T, W>& blocks_;
+  const int block_;
+  const Seams* seams_ = nullptr;
   StepSignals<T> signals_;
   std::vector<StageUpdate<T>> updates_; ///< of each stage
   ExtraLinks<T, W> extra_links_;
   ExtraWrenches<T> extra_wrenches_;
-  /// [parity][row]: rows of other blocks that this one reads.
-  std::array<std::vector<T*>, 2> published_rows_;
+  /// [parity][row]: the state of rows of other blocks that this one reads; until all tasks are
+  /// made.
+  std::array<std::vector<T*>, 2> others_rows_;
   std::optional<PassPlaces> places_; ///< until all tasks are made
-  Buffer<T> stage_rows_;
+  std::span<WavefrontStep> all_;     ///< while tasks are made
+  Buffer<T> stage_rows_,
+      handed_over_;                ///< places of outputs; one pack more beyond each of the latter
   std::array<Buffer<T>, 2> links_; ///< across y, z
   /// [parity]. One parity is enough if the block stores all rows that it reads.
   std::array<std::vector<RowStage>, 2> tasks_;
@@ -148,6 +142,39 @@ private:
   /// Index of the task after which the watched row and all before it are done; -1: none.
   std::ptrdiff_t watched_task_ = -1;
   std::function<void()> watched_rows_done_;
+};
+
+/// The steps of all own blocks.
+template <class T, int W = simd::lanes<T>>
+class Wavefront {
+public:
+  /// @param blocks  all blocks, of as many sweeps; outlives this object
+  /// The other parameters are those of WavefrontStep.
+  Wavefront(PackedRows<T, W>& packed, const Method& method, std::span<const double> dt,
+            const RowStorage& storage, std::size_t signal_count, Blocks<T, W>& blocks,
+            PassShape shape, const ExtraLinks<T, W>& extra_links);
+  Wavefront(const Wavefront&) = delete;
+  Wavefront& operator=(const Wavefront&) = delete;
+  const std::vector<WavefrontStep<T, W>>& steps() const { return steps_; }
+  WavefrontStep<T, W>& step(int block) { return steps_[std::size_t(block)]; }
+  /// Before the first pass of some.
+  /// @param is_crowded  more threads than cores will compute the blocks
+  void start(bool is_crowded) {
+    for (Progress& progress : progress_) progress.reset(is_crowded);
+  }
+  /// Computes a pass of a block (see WavefrontStep). Each block's passes must follow one another,
+  /// and each block must compute every pass, or leave.
+  void pass(int block, const double* signals, int steps, int parity, long pass) {
+    step(block)(signals, steps, parity, pass, progress_);
+  }
+  /// The other blocks wait for this one no more.
+  void leave(int block) { progress_[std::size_t(block)].leave(); }
+  std::size_t bytes() const;
+
+private:
+  std::vector<WavefrontStep<T, W>> steps_;
+  std::optional<Seams> seams_;
+  std::vector<Progress> progress_; ///< of each block
 };
 
 } // namespace dss

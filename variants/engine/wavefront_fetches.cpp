@@ -14,7 +14,7 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
   const std::size_t pack_bytes = std::size_t(fields_ * W) * sizeof(T);
   if (packed_.rows.front().kernels == nullptr) return; // devices fetch nothing
   // What stays in L2 from pass to pass needs no fetch.
-  if (packed_.packs_of(block_.begin, block_.end) * pack_bytes < 2 * l2_bytes()) return;
+  if (own().state_bytes() < 2 * l2_bytes()) return;
   std::vector<FetchPlan::Task> places;
   for (const RowStage& stage : tasks)
     places.push_back({stage.work == RowWork::stage ? stage.task.packs : 0, stage.sweep});
@@ -29,15 +29,15 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
       return std::size_t(packed_.rows[std::size_t(of)].packs) * pack_bytes;
     };
     const auto read_state = [&](int of) {
-      if (states.touch(of, tile)) plan.first_read(n, stepped_row(of, parity), bytes(of));
+      if (states.touch(of, tile)) plan.first_read(n, state_row(of, parity), bytes(of));
     };
-    for (const int of : {r, row.upper_y, row.upper_z}) {
-      if (of < 0) continue;
+    each_input(packed_.lattice, extra_links_.rows(), order[n], [&](int of) {
       if (s == 0)
         read_state(of);
-      else if (stage_rows.touch(places_->stage_row(s - 1, of), tile))
+      else if (seams_->owner(s - 1, of, block_) == block_ &&
+               stage_rows.touch(places_->stage_row(s - 1, of), tile))
         plan.first_read(n, stage_row(s - 1, of), bytes(of));
-    }
+    });
     read_state(r);
     for (const int axis : {1, 2}) {
       LastTiles& of_axis = links[axis - 1];

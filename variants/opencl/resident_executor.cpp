@@ -79,27 +79,28 @@ template <class T, int W>
 void ResidentExecutor<T, W>::make_blocks() {
   const Method& method = setup_.method;
   const int halo = method.stages * packed_.reach;
-  const std::vector<int> cuts = cut_blocks();
-  bands_ = int(cuts.size()) - 1;
+  division_.cuts = cut_blocks();
+  division_.halo = packed_.stage_halo;
+  bands_ = division_.blocks();
   // Several bands would have to copy their halos on the device.
-  steps_a_pass_ = bands_ == 1 ? steps_a_pass(packed_, method, cuts) : 1;
-  blocks_.make(packed_, cuts, stored_fields(), steps_a_pass_, method.stages);
-  std::vector<Block<T, W>>& blocks = blocks_.all();
-  form_.is_in_row_order = is_part();
-  form_.tile = choose_tile(packed_, method, rows_.storage(), steps_a_pass_, cuts,
-                           form_.is_in_row_order, {}, setup_.tile);
+  shape_.steps = bands_ == 1 ? steps_a_pass(packed_, method, 1, division_.halo) : 1;
+  blocks_.make(packed_, division_, stored_fields(), shape_.steps * method.stages);
+  shape_.form.is_in_row_order = is_part();
+  shape_.form.tile = choose_tile(
+      packed_, method, rows_.storage(), shape_.steps,
+      most_rows_across(packed_.lattice, division_, shape_.form.is_in_row_order, {}), setup_.tile);
   if (!is_part() && bands_ <= problem_.queue.device().compute_units) trials_left_ = 3;
-  for (std::size_t b = 0, band = 0; b < blocks.size(); ++b) {
-    if (blocks[b].is_remote()) continue;
-    add_neighbours(cuts, int(band++), halo);
-    WavefrontStep<T, W> step(packed_, method, setup_.steps(), rows_.storage(),
-                             signal_count(setup_.problem), blocks, b, {steps_a_pass_, form_}, {});
+  const Wavefront<T, W> wavefront(packed_, method, setup_.steps(), rows_.storage(),
+                                  signal_count(setup_.problem), blocks_, shape_, {});
+  for (int band = 0; band < bands_; ++band) {
+    add_neighbours(division_.cuts, band, halo);
     for (const int parity : {0, 1}) {
       const int begin = problem_.next_place();
-      for (const auto& stage : step.tasks(parity))
+      for (const auto& stage : wavefront.steps()[std::size_t(band)].tasks(parity))
         problem_.add(
             stage.task, stage.row, device_action(stage.work, stage.task.action), stored_fields(),
-            stage.is_published ? blocks[b].published(stage.row, parity ^ 1) : nullptr, stage.sweep);
+            stage.is_published ? blocks_.of(stage.row).published(stage.row, parity ^ 1) : nullptr,
+            stage.sweep);
       passes_.push_back({{begin, problem_.next_place()}});
     }
   }
@@ -324,7 +325,7 @@ std::string ResidentExecutor<T, W>::schedule() const {
   return fmt::format("on {}: {} bands of rows, work-items of {} lanes; {}", device, bands_, W,
                      staged_ ? "stage by stage"
                              : fmt::format("wavefront, reach {}, in place{}", packed_.reach,
-                                           tiles_text(form_.tile)));
+                                           tiles_text(shape_.form.tile)));
 }
 
 template <class T, int W>

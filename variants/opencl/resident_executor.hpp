@@ -118,8 +118,9 @@ private:
   StateRows<T, W> rows_;
   Blocks<T, W> blocks_;                    ///< of the wavefront
   std::optional<StagedRows<T, W>> staged_; ///< stage by stage, in place of blocks_
-  int bands_ = 1, steps_a_pass_ = 1;
-  SweepForm form_; ///< of the wavefront
+  int bands_ = 1;
+  PassShape shape_;
+  RowDivision division_; ///< of the wavefront
   /// Parts: the edges that neighbours wait for are blocks of their own, first and last.
   bool is_split_ = false;
   bool has_lower_edge_ = false, has_upper_edge_ = false;

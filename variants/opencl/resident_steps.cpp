@@ -43,13 +43,13 @@ void ResidentExecutor<T, W>::set_pass_arguments(long steps) {
     kernel_.set_one(n++, table);
   const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
   for (const int value :
-       {parity_, 0, steps_a_pass_, int(steps), stages, width, 0, 0, 1}) // 0: set in run_to
+       {parity_, 0, shape_.steps, int(steps), stages, width, 0, 0, 1}) // 0: set in run_to
     kernel_.set_one(n++, cl_int(value));
 }
 
 template <class T, int W>
 Outcome ResidentExecutor<T, W>::run_passes(long steps) {
-  const long passes = (steps + steps_a_pass_ - 1) / steps_a_pass_;
+  const long passes = (steps + shape_.steps - 1) / shape_.steps;
   set_pass_arguments(steps);
   const int first_parity = parity_;
   const auto parity_after = [&](long pass) { return (first_parity + int(pass & 1)) & 1; };
@@ -152,7 +152,7 @@ template <class T, int W>
 long ResidentExecutor<T, W>::passes_to_do(long passes) {
   cl_int failed_step = INT_MAX;
   problem_.queue.read(failed_, 0, std::as_writable_bytes(std::span(&failed_step, 1)));
-  return failed_step == INT_MAX ? passes : std::min(passes, long(failed_step / steps_a_pass_) + 1);
+  return failed_step == INT_MAX ? passes : std::min(passes, long(failed_step / shape_.steps) + 1);
 }
 
 template <class T, int W>

@@ -1,0 +1,160 @@
+/// Blocks of rows that hand over to one another, computed in random interleavings.
+#include "variants/engine/seams.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+#include <random>
+#include <tuple>
+
+namespace dss {
+namespace {
+
+Lattice porous_bodies(int ny, int nz) {
+  Lattice lattice;
+  std::mt19937 generator(unsigned(ny * nz));
+  for (const int body : {0, 1}) {
+    VoxelGrid grid{5, ny, nz, std::vector<std::uint8_t>(std::size_t(5 * ny * nz))};
+    for (auto& cell : grid.occupied) cell = generator() % 4 != 0;
+    append_body(lattice, grid, body);
+  }
+  return lattice;
+}
+
+/// Computes passes of all blocks. What a task reads must be of its own pass and sweep. The state of
+/// a row is the number of sweeps that have written it.
+class Passes {
+public:
+  Passes(const Lattice& lattice, const std::vector<LinkedRows>& extra, int stages, int sweeps,
+         int blocks, int tile)
+      : lattice_(lattice), extra_(extra), stages_(stages), sweeps_(sweeps),
+        state_(lattice.rows.size()), pass_(std::size_t(blocks)), task_(pass_.size()),
+        events_(pass_.size()) {
+    division_.order = RowOrder(lattice, extra);
+    division_.halo = division_.order.halo(lattice, extra);
+    division_.seams = SeamKind::handed_over;
+    const int rows = int(lattice.rows.size());
+    for (int b = 0; b <= blocks; ++b) division_.cuts.push_back(rows * b / blocks);
+    const auto all = block_sweeps(division_, rows, sweeps);
+    for (const auto& of_block : all)
+      orders_.push_back(order_pass(lattice, division_.order, of_block, {tile, false}, extra));
+    reads_.stages = stages;
+    reads_.increments.resize(std::size_t(stages));
+    if (stages == 4) reads_.increments.back() = {0, 1, 2};
+    reads_.extra = extra_;
+    seams_.emplace(lattice, division_, all, reads_, orders_);
+  }
+  /// Computes the next task of a block, unless it must wait or all passes are done.
+  /// @return whether it did
+  bool compute_next(int block, int passes) {
+    const auto b = std::size_t(block);
+    if (pass_[b] == passes || !may_go_on(block)) return false;
+    compute(block, orders_[b][std::size_t(task_[b])]);
+    for (const int event : seams_->events(block))
+      if (event == task_[b]) ++events_[b];
+    if (++task_[b] == int(orders_[b].size())) task_[b] = 0, ++pass_[b];
+    return true;
+  }
+  void expect_done(int passes) const {
+    for (const int state : state_) EXPECT_EQ(state, passes * sweeps_ / stages_);
+  }
+
+private:
+  bool may_go_on(int block) const {
+    const auto b = std::size_t(block);
+    for (const Seams::Wait& wait : seams_->waits(block))
+      if (const int pass = pass_[b] - int(wait.is_for_pass_before);
+          wait.task == task_[b] && events_[std::size_t(wait.block)] <
+                                       pass * int(seams_->events(wait.block).size()) + wait.event)
+        return false;
+    return true;
+  }
+  void expect_output(int block, int output, int row, int value) {
+    const int owner = seams_->owner(output, row, block);
+    if (owner != block) {
+      EXPECT_NE(seams_->handed_over(owner, output, row), Seams::nowhere);
+    }
+    EXPECT_EQ((outputs_[{owner, output, row}]), value) << "output " << output << ", row " << row;
+  }
+  void compute(int block, const PassTask& task) {
+    const int stage = task.sweep % stages_, pass = pass_[std::size_t(block)];
+    const int before = (pass * sweeps_ + task.sweep) / stages_; // steps, or sweeps of one stage
+    each_input(lattice_, extra_, task, [&](int row) {
+      if (stage > 0)
+        expect_output(block, stage - 1, row, pass);
+      else if (stages_ == 1 && seams_->owner(task.sweep, row, block) > block)
+        expect_output(block, task.sweep, row, before);
+      else
+        EXPECT_EQ(state_[std::size_t(row)], before) << "row " << row;
+    });
+    if (task.work != RowWork::stage) return;
+    int& state = state_[std::size_t(task.row)];
+    EXPECT_EQ(state, before);
+    for (const int m : reads_.increments[std::size_t(stage)])
+      expect_output(block, m, task.row, pass);
+    if (stages_ == 1) outputs_[{block, task.sweep, task.row}] = state;
+    if (stage + 1 < stages_)
+      outputs_[{block, stage, task.row}] = pass;
+    else
+      ++state;
+  }
+
+  const Lattice& lattice_;
+  const std::vector<LinkedRows>& extra_;
+  const int stages_, sweeps_;
+  RowDivision division_;
+  PassReads reads_;
+  std::vector<std::vector<PassTask>> orders_;
+  std::optional<Seams> seams_;
+  std::vector<int> state_;
+  std::map<std::tuple<int, int, int>, int> outputs_; ///< [block, output, row]
+  std::vector<int> pass_, task_, events_;            ///< of each block
+};
+
+/// Calls check(passes) for methods, blocks and tiles of awkward sizes.
+template <class Check>
+void each_team(Check&& check) {
+  for (const auto& [ny, nz] : {std::pair{9, 6}, {4, 12}, {24, 1}}) {
+    const Lattice lattice = porous_bodies(ny, nz);
+    const int rows = int(lattice.rows.size());
+    for (const std::vector<LinkedRows>& extra :
+         {std::vector<LinkedRows>{}, {{0, rows - 1}, {2, rows / 2}}})
+      for (const auto& [stages, sweeps] : {std::pair{4, 4}, {2, 2}, {1, 1}, {1, 5}})
+        for (const int blocks : {2, 3, 7})
+          for (const int tile : {no_tiles, 2}) {
+            Passes passes(lattice, extra, stages, sweeps, blocks, tile);
+            check(passes, blocks);
+          }
+  }
+}
+
+TEST(Seams, GiveEachTaskWhatItReadsInAnyInterleaving) {
+  constexpr int count = 3;
+  std::mt19937 generator(1);
+  each_team([&](Passes& passes, int blocks) {
+    // Each block in turn goes on for a random number of tasks.
+    for (int idle = 0; idle < blocks * 20;) {
+      const int block = int(generator() % unsigned(blocks));
+      int tasks = 0;
+      for (unsigned most = 1 + generator() % 200; unsigned(tasks) < most; ++tasks)
+        if (!passes.compute_next(block, count)) break;
+      idle = tasks > 0 ? 0 : idle + 1;
+    }
+    passes.expect_done(count);
+  });
+}
+
+/// The upper block first: so one thread can compute all blocks.
+TEST(Seams, LetOneThreadComputeAllBlocks) {
+  each_team([&](Passes& passes, int blocks) {
+    for (int pass = 1; pass <= 3; ++pass)
+      for (int block = blocks; block-- > 0;)
+        while (passes.compute_next(block, pass)) {
+        }
+    passes.expect_done(3);
+  });
+}
+
+} // namespace
+} // namespace dss
