@@ -15,13 +15,9 @@ void cut_passes(const PartSize& size, int stages, int reach, double speed, PartT
   // Time of one row in one stage.
   const double row_s = double(size.row_elements[0]) / size.own_rows / speed;
   const int halo = stages * reach;
-  // Rows times stages that are computed twice beside a cut.
-  const double again = reach * stages * (stages - 1) / 2.0;
-  const bool is_split = has(Side::upper) && size.own_rows >= 3 * halo;
-  if (is_split) {
-    times.upper_s = row_s * (halo * stages + 2 * again);
-    times.compute_s += row_s * 2 * again;
-  }
+  const bool is_split = has(Side::upper) && size.own_rows >= 4 * halo;
+  // Its last stage has `halo` rows. Each stage before has one reach more on both sides.
+  if (is_split) times.upper_s = row_s * stages * (halo + reach * (stages - 1));
   const double lower_s = times.compute_s - times.upper_s;
   const int lower_rows = size.own_rows - (is_split ? halo : 0);
   const double done_at = double(halo + (stages - 1) * reach) / (lower_rows + (stages - 1) * reach);

@@ -37,8 +37,11 @@ Seams::Seams(const Lattice& lattice, const RowDivision& division,
   if (division.seams == SeamKind::recomputed || sweeps_.size() == 1) return;
   is_near_.resize(lattice.rows.size());
   for (std::size_t b = 1; b < sweeps_.size(); ++b) {
-    const int begin = std::max(0, sweeps_[b].front().begin - division.halo),
-              end = std::min(int(is_near_.size()), sweeps_[b].back().begin + 2 * division.halo + 1);
+    // The outermost sweeps of a part's halo may end the block before its last sweep begins.
+    const auto [low, high] =
+        std::ranges::minmax(sweeps_[b], {}, [](const SweepRows& rows) { return rows.begin; });
+    const int begin = std::max(0, low.begin - division.halo),
+              end = std::min(int(is_near_.size()), high.begin + 2 * division.halo + 1);
     std::fill(is_near_.begin() + begin, is_near_.begin() + std::max(begin, end), true);
   }
   if (reads_.stages == 1) find_overwritten(orders);
@@ -154,14 +157,15 @@ void Seams::make_events() {
     for (const Wait& wait : block.waits)
       blocks_[std::size_t(wait.block)].events.push_back(wait.event);
   for (BlockSeams& block : blocks_) {
-    std::ranges::sort(block.events);
-    const auto same = std::ranges::unique(block.events);
-    block.events.erase(same.begin(), same.end());
+    std::vector<int>& events = block.events;
+    std::sort(events.begin(), events.end());
+    events.erase(std::unique(events.begin(), events.end()), events.end());
   }
   for (BlockSeams& block : blocks_)
     for (Wait& wait : block.waits) {
       const std::span<const int> events = blocks_[std::size_t(wait.block)].events;
-      wait.event = 1 + int(std::ranges::lower_bound(events, wait.event) - events.begin());
+      wait.event =
+          1 + int(std::lower_bound(events.begin(), events.end(), wait.event) - events.begin());
     }
 }
 
