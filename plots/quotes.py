@@ -238,10 +238,11 @@ def geometry_table(results):
         first = rows.iloc[0]
         lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), f"{int(first['elements'])}",
                       f"{first['links'] / first['elements']:.2f}",
-                      *(rate(row_of(rows, variant)) for variant in rates), rate(cores), per_link,
+                      *(rate(row_of(rows, variant)) for variant in rates), rate(cores),
+                      rate(row_of(rows, "opencl", True)), per_link,
                       "" if fastest is None else speedup_over(fastest, "scalar")])
     return ["body", "elements", "links an element", *(f"`{name}`" for name in rates),
-            "`avx512`, all cores", "per link, over the plate n = 100",
+            "`avx512`, all cores", "`opencl`, all cores", "per link, over the plate n = 100",
             "`avx512` over `scalar`"], lines
 
 
