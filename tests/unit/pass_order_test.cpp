@@ -233,7 +233,7 @@ TEST(PassPlaces, KeepWhatIsStillRead) {
   each_case([&](const Case& c) {
     const int sweeps = int(c.sweeps.size()), stages = sweeps == 4 ? 4 : 1;
     const std::vector<PassTask> order = order_of(c);
-    const PassPlaces places(c.lattice, order, sweeps, stages, increments, c.extra);
+    const PassPlaces places(c.lattice, c.order, order, sweeps, stages, increments, c.extra);
     std::map<int, std::pair<int, int>> stage_rows, links[2];
     for (const PassTask& task : order) {
       const int stage = task.sweep % stages;
@@ -272,8 +272,9 @@ TEST(PassPlaces, OfOneTileAreThoseOfAFewPlanes) {
   Lattice block;
   append_body(block, {8, 20, 40, std::vector<std::uint8_t>(8 * 20 * 40, 1)}, 0);
   const std::vector<SweepRows> sweeps = sweeps_of(block, 0, 20 * 40, 4);
-  const PassPlaces places(block, order_pass(block, {}, sweeps, {}), 4, 4, {{}, {}, {}, {0, 1, 2}},
-                          {});
+  const RowOrder by_number;
+  const PassPlaces places(block, by_number, order_pass(block, by_number, sweeps, {}), 4, 4,
+                          {{}, {}, {}, {0, 1, 2}}, {});
   EXPECT_LE(places.stage_row_count(), 6 * 20 + 10); // 3 + 2 + 1 planes
   EXPECT_LE(places.links_count(2), 4 * 20 + 4);
   EXPECT_LE(places.links_count(1), 4 + 4);

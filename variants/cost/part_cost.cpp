@@ -20,7 +20,9 @@ void cut_passes(const PartSize& size, int stages, int reach, double speed, PartT
   if (is_split) times.upper_s = row_s * stages * (halo + reach * (stages - 1));
   const double lower_s = times.compute_s - times.upper_s;
   const int lower_rows = size.own_rows - (is_split ? halo : 0);
-  const double done_at = double(halo + (stages - 1) * reach) / (lower_rows + (stages - 1) * reach);
+  // Each sweep of a split part's lower block has as many rows; else the first has the most.
+  const int first_rows = lower_rows + (is_split ? 0 : (stages - 1) * reach);
+  const double done_at = double(halo + (stages - 1) * reach) / first_rows;
   times.edge_s = has(Side::lower) ? lower_s * std::min(1.0, done_at) : 0;
 }
 

@@ -26,6 +26,8 @@ public:
   /// @param order       outlives the block
   /// @param begin, end  places
   /// @param fields      numbers that a pack holds for each element
+  /// @param published   rows that are published
+  /// @param is_remote   another part computes the rows, so only published ones are stored
   /// @param apart       rows that other threads touch; one pack more lies beyond each, because rows
   ///   look one pack ahead
   Block(const PackedRows<T, W>& packed, const RowOrder& order, int begin, int end, int fields,

@@ -25,18 +25,18 @@ public:
       if (end < rows) outer_rows.from = end - halo;
       return outer_rows;
     };
-    const bool is_each = division.seams == SeamKind::recomputed;
+    const bool is_recomputed = division.seams == SeamKind::recomputed;
     const auto add = [&](int begin, int end, OuterRows published, bool is_remote) {
       OuterRows apart;
-      if (!is_each && division.blocks() > 1)
-        apart = {begin + halo + division.halo, end - division.halo};
+      if (!is_recomputed && division.blocks() > 1) apart = {begin + halo, end - division.halo};
       blocks_.emplace_back(packed, division.order, begin, end, fields, published, apart, is_remote);
     };
     const std::vector<int>& cuts = division.cuts;
     const int first = cuts.front(), last = cuts.back();
     if (first > 0) add(0, first, outer(0, first), true);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b)
-      add(cuts[b], cuts[b + 1], is_each ? outer(cuts[b], cuts[b + 1]) : outer(first, last), false);
+      add(cuts[b], cuts[b + 1], is_recomputed ? outer(cuts[b], cuts[b + 1]) : outer(first, last),
+          false);
     if (last < rows) add(last, rows, outer(last, rows), true);
   }
   const RowDivision& division() const { return *division_; }

@@ -8,11 +8,10 @@
 
 namespace dss {
 
-/// Rows [begin, end) that a sweep computes: those of a block, and rows on both sides that later
-/// sweeps of the pass read.
+/// The rows that a sweep computes: places [begin, end) of an order of rows (row_order.hpp).
 struct SweepRows {
   int begin, end;
-  bool has(int row) const { return row >= begin && row < end; }
+  bool has(int place) const { return place >= begin && place < end; }
 };
 
 /// The rows of an extra link's two elements.

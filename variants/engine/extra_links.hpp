@@ -72,8 +72,8 @@ private:
   std::vector<RowLinks> of_row_; ///< by row
 };
 
-/// The wrenches of rows with extra links, apart from those of PackedRows: blocks compute the same
-/// halo rows at the same time.
+/// The wrenches of rows with extra links, apart from those of PackedRows: blocks may compute
+/// different sweeps of a row, and the same link, at the same time.
 template <class T>
 class ExtraWrenches {
 public:

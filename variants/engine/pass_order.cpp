@@ -64,6 +64,7 @@ public:
         for (const BodyGroup::Member& member : group.members()) {
           const int first = k - member.shift; // plane of the first sweep
           if (first < 0 || first >= member.planes.along + last * group.lag()) continue;
+          if (!has_rows(member.planes, first, group.lag())) continue;
           if (tiles == 1)
             add_plane(member.planes, first, group.lag(), 0, member.planes.across, 0);
           else
@@ -73,6 +74,21 @@ public:
   std::vector<PassTask> tasks;
 
 private:
+  /// Whether a sweep has rows of its plane: a block has those of a part of the planes.
+  bool has_rows(const BodyPlanes& planes, int first, int lag) const {
+    for (int n = 0; n < int(sweeps_.size()); ++n) {
+      // Places ascend across a plane.
+      const int k = first - n * lag;
+      int low = 0, high = planes.across - 1;
+      while (low <= high && planes.row(k, low) < 0) ++low;
+      while (low <= high && planes.row(k, high) < 0) --high;
+      const SweepRows& rows = sweeps_[std::size_t(n)];
+      if (low <= high && rows_.place(planes.row(k, low)) < rows.end &&
+          rows_.place(planes.row(k, high)) >= rows.begin)
+        return true;
+    }
+    return false;
+  }
   /// Sweep n has the rows [begin, end - n skew) of plane k - n lag, each n skew lower.
   void add_plane(const BodyPlanes& planes, int k, int lag, int begin, int end, int skew) {
     for (int c = begin; c < end; ++c)

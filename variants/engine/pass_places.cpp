@@ -47,10 +47,11 @@ private:
 
 } // namespace
 
-PassPlaces::PassPlaces(const Lattice& lattice, std::span<const PassTask> order, int sweeps,
-                       int stages, const std::vector<std::vector<int>>& increments,
+PassPlaces::PassPlaces(const Lattice& lattice, const RowOrder& rows,
+                       std::span<const PassTask> order, int sweeps, int stages,
+                       const std::vector<std::vector<int>>& increments,
                        std::span<const LinkedRows> extra)
-    : lattice_(lattice), extra_(extra) {
+    : lattice_(lattice), rows_(rows), extra_(extra) {
   find_rows(order);
   stage_rows_ = empty_table(stages - 1);
   for (Table& links : links_) links = empty_table(sweeps);
@@ -61,7 +62,7 @@ PassPlaces::PassPlaces(const Lattice& lattice, std::span<const PassTask> order, 
 void PassPlaces::find_rows(std::span<const PassTask> order) {
   int least = int(lattice_.rows.size()), most = -1;
   const auto add = [&](int r) {
-    if (r >= 0) least = std::min(least, r), most = std::max(most, r);
+    if (r >= 0) least = std::min(least, rows_.place(r)), most = std::max(most, rows_.place(r));
   };
   for (const PassTask& task : order) {
     if (task.work == RowWork::extra_link)
@@ -70,7 +71,7 @@ void PassPlaces::find_rows(std::span<const PassTask> order) {
     const Row& row = lattice_.rows[std::size_t(task.row)];
     for (const int r : {task.row, row.lower_y, row.lower_z, row.upper_y, row.upper_z}) add(r);
   }
-  first_row_ = least;
+  first_ = least;
   row_count_ = std::size_t(most + 1 - least);
 }
 

@@ -18,9 +18,11 @@ public:
   /// @param stages      stages of a step; sweep n computes stage n % stages
   /// @param increments  of each stage, the stages whose outputs the update reads
   /// @param lattice     of all rows; outlives this object
+  /// @param rows        the order of rows, in which those of a pass are close; outlives this object
   /// @param extra       rows of the extra links; outlive this object
-  PassPlaces(const Lattice& lattice, std::span<const PassTask> order, int sweeps, int stages,
-             const std::vector<std::vector<int>>& increments, std::span<const LinkedRows> extra);
+  PassPlaces(const Lattice& lattice, const RowOrder& rows, std::span<const PassTask> order,
+             int sweeps, int stages, const std::vector<std::vector<int>>& increments,
+             std::span<const LinkedRows> extra);
   /// Place of the output of a stage of a row; 0 if no task of the pass writes it.
   int stage_row(int stage, int row) const { return at(stage_rows_, stage, row); }
   /// Place of the links that a row leaves across axis 1 (y) or 2 (z) in a sweep; 0 if it leaves
@@ -41,7 +43,7 @@ private:
     return Table(std::size_t(count), std::vector<int>(row_count_, nowhere));
   }
   /// Of a row that a task of the pass writes or reads.
-  std::size_t row_index(int row) const { return std::size_t(row - first_row_); }
+  std::size_t row_index(int row) const { return std::size_t(rows_.place(row) - first_); }
   void find_rows(std::span<const PassTask> order);
   void place_stage_rows(std::span<const PassTask> order, int stages,
                         const std::vector<std::vector<int>>& increments);
@@ -50,11 +52,12 @@ private:
   int lower(int row, int axis) const { return lattice_.rows[std::size_t(row)].lower(axis); }
 
   const Lattice& lattice_;
+  const RowOrder& rows_;
   const std::span<const LinkedRows> extra_;
-  int first_row_ = 0;          ///< the least row of the tables
+  int first_ = 0;              ///< place in the order of the tables' first row
   std::size_t row_count_ = 0;  ///< of the tables
-  Table stage_rows_;           ///< [stage][row - first_row_]
-  std::array<Table, 2> links_; ///< [axis - 1][sweep][row - first_row_]
+  Table stage_rows_;           ///< [stage][row_index]
+  std::array<Table, 2> links_; ///< [axis - 1][sweep][row_index]
   int stage_row_count_ = 0;
   std::array<int, 2> links_count_{};
 };

@@ -14,21 +14,25 @@ namespace dss {
 template <class T, int W>
 static std::vector<int> even_cuts(const PackedRows<T, W>& packed, const RowOrder& order, int parts,
                                   int sweeps, int halo) {
-  const int begin = packed.own_begin, end = packed.own_end;
+  const int begin = packed.own_begin, end = packed.own_end, rows = int(packed.rows.size());
   parts = std::clamp(parts, 1, end - begin);
   std::vector<std::size_t> packs{0}; // before each place
-  for (int place = begin; place < end; ++place)
+  for (int place = 0; place < rows; ++place)
     packs.push_back(packs.back() + std::size_t(packed.rows[std::size_t(order.row(place))].packs));
+  // Of all sweeps, which compute what a part's own rows need beside them, too (block_sweeps).
   const auto work_before = [&](int place) {
     std::size_t work = 0;
-    for (int n = 0; n < sweeps; ++n)
-      work += packs[std::size_t(std::min(place + n * halo, end) - begin)];
+    for (int n = 0; n < sweeps; ++n) {
+      const int outer = (sweeps - 1 - n) * halo, low = std::max(0, begin - outer),
+                high = std::min(rows, end + outer);
+      work += packs[std::size_t(std::clamp(place + n * halo, low, high))] - packs[std::size_t(low)];
+    }
     return work;
   };
+  const std::size_t all = work_before(rows);
   std::vector<int> cuts{begin};
   for (int p = 1; p < parts; ++p) {
-    const std::size_t target =
-        std::size_t(sweeps) * packs.back() * std::size_t(p) / std::size_t(parts);
+    const std::size_t target = all * std::size_t(p) / std::size_t(parts);
     int place = cuts.back() + 1; // every block has a row
     while (place < end - (parts - p) && work_before(place) < target) ++place;
     cuts.push_back(place);

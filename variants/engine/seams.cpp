@@ -37,17 +37,25 @@ Seams::Seams(const Lattice& lattice, const RowDivision& division,
   if (division.seams == SeamKind::recomputed || sweeps_.size() == 1) return;
   is_near_.resize(lattice.rows.size());
   for (std::size_t b = 1; b < sweeps_.size(); ++b) {
-    // The outermost sweeps of a part's halo may end the block before its last sweep begins.
+    // From what the first row's links to lower rows read, to the upper rows that the block below
+    // reads in the last sweep. In a part's outermost sweeps, a block may begin higher than in its
+    // last.
     const auto [low, high] =
         std::ranges::minmax(sweeps_[b], {}, [](const SweepRows& rows) { return rows.begin; });
     const int begin = std::max(0, low.begin - division.halo),
-              end = std::min(int(is_near_.size()), high.begin + 2 * division.halo + 1);
-    std::fill(is_near_.begin() + begin, is_near_.begin() + std::max(begin, end), true);
+              end = std::min(int(is_near_.size()), high.begin + division.halo);
+    std::fill(is_near_.begin() + begin, is_near_.begin() + end, true);
   }
   if (reads_.stages == 1) find_overwritten(orders);
   hand_over(orders);
   make_waits(orders);
   make_events();
+}
+
+void Seams::forget_outputs() {
+  for (BlockSeams& block : blocks_) block.places = {};
+  overwritten_ = {};
+  is_near_ = {};
 }
 
 int Seams::owner(int sweep, int row, int reader) const {
@@ -62,7 +70,7 @@ int Seams::owner(int sweep, int row, int reader) const {
 
 int Seams::handed_over(int block, int output, int row) const {
   const auto& places = blocks_[std::size_t(block)].places;
-  if (places.empty()) return nowhere;
+  if (places.empty() || !is_near(row)) return nowhere;
   const auto found = places.find(key(output, row));
   return found == places.end() ? nowhere : found->second;
 }
@@ -76,6 +84,7 @@ void Seams::each_touch(int block, const PassTask& task, Visit&& visit) const {
     if (is_near(row)) visit(output, row, is_written);
   };
   each_input(lattice_, reads_.extra, task, [&](int row) {
+    if (!is_near(row)) return;
     if (stage > 0)
       touch(stage - 1, row);
     else if (overwritten_.contains(key(task.sweep, row)) && owner(task.sweep, row, block) > block)
@@ -83,9 +92,8 @@ void Seams::each_touch(int block, const PassTask& task, Visit&& visit) const {
     else
       touch(state, row);
   });
-  if (task.is_extra()) return;
-  touch(state, task.row);
   if (task.work != RowWork::stage) return;
+  touch(state, task.row);
   for (const int m : reads_.increments[std::size_t(stage)]) touch(m, task.row);
   if (is_single) touch(int(task.sweep), task.row, true);
   if (stage + 1 < reads_.stages)
@@ -128,7 +136,8 @@ Seams::Touches Seams::last_touches(const std::vector<std::vector<PassTask>>& ord
 }
 
 /// Tasks of a tile wait together, at the first that must: each look at another's progress costs the
-/// way between two cores. No circle can arise by that, either.
+/// way between two cores. No circle can arise by that, either, since every wait is for a pass
+/// before, or for a higher block in the same pass.
 void Seams::make_waits(const std::vector<std::vector<PassTask>>& orders) {
   const Touches touches = last_touches(orders);
   for (int b = 0; b < int(orders.size()); ++b) {

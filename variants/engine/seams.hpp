@@ -33,9 +33,6 @@ struct PassReads {
 /// waits for the lower block's pass before. No circle can arise.
 class Seams {
 public:
-  /// An output: of a stage of a row; or, of a method with one stage, the row before a sweep
-  /// overwrites it, which is number `sweep`. Outputs that are handed over keep their place for the
-  /// whole pass.
   static constexpr int nowhere = -1;
 
   struct Wait {
@@ -54,9 +51,13 @@ public:
   std::span<const SweepRows> sweeps(int block) const { return sweeps_[std::size_t(block)]; }
   /// The block that computes a row in a sweep. @param reader  a block that reads it
   int owner(int sweep, int row, int reader) const;
-  /// The place of an output of a block that others read; nowhere if none does.
+  /// The place of an output of a block that others read; nowhere if none does. An output is that of
+  /// a stage of a row; or, of a method with one stage, the row before a sweep overwrites it, whose
+  /// number is that of the sweep. It keeps its place for the whole pass.
   int handed_over(int block, int output, int row) const;
   int handed_over_count(int block) const { return int(blocks_[std::size_t(block)].places.size()); }
+  /// When all tasks are made. Only waits and events are left.
+  void forget_outputs();
   /// In the order of the tasks.
   std::span<const Wait> waits(int block) const { return blocks_[std::size_t(block)].waits; }
   /// The tasks after which a block tells that it has come so far, in their order.

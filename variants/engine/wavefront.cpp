@@ -16,6 +16,9 @@ WavefrontStep<T, W>::WavefrontStep(PackedRows<T, W>& packed, const Method& metho
       pack_size_(std::size_t(fields_ * W)), row_size_(std::size_t(packed.max_packs) * pack_size_),
       links_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
       blocks_(blocks), block_(block),
+      has_published_(
+          blocks.all().size() > 1 &&
+          (is_recomputed() || blocks.all().front().is_remote() || blocks.all().back().is_remote())),
       signals_(signal_count, shape.steps * method.stages, packed.members().size()),
       updates_(stage_updates<T>(method, storage, W, dt)), extra_links_(extra_links),
       extra_wrenches_(packed, extra_links.rows()) {}
@@ -35,8 +38,8 @@ template <class T, int W>
 void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order, const PassReads& reads,
                                       const Seams& seams) {
   seams_ = &seams;
-  places_.emplace(packed_.lattice, order, shape_.steps * stages_, stages_, reads.increments,
-                  reads.extra);
+  places_.emplace(packed_.lattice, division().order, order, shape_.steps * stages_, stages_,
+                  reads.increments, reads.extra);
   // One pack more: rows look one pack ahead.
   stage_rows_ =
       Buffer<T>(std::size_t(places_->stage_row_count()) * row_size_ + pack_size_, packed_.memory);
@@ -104,7 +107,8 @@ auto WavefrontStep<T, W>::tasks_of(const std::vector<PassTask>& order, int parit
     if (const Applied<T>* applied = extra_wrenches_.applied(r)) stage.task.applied = applied;
     if (what.work == RowWork::stage) {
       T* const base = state_row(r, parity);
-      stage.is_published = is_last && answers_for(r) && blocks_.of(r).is_published(r);
+      stage.is_published =
+          is_last && has_published_ && answers_for(r) && blocks_.of(r).is_published(r);
       if (stages_ == 1 && seams_->handed_over(block_, what.sweep, r) != Seams::nowhere)
         stage.kept = output_row(what.sweep, r);
       updates_[std::size_t(s)].set(stage.task, base, is_last ? base : stage_row(s, r),
@@ -239,6 +243,7 @@ Wavefront<T, W>::Wavefront(PackedRows<T, W>& packed, const Method& method,
   for (std::size_t b = 0; b < steps_.size(); ++b) steps_[b].make_places(orders[b], reads, *seams_);
   for (std::size_t b = 0; b < steps_.size(); ++b) steps_[b].make_tasks(orders[b], steps_);
   for (WavefrontStep<T, W>& step : steps_) step.forget_places();
+  seams_->forget_outputs();
   progress_ = std::vector<Progress>(steps_.size());
 }
 

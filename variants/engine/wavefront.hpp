@@ -123,6 +123,7 @@ private:
   const std::size_t pack_size_, row_size_, links_size_; ///< the latter of a place [numbers]
   Blocks<T, W>& blocks_;
   const int block_;
+  const bool has_published_; ///< blocks exchange rows with others
   const Seams* seams_ = nullptr;
   StepSignals<T> signals_;
   std::vector<StageUpdate<T>> updates_; ///< of each stage
@@ -136,7 +137,7 @@ private:
   Buffer<T> stage_rows_,
       handed_over_;                ///< places of outputs; one pack more beyond each of the latter
   std::array<Buffer<T>, 2> links_; ///< across y, z
-  /// [parity]. One parity is enough if the block stores all rows that it reads.
+  /// [parity]. One parity is enough if the block reads no published rows.
   std::array<std::vector<RowStage>, 2> tasks_;
   int watched_row_ = -1;
   /// Index of the task after which the watched row and all before it are done; -1: none.
@@ -157,13 +158,14 @@ public:
   Wavefront& operator=(const Wavefront&) = delete;
   const std::vector<WavefrontStep<T, W>>& steps() const { return steps_; }
   WavefrontStep<T, W>& step(int block) { return steps_[std::size_t(block)]; }
-  /// Before the first pass of some.
+  /// Before the first pass of each run of passes, whose numbers start at 0.
   /// @param is_crowded  more threads than cores will compute the blocks
   void start(bool is_crowded) {
     for (Progress& progress : progress_) progress.reset(is_crowded);
   }
   /// Computes a pass of a block (see WavefrontStep). Each block's passes must follow one another,
-  /// and each block must compute every pass, or leave.
+  /// and each block must compute every pass, or leave. A thread with several blocks goes from the
+  /// last to the first in each pass; else it would wait for itself.
   void pass(int block, const double* signals, int steps, int parity, long pass) {
     step(block)(signals, steps, parity, pass, progress_);
   }
