@@ -59,7 +59,7 @@ endfunction()
 # kind of lanes (LaneKind), which are generated. The models are those of kernels/model.hpp. Without
 # packs there are no lanes for the members of an ensemble.
 function(dssbench_engine_sources out root isa)
-  set(kinds neighbours)
+  set(kinds neighbours filled)
   if(NOT isa STREQUAL scalar)
     list(APPEND kinds members)
   endif()
@@ -71,6 +71,9 @@ function(dssbench_engine_sources out root isa)
   foreach(model IN LISTS models)
     foreach(type double float)
       foreach(kind IN LISTS kinds)
+        if(kind STREQUAL filled AND NOT model MATCHES "^(planar|spatial)$") # has_filled_rows
+          continue()
+        endif()
         set(source
           ${PROJECT_BINARY_DIR}/generated/variants/engine/${kind}_${model}_${type}.cpp)
         configure_file(${root}/variants/engine/kernels_of_model.cpp.in ${source} @ONLY)

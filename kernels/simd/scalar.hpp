@@ -31,6 +31,20 @@ template <class T>
 inline T shift_down(T, T above) {
   return above;
 }
+/// Which lanes pick() takes, counted over its two packs: of each lane of the result one.
+template <class T>
+struct LaneChoice {
+  bool is_second;
+};
+template <class T>
+inline LaneChoice<T> lane_choice(const std::uint8_t* lanes) {
+  return {*lanes != 0};
+}
+/// [(a, b).choice_0, (a, b).choice_1, ...].
+template <class T>
+inline T pick(T a, T b, LaneChoice<T> choice) {
+  return choice.is_second ? b : a;
+}
 /// a where the mask has its bit, 0 elsewhere.
 template <class T>
 inline T keep(LaneMask mask, T a) {

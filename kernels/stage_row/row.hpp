@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 
 namespace dss {
 
@@ -14,6 +15,25 @@ namespace dss {
 struct PackMasks {
   simd::LaneMask link_x = 0, link_y = 0, link_z = 0, below_y = 0, below_z = 0;
   auto operator<=>(const PackMasks&) const = default;
+};
+
+/// Where the neighbours of a pack's elements lie in the packs of another row.
+template <class T>
+struct LaneMap {
+  /// Packs of the other row. If the neighbours lie in more than two packs, `second` is `scattered`,
+  /// and `first` says where in RowTask::scattered their places begin.
+  int first = 0, second = 0;
+  static constexpr int scattered = -1;
+  /// Of each lane the neighbour's, counted over both packs; 0 if there is no neighbour.
+  std::uint8_t lanes[simd::lanes<T>] = {};
+};
+
+/// Of a pack in a filled row.
+template <class T>
+struct PackMaps {
+  LaneMap<T> upper_y, upper_z, lower_y, lower_z;
+  const LaneMap<T>& upper(int axis) const { return axis == 1 ? upper_y : upper_z; }
+  const LaneMap<T>& lower(int axis) const { return axis == 1 ? lower_y : lower_z; }
 };
 
 /// Constants of a body, in the form of the kernels.
@@ -28,6 +48,9 @@ struct BodyConstants {
 enum class LaneKind {
   neighbours, ///< elements that follow one another along x
   members,    ///< the same element of the members of an ensemble
+  /// The elements of a row one after the other, without its holes. So neighbours in the rows beside
+  /// it lie in other lanes, and maps say in which.
+  filled,
 };
 
 /// A number of each lane.
@@ -65,6 +88,8 @@ struct RowTask {
   int stride = 0; ///< numbers from pack to pack in all rows except carries
   int low = 0;    ///< compensated: distance from a number to its low part or increment
   const PackMasks* masks = nullptr;
+  const PackMaps<T>* maps = nullptr; ///< of each pack; null if neighbours lie in the same lanes
+  const int* scattered = nullptr; ///< places in another row, counted in lanes from its first pack
   const BodyConstants<T>* body = nullptr;
   const Applied<T>* applied = nullptr; ///< null for most rows
   /// Frame acceleration x, y, z, then the loads' values. Of an ensemble: each of all lanes.
@@ -78,7 +103,8 @@ struct RowTask {
   const T* in = nullptr; ///< input of the stage; one readable pack follows the row
   const T *upper_y = nullptr, *upper_z = nullptr;
   T *carry_y = nullptr, *carry_z = nullptr; ///< link forces and couples for the upper rows
-  /// What the lower rows left; may be the same buffers as carry_y and carry_z.
+  /// What the lower rows left; may be the same buffers as carry_y and carry_z unless there are
+  /// maps.
   const T *from_y = nullptr, *from_z = nullptr;
   // plain_stage: out = base + beta f(in).
   // With increments: out = base + alpha_0 [beta f(in) + (increment_0 - base) +

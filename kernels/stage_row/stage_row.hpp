@@ -44,6 +44,7 @@ struct StageRow {
 
   const RowTask<T>& task;
   static constexpr bool is_ensemble = kind == LaneKind::members;
+  static constexpr bool is_filled = kind == LaneKind::filled;
   static const auto& constants_of(const RowTask<T>& task) {
     if constexpr (is_ensemble)
       return *task.members;
@@ -63,7 +64,7 @@ struct StageRow {
   /// Plain packs have every link in the plane, or across all faces, and no applied wrench. They
   /// take a copy of the loop's body without branches. Spatial rows that are not parked are slower
   /// with it: straight code over 13 fields spills more (README.md).
-  static constexpr bool has_plain_path = P::axes < 3 || P::fields < 13 || is_parked;
+  static constexpr bool has_plain_path = !is_filled && (P::axes < 3 || P::fields < 13 || is_parked);
   /// With few registers, the copy for solids makes the compiler spill more in all copies
   /// (README.md).
   static constexpr bool has_solid_path =
@@ -175,6 +176,56 @@ struct StageRow {
     return c;
   }
 
+  /// Copies numbers of a pack from any lanes of a row.
+  /// @param size  numbers from pack to pack of `from`
+  [[gnu::noinline]] static void collect(const T* from, std::ptrdiff_t size, int numbers,
+                                        const int* places, T* to) {
+    for (int l = 0; l < W; ++l) {
+      const T* const lane = from + places[l] / W * size + places[l] % W;
+      for (int n = 0; n < numbers; ++n) to[n * W + l] = lane[n * W];
+    }
+  }
+  /// Loads a pack's neighbours from another row.
+  /// @param size  numbers from pack to pack of `from`
+  template <class Tuple, int numbers>
+  Tuple load_mapped(const T* from, std::ptrdiff_t size, const LaneMap<T>& map) const {
+    Tuple t{};
+    if (map.second == map.scattered) [[unlikely]] {
+      alignas(64) T lanes[numbers > 0 ? numbers * W : 1];
+      collect(from, size, numbers, task.scattered + map.first, lanes);
+      const T* p = lanes;
+      return load_all<Tuple>(p);
+    }
+    const T *first = from + map.first * size, *second = from + map.second * size;
+    const auto choice = simd::lane_choice<T>(map.lanes);
+    each_component(t, [&](R& c) {
+      c = simd::pick(simd::load(first), simd::load(second), choice);
+      first += W, second += W;
+    });
+    return t;
+  }
+  element load_upper(const T* upper, int pack, std::ptrdiff_t stride, int axis) const {
+    if constexpr (is_filled)
+      return load_mapped<element, P::fields>(upper, stride, task.maps[pack].upper(axis));
+    else
+      return load_element(upper + std::ptrdiff_t(pack) * stride);
+  }
+  carried load_lower(const T* from, int pack, int axis, simd::LaneMask below) const {
+    if constexpr (is_filled) {
+      const LaneMap<T>& map = task.maps[pack].lower(axis);
+      carried c{load_mapped<vec, P::vec_size>(from, carry_size, map), zero<spin>()};
+      // Lanes without a lower neighbour got any numbers. Where lanes are the same, they find 0.
+      keep(below, c.force);
+      if constexpr (terms.has_couples()) {
+        c.couple = load_mapped<spin, P::spin_size>(from + P::vec_size * W, carry_size, map);
+        keep(below, c.couple);
+      }
+      return c;
+    } else {
+      return load_carry(from + std::ptrdiff_t(pack) * carry_size);
+    }
+  }
+
   /// Links across y or z. `upper` is the upper row; `carry` and `from` are carry buffers. Each may
   /// be null if no mask needs it.
   template <bool is_plain>
@@ -185,12 +236,12 @@ struct StageRow {
     const typename P::side own = P::side_across(i, axis, law(axis), flags);
     exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
-      up = P::link_across(i.e, own.upper, load_element(upper + std::ptrdiff_t(pack) * stride), axis,
-                          law(axis), flags);
+      up = P::link_across(i.e, own.upper, load_upper(upper, pack, stride, axis), axis, law(axis),
+                          flags);
       mask_links<is_plain>(above, up);
     }
     carried low{zero<vec>(), zero<spin>()};
-    if (is_plain || below != 0) low = load_carry(from + std::ptrdiff_t(pack) * carry_size);
+    if (is_plain || below != 0) low = load_lower(from, pack, axis, below);
     sum = P::wrench_across(sum, up, low, own.arm, axis, law(axis), flags);
     // The carry buffer may be the same as `from`, which has been read.
     if (is_plain || above != 0)
@@ -278,7 +329,8 @@ struct StageRow {
       if (above == 0) continue;
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * task.stride;
       const element i = load_element(task.in + place);
-      const element j = load_element((axis == 1 ? task.upper_y : task.upper_z) + place);
+      const element j =
+          load_upper(axis == 1 ? task.upper_y : task.upper_z, pack, task.stride, axis);
       exchange up =
           P::link_across(i, P::upper_across(i, axis, law(axis), flags), j, axis, law(axis), flags);
       mask_links(above, up);

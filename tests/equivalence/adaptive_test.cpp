@@ -171,7 +171,7 @@ Tries tries_in_parts(const AdaptiveRun& run, const State& start, int parts, bool
       const PartSetup setup{part, halo, is_every_stage, is_overlapped};
       const auto executor = run.plugin.create({part.problem, dopri5_adaptive(), run.model,
                                                run.precision, run.problem.dt, run.threads, &setup});
-      halo.attach(*executor);
+      halo.attach(*executor, run.precision);
       for (const Run& piece : part.runs)
         executor->write(piece.local, std::span(start).subspan(piece.global * field_count,
                                                               piece.count * field_count));

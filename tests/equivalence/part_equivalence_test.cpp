@@ -53,7 +53,7 @@ struct PartsRun {
         const PartSetup setup{part, halo, is_every_stage, is_overlapped};
         const auto executor = plugin.create(
             {part.problem, method, Model::spatial, precision, problem.dt, threads, &setup});
-        halo.attach(*executor);
+        halo.attach(*executor, precision);
         for (const Run& run : part.runs)
           executor->write(run.local, std::span(state).subspan(run.global * field_count,
                                                               run.count * field_count));

@@ -233,7 +233,7 @@ TEST(PassPlaces, KeepWhatIsStillRead) {
   each_case([&](const Case& c) {
     const int sweeps = int(c.sweeps.size()), stages = sweeps == 4 ? 4 : 1;
     const std::vector<PassTask> order = order_of(c);
-    const PassPlaces places(c.lattice, c.order, order, sweeps, stages, increments, c.extra);
+    const PassPlaces places(c.lattice, c.order, order, sweeps, stages, increments, c.extra, false);
     std::map<int, std::pair<int, int>> stage_rows, links[2];
     for (const PassTask& task : order) {
       const int stage = task.sweep % stages;
@@ -274,10 +274,28 @@ TEST(PassPlaces, OfOneTileAreThoseOfAFewPlanes) {
   const std::vector<SweepRows> sweeps = sweeps_of(block, 0, 20 * 40, 4);
   const RowOrder by_number;
   const PassPlaces places(block, by_number, order_pass(block, by_number, sweeps, {}), 4, 4,
-                          {{}, {}, {}, {0, 1, 2}}, {});
+                          {{}, {}, {}, {0, 1, 2}}, {}, false);
   EXPECT_LE(places.stage_row_count(), 6 * 20 + 10); // 3 + 2 + 1 planes
   EXPECT_LE(places.links_count(2), 4 * 20 + 4);
   EXPECT_LE(places.links_count(1), 4 + 4);
+}
+
+TEST(PassPlaces, OfAFilledRowAreNotThoseThatItReads) {
+  const std::vector<std::vector<int>> increments{{}, {}, {}, {0, 1, 2}};
+  each_case([&](const Case& c) {
+    const int sweeps = int(c.sweeps.size()), stages = sweeps == 4 ? 4 : 1;
+    const std::vector<PassTask> order = order_of(c);
+    const PassPlaces places(c.lattice, c.order, order, sweeps, stages, increments, c.extra, true);
+    for (const PassTask& task : order) {
+      if (task.work != RowWork::stage) continue;
+      const Row& row = c.lattice.rows[std::size_t(task.row)];
+      for (const int axis : {1, 2})
+        if (row.lower(axis) >= 0 && row.upper(axis) >= 0) {
+          EXPECT_NE(places.links(axis, task.sweep, row.lower(axis)),
+                    places.links(axis, task.sweep, task.row));
+        }
+    }
+  });
 }
 
 TEST(FetchPlan, FetchesEarlyEnoughAlongWithOneTaskEach) {

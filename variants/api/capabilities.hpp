@@ -35,7 +35,7 @@ public:
   /// Number of copies of the elements that the executor exchanges, for example one for each stage.
   virtual int halo_copies() const = 0;
   /// Lanes of a pack: elements that lie together in a copy. Two executors order a message alike if
-  /// their lanes are equal, else see message_order.hpp.
+  /// their lanes are equal. 0: the executor has an order of its own (see message_order.hpp).
   virtual int halo_lanes() const { return 0; }
   /// Where all stored numbers of some elements lie in one copy. Called before the first exchange.
   /// Own elements are read: each offset occurs once. Halo elements are written: an offset may occur

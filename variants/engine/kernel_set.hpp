@@ -72,6 +72,11 @@ struct KernelSet {
 /// True if the members of an ensemble lie in the lanes of packs: the module has packs.
 inline constexpr bool has_ensembles = simd::lanes<double> > 1;
 
+/// True if rows of a model may be filled. Other models are not worth the compile time.
+constexpr bool has_filled_rows(Model model) {
+  return descriptor(model).is_common && !descriptor(model).is_linear;
+}
+
 /// True if this build has the kernels of a model.
 constexpr bool is_built([[maybe_unused]] Model model) {
 #ifdef DSS_FEWER_MODELS
@@ -96,10 +101,11 @@ const KernelSet<T>& find_kernels(Model model, const Terms& terms,
   for_each_model([&]<Model each>() {
     if constexpr (is_built(each))
       if (each == model) {
-        if (kind == LaneKind::neighbours)
-          found = &kernels_of<each, T, LaneKind::neighbours>(terms);
-        else if constexpr (has_ensembles)
-          found = &kernels_of<each, T, LaneKind::members>(terms);
+        if (kind == LaneKind::neighbours) found = &kernels_of<each, T, LaneKind::neighbours>(terms);
+        if constexpr (has_filled_rows(each))
+          if (kind == LaneKind::filled) found = &kernels_of<each, T, LaneKind::filled>(terms);
+        if constexpr (has_ensembles)
+          if (kind == LaneKind::members) found = &kernels_of<each, T, LaneKind::members>(terms);
       }
   });
   if (found == nullptr) throw std::logic_error("kernel_set.hpp: these kernels are not compiled");

@@ -5,6 +5,7 @@
 #include "solver/model/ensemble.hpp"
 #include "variants/engine/buffer.hpp"
 #include "variants/engine/kernel_set.hpp"
+#include "variants/engine/lane_maps.hpp"
 
 #include <optional>
 #include <set>
@@ -13,8 +14,18 @@
 
 namespace dss {
 
+/// The row that holds an element: the last row whose first_element is not behind it.
+std::size_t row_of(const Lattice& lattice, std::size_t element);
+/// Calls visit(element, x) for every present cell of a row, in ascending x.
+template <class Visit>
+void each_cell(const Lattice& lattice, const Row& row, Visit&& visit) {
+  std::size_t element = row.first_element;
+  for (int x = row.x_begin; x < row.x_end; ++x)
+    if (lattice.is_present(row, x)) visit(element++, x);
+}
+
 /// One row of packs. A pack starts at a multiple of W on the body's grid, so an element has the
-/// same lane as its neighbours in the rows beside it.
+/// same lane as its neighbours in the rows beside it. In filled rows it may have another.
 template <class T>
 struct PackedRow {
   /// First pack on the body's grid, and number of packs.
@@ -27,6 +38,7 @@ struct PackedRow {
   const BodyConstants<LaneNumbers<T>>* members = nullptr; ///< of an ensemble, in place of `body`
   const PackMasks* masks = nullptr;
   const Applied<T>* applied = nullptr;
+  const PackMaps<T>* maps = nullptr; ///< null if neighbours have the same lanes
 };
 
 /// @tparam W  lanes of a pack: those of the module, or of a device
@@ -38,13 +50,16 @@ public:
   /// @param part      null, or the part that `problem` is
   /// @param memory    for what devices need too; outlives this object
   /// @param ensemble  null, or an ensemble of W members, of which `problem` is the first
+  /// @param most      the form to which rows may go
   PackedRows(const Problem& problem, Model model, const Part* part, Memory& memory = Memory::heap(),
-             const Ensemble* ensemble = nullptr);
+             const Ensemble* ensemble = nullptr, RowForm most = RowForm::cells);
   PackedRows(const PackedRows&) = delete;
   PackedRows& operator=(const PackedRows&) = delete;
 
   Memory& memory;
-  const Lattice& lattice;
+  const Lattice& cells;
+  const FilledRows filled;
+  const Lattice& lattice; ///< the rows that packs hold: filled.lattice()
   const ModelDescriptor& layout;
   std::vector<PackedRow<T>> rows;
   int reach = 0;        ///< largest distance of two neighbours in the grid [rows]
@@ -54,6 +69,13 @@ public:
   int carry_size = 0;   ///< numbers of a pack in a carry buffer; the largest over the bodies
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
+  const int* scattered() const { return maps_.scattered(); }
+  /// Calls visit(element, x) for each element of a row, in ascending x of `lattice`.
+  template <class Visit>
+  void each_element(int row, Visit&& visit) const {
+    each_cell(lattice, lattice.rows[std::size_t(row)],
+              [&](std::size_t number, int x) { visit(filled.element_at(number), x); });
+  }
 
   /// Packs of rows [begin, end).
   std::size_t packs_of(int begin, int end) const {
@@ -113,9 +135,11 @@ private:
   void apply_load(std::size_t n);
   void apply_clamps();
   void apply_extra_links(const Problem& problem);
+  void hand_out_applied();
   AppliedRow& applied_row(std::size_t row);
 
   const Part* part_;
+  LaneMaps<T> maps_; ///< of filled rows
   /// The least layer of a row's elements; empty for a whole problem.
   std::vector<std::uint8_t> row_layer_;
   std::vector<bool> has_halo_; ///< rows with a halo element
@@ -135,15 +159,6 @@ struct Place {
   std::size_t row;
   int pack, lane; ///< pack: counted from the row's first
 };
-/// The row that holds an element: the last row whose first_element is not behind it.
-std::size_t row_of(const Lattice& lattice, std::size_t element);
-/// Calls visit(element, x) for every present cell of a row, in ascending x.
-template <class Visit>
-void each_cell(const Lattice& lattice, const Row& row, Visit&& visit) {
-  std::size_t element = row.first_element;
-  for (int x = row.x_begin; x < row.x_end; ++x)
-    if (lattice.is_present(row, x)) visit(element++, x);
-}
 template <class T, int W>
 Place place_of(const PackedRows<T, W>& packed, std::size_t element);
 

@@ -50,8 +50,8 @@ private:
 PassPlaces::PassPlaces(const Lattice& lattice, const RowOrder& rows,
                        std::span<const PassTask> order, int sweeps, int stages,
                        const std::vector<std::vector<int>>& increments,
-                       std::span<const LinkedRows> extra)
-    : lattice_(lattice), rows_(rows), extra_(extra) {
+                       std::span<const LinkedRows> extra, bool is_filled)
+    : lattice_(lattice), rows_(rows), extra_(extra), is_filled_(is_filled) {
   find_rows(order);
   stage_rows_ = empty_table(stages - 1);
   for (Table& links : links_) links = empty_table(sweeps);
@@ -125,11 +125,15 @@ void PassPlaces::place_links(std::span<const PassTask> order, int axis) {
   Rings rings(links.size());
   for (const PassTask& task : order) {
     const auto sweep = std::size_t(task.sweep);
+    const auto give = [&] {
+      if (has_lower(task)) rings.give(links[sweep][row_index(lower(task.row, axis))]);
+    };
     // A row reads what is left for it before it leaves its own in the same place.
-    if (has_lower(task)) rings.give(links[sweep][row_index(lower(task.row, axis))]);
+    if (!is_filled_) give();
     if ((is_whole(task) || task.work == alone) && upper(task.row, axis) >= 0)
       links[sweep][row_index(task.row)] =
           rings.take(sweep, reader_tile[sweep][row_index(task.row)] != task.tile);
+    if (is_filled_) give();
   }
   links_count_[std::size_t(axis) - 1] = rings.number(links);
 }

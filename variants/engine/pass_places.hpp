@@ -20,9 +20,11 @@ public:
   /// @param lattice     of all rows; outlives this object
   /// @param rows        the order of rows, in which those of a pass are close; outlives this object
   /// @param extra       rows of the extra links; outlive this object
+  /// @param is_filled   rows may be filled. A pack of these reads links that the lower row left for
+  ///   several packs, so a row cannot leave its own in their place
   PassPlaces(const Lattice& lattice, const RowOrder& rows, std::span<const PassTask> order,
              int sweeps, int stages, const std::vector<std::vector<int>>& increments,
-             std::span<const LinkedRows> extra);
+             std::span<const LinkedRows> extra, bool is_filled);
   /// Place of the output of a stage of a row; 0 if no task of the pass writes it.
   int stage_row(int stage, int row) const { return at(stage_rows_, stage, row); }
   /// Place of the links that a row leaves across axis 1 (y) or 2 (z) in a sweep; 0 if it leaves
@@ -54,6 +56,7 @@ private:
   const Lattice& lattice_;
   const RowOrder& rows_;
   const std::span<const LinkedRows> extra_;
+  const bool is_filled_;
   int first_ = 0;              ///< place in the order of the tables' first row
   std::size_t row_count_ = 0;  ///< of the tables
   Table stage_rows_;           ///< [stage][row_index]

@@ -9,17 +9,29 @@
 
 namespace dss {
 
+/// The members of an ensemble already fill packs. The layers of a part's halo are rows, which
+/// cannot be merged.
+static RowForm most_filled(const Setup& setup) {
+  if (setup.ensemble != nullptr || !has_filled_rows(setup.model)) return RowForm::cells;
+  return part_with_neighbours(setup.part) == nullptr ? RowForm::merged : RowForm::filled;
+}
+
+template <class T>
+static LaneKind lane_kind(const PackedRow<T>& row) {
+  return row.members != nullptr ? LaneKind::members
+         : row.maps != nullptr  ? LaneKind::filled
+                                : LaneKind::neighbours;
+}
+
 template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, Memory::heap(),
-              setup.ensemble),
+              setup.ensemble, most_filled(setup)),
       rows_(packed_, setup_.method, setup_.precision, setup_.steps(),
             [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows)
-    row.kernels =
-        &find_kernels<T>(setup.model, row.shape.terms,
-                         packed_.is_ensemble() ? LaneKind::members : LaneKind::neighbours);
+    row.kernels = &find_kernels<T>(setup.model, row.shape.terms, lane_kind(row));
   why_staged_ = why_staged();
   const bool is_staged = !why_staged_.empty();
   if (is_staged && packed_.is_ensemble())
@@ -92,7 +104,7 @@ HaloLayout RowExecutor<T>::halo_layout(std::span<const std::size_t> elements, in
   HaloLayout layout = rows_.layout(
       elements, [&](int r) { return copy_row(copy, r); }, is_own);
   for (const std::size_t element : elements) {
-    const int r = int(row_of(packed_.lattice, element));
+    const int r = int(place_of(packed_, element).row);
     const bool own = is_own(element), is_halo_row = !packed_.is_computed(r, 0);
     if (staged_) // a staged part writes own rows whole, including the halo elements among them
       is_stable &= staged_->copies() > 1 && (own || is_halo_row);
@@ -320,7 +332,7 @@ std::string RowExecutor<T>::schedule() const {
   if (staged_) return "stage by stage: " + std::string(why_staged_);
   return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place" +
          (shape_.steps > 1 ? ", " + std::to_string(shape_.steps) + " steps a pass" : "") +
-         tiles_text(shape_.form.tile) +
+         tiles_text(shape_.form.tile) + (packed_.filled.is_any() ? ", filled packs" : "") +
          (setup_.problem.extra_links.empty() ? "" : ", with extra links");
 }
 

@@ -60,7 +60,7 @@ public:
   int workers() const override { return staged_ ? staged_->threads() : threads_; }
   int halo_copies() const override { return staged_ ? staged_->copies() : 2; }
   HaloLayout halo_layout(std::span<const std::size_t> elements, int copy) override;
-  int halo_lanes() const override { return W; }
+  int halo_lanes() const override { return packed_.filled.is_any() ? 0 : W; }
   int kept_fields() const override { return rows_.kept_fields(); }
   void save(std::size_t first, std::span<double> kept) override;
   void restore(std::size_t first, std::span<const double> kept) override;

@@ -10,23 +10,23 @@ namespace dss {
 /// the link forces that a row leaves for its upper neighbours: across y the next row, across z a
 /// row at most `reach` rows ahead. A row reads what its lower neighbour left before it writes its
 /// own forces to the same place. So one row is enough across y, and a ring of `reach` rows across
-/// z.
+/// z. Filled rows need one more, since their packs read what was left for several packs.
 template <class T>
 class CarryRings {
 public:
   CarryRings() = default;
   template <int W>
   explicit CarryRings(const PackedRows<T, W>& packed)
-      : rows_z_(packed.reach),
+      : rows_y_(packed.filled.is_any() ? 2 : 1), rows_z_(packed.reach + rows_y_ - 1),
         row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
-        data_(std::size_t(1 + rows_z_) * row_size_, packed.memory) {}
+        data_(std::size_t(rows_y_ + rows_z_) * row_size_, packed.memory) {}
   /// Ring rows start at pack 0 of the body's grid, so that rows with different first packs agree.
-  T* y(int) { return data_.data(); }
-  T* z(int row) { return data_.data() + std::size_t(1 + row % rows_z_) * row_size_; }
+  T* y(int row) { return data_.data() + std::size_t(row % rows_y_) * row_size_; }
+  T* z(int row) { return data_.data() + std::size_t(rows_y_ + row % rows_z_) * row_size_; }
   std::size_t bytes() const { return data_.bytes(); }
 
 private:
-  int rows_z_ = 0;
+  int rows_y_ = 1, rows_z_ = 0;
   std::size_t row_size_ = 0;
   Buffer<T> data_;
 };
@@ -49,6 +49,8 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   task.packs = p.packs;
   task.stride = int(pack_size);
   task.masks = p.masks;
+  task.maps = p.maps;
+  task.scattered = packed.scattered();
   task.body = p.body;
   task.members = p.members;
   task.live_lanes = &packed.live_lanes;

@@ -13,11 +13,12 @@ template <class T, int W>
 template <class Visit>
 void StateRows<T, W>::each_element(std::size_t first, std::size_t count, Visit&& visit) {
   if (count == 0) return;
-  for (std::size_t r = row_of(packed_.lattice, first); r < packed_.rows.size(); ++r) {
-    const Row& lattice_row = packed_.lattice.rows[r];
-    if (lattice_row.first_element >= first + count) break;
+  const bool is_in_order = packed_.filled.keeps_numbers();
+  for (std::size_t r = is_in_order ? row_of(packed_.lattice, first) : 0; r < packed_.rows.size();
+       ++r) {
+    if (is_in_order && packed_.lattice.rows[r].first_element >= first + count) break;
     T* const packs = row_(int(r));
-    each_cell(packed_.lattice, lattice_row, [&](std::size_t element, int x) {
+    packed_.each_element(int(r), [&](std::size_t element, int x) {
       if (element < first || element >= first + count) return;
       visit(element, packs +
                          std::ptrdiff_t(x / W - packed_.rows[r].first_pack) * stored_fields() * W +
@@ -132,7 +133,7 @@ template <class T, int W>
 void StateRows<T, W>::rates_out(const T* rates, std::span<double> out) const {
   std::fill(out.begin(), out.end(), 0.0);
   for (std::size_t r = 0; r < packed_.rows.size(); ++r)
-    each_cell(packed_.lattice, packed_.lattice.rows[r], [&](std::size_t element, int x) {
+    packed_.each_element(int(r), [&](std::size_t element, int x) {
       const T* const lane = plain_lane(rates, r, x);
       const std::span<double> of_element = out.subspan(element * field_count, field_count);
       for (int f = 0; f < packed_.fields(); ++f)

@@ -20,7 +20,7 @@ std::vector<simd::LaneMask> own_lanes(const PackedRows<T, W>& packed, const Part
   std::vector<simd::LaneMask> lanes(packed.readable_packs(), 0);
   for (std::size_t r = 0; r < packed.rows.size(); ++r) {
     const PackedRow<T>& row = packed.rows[r];
-    each_cell(packed.lattice, packed.lattice.rows[r], [&](std::size_t element, int x) {
+    packed.each_element(int(r), [&](std::size_t element, int x) {
       if (part == nullptr || part->layer[element] == 0)
         lanes[row.pack_offset + std::size_t(x / W - row.first_pack)] |=
             simd::LaneMask(1u << (x % W));

@@ -39,7 +39,7 @@ void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order, const 
                                       const Seams& seams) {
   seams_ = &seams;
   places_.emplace(packed_.lattice, division().order, order, shape_.steps * stages_, stages_,
-                  reads.increments, reads.extra);
+                  reads.increments, reads.extra, packed_.filled.is_any());
   // One pack more: rows look one pack ahead.
   stage_rows_ =
       Buffer<T>(std::size_t(places_->stage_row_count()) * row_size_ + pack_size_, packed_.memory);

@@ -35,6 +35,24 @@ inline PackF shift_down(PackF a, PackF above) {
   return _mm512_castsi512_ps(
       _mm512_maskz_alignr_epi32(0xffff, _mm512_castps_si512(above), _mm512_castps_si512(a), 1));
 }
+template <class T>
+struct LaneChoice {
+  __m512i lanes;
+};
+template <class T>
+inline LaneChoice<T> lane_choice(const std::uint8_t* lanes) {
+  const auto* const from = reinterpret_cast<const __m128i*>(lanes);
+  if constexpr (sizeof(T) == sizeof(double))
+    return {_mm512_maskz_cvtepu8_epi64(0xff, _mm_loadl_epi64(from))};
+  else
+    return {_mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(from))};
+}
+inline PackD pick(PackD a, PackD b, LaneChoice<double> choice) {
+  return _mm512_permutex2var_pd(a, choice.lanes, b);
+}
+inline PackF pick(PackF a, PackF b, LaneChoice<float> choice) {
+  return _mm512_permutex2var_ps(a, choice.lanes, b);
+}
 inline PackD keep(LaneMask mask, PackD a) { return _mm512_maskz_mov_pd(__mmask8(mask), a); }
 inline PackF keep(LaneMask mask, PackF a) { return _mm512_maskz_mov_ps(mask, a); }
 inline bool is_zero(PackD a) {

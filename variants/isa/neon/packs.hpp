@@ -50,6 +50,25 @@ inline PackD shift_up(PackD below, PackD a) { return vextq_f64(below, a, 1); }
 inline PackF shift_up(PackF below, PackF a) { return vextq_f32(below, a, 3); }
 inline PackD shift_down(PackD a, PackD above) { return vextq_f64(a, above, 1); }
 inline PackF shift_down(PackF a, PackF above) { return vextq_f32(a, above, 1); }
+template <class T>
+struct LaneChoice {
+  uint8x16_t bytes; ///< counted over both packs
+};
+template <class T>
+inline LaneChoice<T> lane_choice(const std::uint8_t* lanes) {
+  std::uint8_t bytes[16];
+  for (unsigned n = 0; n < 16; ++n)
+    bytes[n] = std::uint8_t(lanes[n / sizeof(T)] * sizeof(T) + n % sizeof(T));
+  return {vld1q_u8(bytes)};
+}
+inline PackD pick(PackD a, PackD b, LaneChoice<double> choice) {
+  const uint8x16x2_t both = {{vreinterpretq_u8_f64(a), vreinterpretq_u8_f64(b)}};
+  return vreinterpretq_f64_u8(vqtbl2q_u8(both, choice.bytes));
+}
+inline PackF pick(PackF a, PackF b, LaneChoice<float> choice) {
+  const uint8x16x2_t both = {{vreinterpretq_u8_f32(a), vreinterpretq_u8_f32(b)}};
+  return vreinterpretq_f32_u8(vqtbl2q_u8(both, choice.bytes));
+}
 inline PackD keep(LaneMask mask, PackD a) {
   const uint64x2_t selected = vtstq_u64(vdupq_n_u64(mask), uint64x2_t{1, 2});
   return vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(a), selected));
