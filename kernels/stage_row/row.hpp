@@ -20,10 +20,10 @@ struct PackMasks {
 /// Where the neighbours of a pack's elements lie in the packs of another row.
 template <class T>
 struct LaneMap {
-  /// Packs of the other row. If the neighbours lie in more than two packs, `second` is `scattered`,
-  /// and `first` says where in RowTask::scattered their places begin.
+  /// Packs of the other row. If the neighbours lie in more than two packs, they are scattered:
+  /// `second` is negative, and `first` says where in RowTask::places theirs begin.
   int first = 0, second = 0;
-  static constexpr int scattered = -1;
+  bool is_scattered() const { return second < 0; }
   /// Of each lane the neighbour's, counted over both packs; 0 if there is no neighbour.
   std::uint8_t lanes[simd::lanes<T>] = {};
 };
@@ -85,11 +85,13 @@ struct RowTask {
   row_action action = plain_stage;
   bool is_last = false; ///< last stage of a step: its velocities are checked
   int packs = 0;
-  int stride = 0; ///< numbers from pack to pack in all rows except carries
-  int low = 0;    ///< compensated: distance from a number to its low part or increment
+  int stride = 0;      ///< numbers from pack to pack in all rows except carries
+  int low = 0;         ///< compensated: distance from a number to its low part or increment
+  int fetch_lines = 0; ///< cache lines of `fetch` a pack
+  int increments = 0;
   const PackMasks* masks = nullptr;
   const PackMaps<T>* maps = nullptr; ///< of each pack; null if neighbours lie in the same lanes
-  const int* scattered = nullptr; ///< places in another row, counted in lanes from its first pack
+  const int* places = nullptr;       ///< of scattered neighbours, in lanes from their row's first
   const BodyConstants<T>* body = nullptr;
   const Applied<T>* applied = nullptr; ///< null for most rows
   /// Frame acceleration x, y, z, then the loads' values. Of an ensemble: each of all lanes.
@@ -99,7 +101,6 @@ struct RowTask {
   const simd::LaneMask* live_lanes = nullptr; ///< of an ensemble: lanes whose results are checked
   /// A row of a later task, brought into L2 in parts along with the packs of this one; null: none.
   const char* fetch = nullptr;
-  int fetch_lines = 0;   ///< cache lines a pack
   const T* in = nullptr; ///< input of the stage; one readable pack follows the row
   const T *upper_y = nullptr, *upper_z = nullptr;
   T *carry_y = nullptr, *carry_z = nullptr; ///< link forces and couples for the upper rows
@@ -116,7 +117,6 @@ struct RowTask {
   T* out = nullptr;
   T beta = 0;
   const T* betas = nullptr; ///< of an ensemble, in place of `beta`: of each lane
-  int increments = 0;
   /// Unused places repeat the first increment, with the ratio 0.
   const T* increment[most_increments] = {};
   T alpha[most_increments] = {};

@@ -19,7 +19,9 @@ inline constexpr int any_fields = 0;
 /// @tparam P  a model's physics over packs of T
 /// @tparam terms  terms that are compiled in
 /// @tparam fixed_fields  numbers an element in a pack of any row; any_fields: the task says
-/// @tparam kind  members: a pack's neighbours along x are the packs beside it, lane by lane
+/// @tparam kind  members: a pack's neighbours along x are the packs beside it, lane by lane.
+/// filled:
+///   those across y and z are found by maps
 template <class P, class T, Terms terms, int fixed_fields = any_fields,
           LaneKind kind = LaneKind::neighbours>
 struct StageRow {
@@ -190,9 +192,9 @@ struct StageRow {
   template <class Tuple, int numbers>
   Tuple load_mapped(const T* from, std::ptrdiff_t size, const LaneMap<T>& map) const {
     Tuple t{};
-    if (map.second == map.scattered) [[unlikely]] {
+    if (map.is_scattered()) [[unlikely]] {
       alignas(64) T lanes[numbers > 0 ? numbers * W : 1];
-      collect(from, size, numbers, task.scattered + map.first, lanes);
+      collect(from, size, numbers, task.places + map.first, lanes);
       const T* p = lanes;
       return load_all<Tuple>(p);
     }
@@ -214,7 +216,8 @@ struct StageRow {
     if constexpr (is_filled) {
       const LaneMap<T>& map = task.maps[pack].lower(axis);
       carried c{load_mapped<vec, P::vec_size>(from, carry_size, map), zero<spin>()};
-      // Lanes without a lower neighbour got any numbers. Where lanes are the same, they find 0.
+      // A map gives lanes without a lower neighbour another one's link, so they are cleared. Where
+      // lanes are the same, the lower row left 0 there.
       keep(below, c.force);
       if constexpr (terms.has_couples()) {
         c.couple = load_mapped<spin, P::spin_size>(from + P::vec_size * W, carry_size, map);

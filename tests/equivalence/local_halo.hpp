@@ -2,6 +2,7 @@
 /// A halo whose neighbours are threads of the same process: parts without MPI.
 #include "variants/api/message_order.hpp"
 
+#include <array>
 #include <condition_variable>
 #include <cstring>
 #include <deque>
@@ -48,12 +49,13 @@ public:
   /// @param has_wrong_bit  one bit of every letter is flipped
   LocalHalo(const Part& part, Mailboxes& mailboxes, bool has_wrong_bit)
       : part_(part), mailboxes_(mailboxes), has_wrong_bit_(has_wrong_bit) {}
-  /// All layouts must be known before the first exchange. The first letter says how the others are
-  /// ordered.
+  /// All layouts must be known before the first exchange. The first letter says how many lanes the
+  /// sender has, and how it orders the others.
   void attach(Executor& executor, Precision precision) {
     const std::size_t bytes = number_bytes(precision);
     for (const Neighbour& neighbour : part_.neighbours) {
-      const MessageOrder own = message_order(executor, neighbour.send, 0, bytes);
+      MessageOrder own = message_order(executor, neighbour.send, 0, bytes);
+      own.push_back(std::size_t(halo_lanes(executor)));
       Mailboxes::Letter letter(own.size() * sizeof own[0]);
       std::memcpy(letter.data(), own.data(), letter.size());
       mailboxes_.put(part_.index, neighbour.part, std::move(letter));
@@ -62,11 +64,15 @@ public:
       const Mailboxes::Letter letter = mailboxes_.take(neighbour.part, part_.index);
       MessageOrder theirs(letter.size() / sizeof(MessageOrder::value_type));
       std::memcpy(theirs.data(), letter.data(), letter.size());
+      const std::array lanes{std::size_t(halo_lanes(executor)), theirs.back()};
+      theirs.pop_back();
       for (int copy = 0; copy < halo_copies(executor); ++copy) {
         send_[{neighbour.part, copy}] = halo_layout(executor, neighbour.send, copy);
-        receive_[{neighbour.part, copy}] =
-            reordered(halo_layout(executor, neighbour.receive, copy),
-                      message_order(executor, neighbour.receive, copy, bytes), theirs, bytes);
+        HaloLayout& receive = receive_[{neighbour.part, copy}];
+        receive = halo_layout(executor, neighbour.receive, copy);
+        if (are_mixed(lanes))
+          receive = reordered(receive, message_order(executor, neighbour.receive, copy, bytes),
+                              theirs, bytes);
       }
     }
   }

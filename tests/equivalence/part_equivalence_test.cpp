@@ -24,6 +24,7 @@ std::vector<Case> cases() {
           {"damped_joint", fixture::make_damped_joint()},
           {"sponge", fixture::make_sponge(21, 9, 7, LinkLaw::paper, 1)},
           {"flat_sponge", fixture::make_sponge(37, 13, 1, LinkLaw::material, 3)},
+          {"comb", fixture::make_comb(97, 9, 2, LinkLaw::paper)},
           {"undamped_block", fixture::make_block(6, 11, 13, LinkLaw::material, 0)},
           {"column", fixture::make_block(3, 2, 40, LinkLaw::paper)}};
 }

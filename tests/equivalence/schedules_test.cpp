@@ -42,6 +42,22 @@ TEST_P(EverySchedule, has_bitwise_equal_states_for_tiles_of_any_size_and_threads
     }
 }
 
+TEST_P(EverySchedule, fills_the_packs_of_bodies_with_holes_or_short_rows) {
+  if (!plugin.has_tiles || is_composed(plugin)) GTEST_SKIP() << "has no rows of its own";
+  const Method& method = *find_method("rk4");
+  const auto has = [&](const Problem& problem, const char* words) {
+    return VariantRun{plugin, problem, method}.executor()->schedule().find(words) !=
+           std::string::npos;
+  };
+  const Problem comb = fixture::make_comb(97, 3, 2, LinkLaw::paper),
+                short_rows = fixture::make_block(3, 12, 12, LinkLaw::paper),
+                plate = fixture::make_plate(40);
+  EXPECT_TRUE(has(comb, "filled packs"));
+  EXPECT_FALSE(has(plate, "filled packs"));
+  const bool has_lanes = GetParam() != "scalar" && GetParam() != "scalar-native";
+  EXPECT_EQ(has(short_rows, "reach 1, in place, filled packs"), has_lanes) << "merged";
+}
+
 /// Teams of threads are cut in the middle, where there are a load, a base acceleration and clamps.
 Problem driven(Problem problem) {
   const std::size_t middle = problem.lattice.element_count / 2;
@@ -211,6 +227,7 @@ TEST_P(EverySchedule, reports_the_same_first_failure_however_many_steps_and_thre
   if (!is_composed(plugin)) {
     problems.push_back(fixture::make_block(9, 8, 5, LinkLaw::paper)); // swept along y
     problems.push_back(bodies_end_to_end(LinkLaw::paper));
+    problems.push_back(pair_side_by_side(LinkLaw::paper)); // of many threads: stage by stage
     problems.push_back(long_blocks().front());
   }
   for (const Problem& problem : problems)
@@ -232,7 +249,7 @@ TEST_P(EverySchedule, reports_the_same_first_failure_however_many_steps_and_thre
       const Outcome first = failure(1, 1);
       ASSERT_FALSE(first.is_finite) << method.name;
       ASSERT_GT(first.step, 4) << method.name << ": should fail after some steps, not at once";
-      for (const int threads : {1, 3})
+      for (const int threads : {1, 3, 7})
         for (const long at_once : {3L, 1000L}) {
           const Outcome other = failure(threads, at_once, threads == 1 ? 2 : 3);
           EXPECT_EQ(other.step, first.step)

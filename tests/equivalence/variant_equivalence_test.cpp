@@ -44,6 +44,8 @@ std::vector<Case> cases() {
       {"damped_joint", fixture::make_damped_joint()},
       {"sponge", fixture::make_sponge(21, 6, 5, LinkLaw::paper, 1)},
       {"material_sponge", fixture::make_sponge(13, 7, 3, LinkLaw::material, 2)},
+      {"comb", fixture::make_comb(97, 3, 2, LinkLaw::paper)},
+      {"flat_comb", fixture::make_comb(47, 5, 1, LinkLaw::material), true},
       {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::paper, 3), true},
       {"tumbling_box", fixture::make_tumbling_box(1)},
       {"bar", fixture::make_block(37, 1, 1, LinkLaw::paper), false, 0.02, true},

@@ -233,36 +233,39 @@ TEST(PassPlaces, KeepWhatIsStillRead) {
   each_case([&](const Case& c) {
     const int sweeps = int(c.sweeps.size()), stages = sweeps == 4 ? 4 : 1;
     const std::vector<PassTask> order = order_of(c);
-    const PassPlaces places(c.lattice, c.order, order, sweeps, stages, increments, c.extra, false);
-    std::map<int, std::pair<int, int>> stage_rows, links[2];
-    for (const PassTask& task : order) {
-      const int stage = task.sweep % stages;
-      const auto expect_kept = [&](int read, int r) {
-        EXPECT_EQ(stage_rows[places.stage_row(read, r)], std::pair(read, r));
-      };
-      if (stage > 0)
-        for (const int r : rows_read(c, task))
-          if (computes(c, stage - 1, r)) expect_kept(stage - 1, r);
-      if (task.is_extra()) continue;
-      const Row& row = c.lattice.rows[std::size_t(task.row)];
-      if (task.work == RowWork::stage)
-        for (const int m : increments[std::size_t(stage)])
-          if (computes(c, m, task.row)) expect_kept(m, task.row);
-      for (const int axis : {1, 2}) {
-        auto& of_axis = links[axis - 1];
-        const int lower = row.lower(axis), upper = row.upper(axis);
-        if (task.work == RowWork::stage && lower >= 0) {
-          EXPECT_EQ(of_axis[places.links(axis, task.sweep, lower)],
-                    std::pair(int(task.sweep), lower));
+    for (const bool is_filled : {false, true}) {
+      const PassPlaces places(c.lattice, c.order, order, sweeps, stages, increments, c.extra,
+                              is_filled);
+      std::map<int, std::pair<int, int>> stage_rows, links[2];
+      for (const PassTask& task : order) {
+        const int stage = task.sweep % stages;
+        const auto expect_kept = [&](int read, int r) {
+          EXPECT_EQ(stage_rows[places.stage_row(read, r)], std::pair(read, r));
+        };
+        if (stage > 0)
+          for (const int r : rows_read(c, task))
+            if (computes(c, stage - 1, r)) expect_kept(stage - 1, r);
+        if (task.is_extra()) continue;
+        const Row& row = c.lattice.rows[std::size_t(task.row)];
+        if (task.work == RowWork::stage)
+          for (const int m : increments[std::size_t(stage)])
+            if (computes(c, m, task.row)) expect_kept(m, task.row);
+        for (const int axis : {1, 2}) {
+          auto& of_axis = links[axis - 1];
+          const int lower = row.lower(axis), upper = row.upper(axis);
+          if (task.work == RowWork::stage && lower >= 0) {
+            EXPECT_EQ(of_axis[places.links(axis, task.sweep, lower)],
+                      std::pair(int(task.sweep), lower));
+          }
+          const RowWork other = axis == 1 ? RowWork::upper_link_z : RowWork::upper_link_y;
+          if (upper >= 0 && task.work != other)
+            of_axis[places.links(axis, task.sweep, task.row)] = {task.sweep, task.row};
         }
-        const RowWork other = axis == 1 ? RowWork::upper_link_z : RowWork::upper_link_y;
-        if (upper >= 0 && task.work != other)
-          of_axis[places.links(axis, task.sweep, task.row)] = {task.sweep, task.row};
-      }
-      if (task.work == RowWork::stage && stage + 1 < stages) {
-        const int place = places.stage_row(stage, task.row);
-        EXPECT_LT(place, places.stage_row_count());
-        stage_rows[place] = {stage, task.row};
+        if (task.work == RowWork::stage && stage + 1 < stages) {
+          const int place = places.stage_row(stage, task.row);
+          EXPECT_LT(place, places.stage_row_count());
+          stage_rows[place] = {stage, task.row};
+        }
       }
     }
   });

@@ -4,6 +4,8 @@
 /// receiver can then copy a message in as few pieces as the two orders allow.
 #include "variants/api/api.hpp"
 
+#include <algorithm>
+
 namespace dss {
 
 /// Offsets in a message of all stored numbers [bytes]: element by element, and for each element its
@@ -13,6 +15,14 @@ using MessageOrder = std::vector<std::size_t>;
 /// Size of a stored number [bytes].
 inline std::size_t number_bytes(Precision precision) {
   return precision == Precision::f64 ? sizeof(double) : sizeof(float);
+}
+
+/// Whether some of these executors order a message in their own way.
+/// @param lanes  halo_lanes of each
+template <class Lanes>
+bool are_mixed(const Lanes& lanes) {
+  return std::ranges::any_of(
+      lanes, [&](const auto& other) { return other == 0 || other != lanes.front(); });
 }
 
 /// Finds the order of the numbers of `elements` in a message of this executor.

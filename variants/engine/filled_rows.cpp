@@ -9,7 +9,7 @@ namespace {
 
 /// What another form must gain at least, since costs are estimates.
 constexpr double least_gain = 0.05;
-/// A merged row and what stages leave of it must stay in L1 and L2.
+/// Longer merged rows gain no more, because what stages leave of them fills L2 (README.md).
 constexpr int longest_merged = 1024; ///< [elements]
 
 int element_count(const Lattice& cells, const Row& row) {
@@ -41,18 +41,20 @@ struct BodyRows {
     }
     return cost;
   }
-  double filled() const {
+  /// @return nothing if it is not less than a limit
+  std::optional<double> filled(double limit) const {
     double cost = costs.row * (end - begin);
-    for (int r = begin; r < end; ++r) {
+    for (int r = begin; r < end; ++r)
+      cost += packs_for(element_count(cells, cells.rows[std::size_t(r)]), lanes);
+    for (int r = begin; r < end && cost < limit; ++r) {
       const Row& row = cells.rows[std::size_t(r)];
       const int packs = packs_for(element_count(cells, row), lanes);
-      cost += packs;
       for (const int upper : {row.upper_y, row.upper_z})
         if (upper >= 0 &&
             !are_aligned(neighbours_beside(cells, row, cells.rows[std::size_t(upper)])))
           cost += costs.map * packs;
     }
-    return cost;
+    return cost < limit ? std::optional(cost) : std::nullopt;
   }
   /// @return nothing if the rows would be too long
   std::optional<double> merged() const {
@@ -65,14 +67,14 @@ struct BodyRows {
     }
     return cost;
   }
-  RowForm best(RowForm most) const {
+  RowForm best(RowForm furthest) const {
     RowForm best = RowForm::cells;
     double least = (1 - least_gain) * as_cells();
     const auto offer = [&](RowForm form, std::optional<double> cost) {
       if (cost && *cost < least) best = form, least = *cost;
     };
-    if (most >= RowForm::filled) offer(RowForm::filled, filled());
-    if (most >= RowForm::merged) offer(RowForm::merged, merged());
+    if (furthest >= RowForm::filled) offer(RowForm::filled, filled(least));
+    if (furthest >= RowForm::merged) offer(RowForm::merged, merged());
     return best;
   }
 };
@@ -86,15 +88,15 @@ bool are_aligned(std::span<const int> neighbours) {
 }
 
 RowCosts row_costs(LinkLaw law, int lanes) {
-  // Fitted to measured rates (README.md, trials filled_...). A stage of the material law is longer.
+  // Fitted to measured rates (README.md). A stage of the material law is longer.
   if (lanes == 1) return {0.2, 0.1};
   return law == LinkLaw::paper ? RowCosts{0.5, 0.3} : RowCosts{0.3, 0.15};
 }
 
 FilledRows::FilledRows(const Lattice& cells, int lanes, std::span<const RowCosts> costs,
-                       RowForm most)
+                       RowForm furthest)
     : cells_(&cells) {
-  const int rows = most == RowForm::cells ? 0 : int(cells.rows.size());
+  const int rows = furthest == RowForm::cells ? 0 : int(cells.rows.size());
   struct Chosen {
     int begin, end;
     RowForm form;
@@ -105,7 +107,7 @@ FilledRows::FilledRows(const Lattice& cells, int lanes, std::span<const RowCosts
     const int body = cells.rows[std::size_t(begin)].body;
     while (end < rows && cells.rows[std::size_t(end)].body == body) ++end;
     const BodyRows of_body{cells, begin, end, lanes, costs[std::size_t(body)]};
-    bodies.push_back({begin, end, of_body.best(most)});
+    bodies.push_back({begin, end, of_body.best(furthest)});
     is_any |= bodies.back().form != RowForm::cells;
   }
   if (!is_any) return;
@@ -189,6 +191,7 @@ std::size_t FilledRows::bytes() const {
 
 std::vector<int> neighbours_beside(const Lattice& cells, const Row& row, const Row& beside) {
   std::vector<int> numbers;
+  numbers.reserve(std::size_t(row.x_end - row.x_begin));
   int number = 0;
   for (int x = beside.x_begin; x < row.x_begin; ++x) number += int(cells.is_present(beside, x));
   for (int x = row.x_begin; x < row.x_end; ++x) {

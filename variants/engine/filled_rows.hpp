@@ -26,11 +26,11 @@ RowCosts row_costs(LinkLaw law, int lanes);
 /// A lattice as packs hold it, with each body in the form that takes the least time.
 class FilledRows {
 public:
-  /// @param cells  outlives this object
-  /// @param lanes  of a pack
-  /// @param costs  of each body
-  /// @param most   the form to which rows may go
-  FilledRows(const Lattice& cells, int lanes, std::span<const RowCosts> costs, RowForm most);
+  /// @param cells     outlives this object
+  /// @param lanes     of a pack
+  /// @param costs     of each body
+  /// @param furthest  no form after this one is taken
+  FilledRows(const Lattice& cells, int lanes, std::span<const RowCosts> costs, RowForm furthest);
   /// The rows that packs hold, with x counted in lanes. In a filled row, x is the number of an
   /// element in its row. Elements have numbers of their own; without merged rows the same ones.
   const Lattice& lattice() const { return is_any() ? filled_ : *cells_; }
@@ -53,16 +53,28 @@ public:
         std::size_t(first_part_[std::size_t(row)]),
         std::size_t(first_part_[std::size_t(row) + 1] - first_part_[std::size_t(row)]));
   }
+  /// The row that holds a row of cells.
+  int row(int cell_row) const { return is_any() ? row_[std::size_t(cell_row)] : cell_row; }
   /// The x of the first element of a filled row of cells.
   int first_place(int cell_row) const { return first_place_[std::size_t(cell_row)]; }
+  /// Calls visit(element, its x, its x in lattice()) for each element of a row of cells.
+  template <class Visit>
+  void each_of_cells(int cell_row, Visit&& visit) const;
   /// Calls visit(row of cells, x in that row, x in lattice()) for each element of a row.
   template <class Visit>
-  void each_element(int row, Visit&& visit) const;
+  void each_element(int row, Visit&& visit) const {
+    for (const int part : is_any() ? parts(row) : std::span(&row, 1))
+      each_of_cells(part, [&](std::size_t, int x, int place) {
+        visit(cells_->rows[std::size_t(part)], x, place);
+      });
+  }
   std::size_t bytes() const;
 
 private:
+  /// Adds the rows of a body, which are [begin, end) of the cells.
   void take(int begin, int end, RowForm form);
   void add(RowForm form, std::span<const int> parts);
+  /// Sets the rows beside each row.
   void join_rows();
   void number_elements();
 
@@ -75,14 +87,13 @@ private:
 };
 
 template <class Visit>
-void FilledRows::each_element(int row, Visit&& visit) const {
-  for (const int part : is_any() ? parts(row) : std::span(&row, 1)) {
-    const Row& cells = cells_->rows[std::size_t(part)];
-    const bool is_filled = form(cells) != RowForm::cells;
-    int place = is_filled ? first_place(part) : 0;
-    for (int x = cells.x_begin; x < cells.x_end; ++x)
-      if (cells_->is_present(cells, x)) visit(cells, x, is_filled ? place++ : x);
-  }
+void FilledRows::each_of_cells(int cell_row, Visit&& visit) const {
+  const Row& row = cells_->rows[std::size_t(cell_row)];
+  const bool is_filled = form(row) != RowForm::cells;
+  std::size_t element = row.first_element;
+  int place = is_filled ? first_place(cell_row) : 0;
+  for (int x = row.x_begin; x < row.x_end; ++x)
+    if (cells_->is_present(row, x)) visit(element++, x, is_filled ? place++ : x);
 }
 
 /// Of each element of a filled row of cells, the number of its neighbour among the elements of a

@@ -22,10 +22,9 @@ struct RowKernels {
   // between packs.
   static constexpr bool is_single = sizeof(T) == sizeof(float);
   static constexpr bool is_ensemble = kind == LaneKind::members;
-  static constexpr bool has_own_functions = kind == LaneKind::filled ? false
-                                            : is_single || is_ensemble
-                                                ? P::is_common && !terms.is_full()
-                                                : P::is_common || has_packs;
+  static constexpr bool has_own_functions =
+      kind != LaneKind::filled &&
+      (is_single || is_ensemble ? P::is_common && !terms.is_full() : P::is_common || has_packs);
   /// The rest of the actions: in line in common damped rows, else called for each pack.
   static constexpr int rest = P::is_common && terms.is_damped && !terms.is_oblong &&
                                       !terms.is_full() && !is_ensemble && (has_packs || !is_single)

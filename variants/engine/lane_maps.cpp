@@ -58,10 +58,10 @@ LaneMap<T> LaneMaps<T>::map_of(std::span<const int> places) {
   }
   if (least < 0) return map;
   if (most / W > least / W + 1) {
-    map.first = int(scattered_.size());
-    map.second = LaneMap<T>::scattered;
-    for (const int place : places) scattered_.push_back(place < 0 ? least : place);
-    scattered_.resize(std::size_t(map.first + W), least);
+    map.first = int(places_.size());
+    map.second = -1;
+    for (const int place : places) places_.push_back(place < 0 ? least : place);
+    places_.resize(std::size_t(map.first + W), least);
     return map;
   }
   map.first = least / W, map.second = most / W;

@@ -17,19 +17,22 @@ public:
   const PackMaps<T>* of_row(std::size_t row) const {
     return begin_.empty() || begin_[row] < 0 ? nullptr : &maps_[std::size_t(begin_[row])];
   }
-  const int* scattered() const { return scattered_.data(); }
+  /// RowTask::places.
+  const int* places() const { return places_.data(); }
   std::size_t bytes() const {
     return begin_.size() * sizeof(begin_[0]) + maps_.size() * sizeof(maps_[0]) +
-           scattered_.size() * sizeof(int);
+           places_.size() * sizeof(int);
   }
 
 private:
   static constexpr int W = simd::lanes<T>;
+  /// The map of one pack.
+  /// @param places  the x of the neighbour of each of its elements; -1: none
   LaneMap<T> map_of(std::span<const int> places);
 
   std::vector<std::ptrdiff_t> begin_; ///< of each row in `maps_`; -1: no maps
   std::vector<PackMaps<T>> maps_;
-  std::vector<int> scattered_; ///< RowTask::scattered
+  std::vector<int> places_;
 };
 
 } // namespace dss

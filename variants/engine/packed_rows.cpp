@@ -56,9 +56,9 @@ static std::vector<RowCosts> costs_of(const Problem& problem, int lanes) {
 
 template <class T, int W>
 PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* part, Memory& where,
-                             const Ensemble* ensemble, RowForm most)
+                             const Ensemble* ensemble, RowForm furthest)
     : memory(where), cells(ensemble == nullptr ? problem.lattice : ensemble->lattice),
-      filled(cells, W, costs_of(problem, W), most), lattice(filled.lattice()),
+      filled(cells, W, costs_of(problem, W), furthest), lattice(filled.lattice()),
       layout(descriptor(model)), rows(lattice.rows.size()), own_end(int(rows.size())), part_(part),
       applied_index_(lattice.rows.size(), -1) {
   if (ensemble != nullptr) members_ = ensemble->members;
@@ -84,6 +84,7 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
     packs += std::size_t(packed.packs);
     packs_across = std::max(packs_across, packed.first_pack + packed.packs);
     max_packs = std::max(max_packs, packed.packs);
+    if (filled.form(row) != RowForm::merged) tiled_packs = std::max(tiled_packs, packed.packs);
   }
   mark_links();
   if constexpr (W == simd::lanes<T>) maps_ = LaneMaps<T>(filled, cells); // only these are filled

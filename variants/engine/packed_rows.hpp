@@ -50,9 +50,9 @@ public:
   /// @param part      null, or the part that `problem` is
   /// @param memory    for what devices need too; outlives this object
   /// @param ensemble  null, or an ensemble of W members, of which `problem` is the first
-  /// @param most      the form to which rows may go
+  /// @param furthest  the last form that rows may take (FilledRows)
   PackedRows(const Problem& problem, Model model, const Part* part, Memory& memory = Memory::heap(),
-             const Ensemble* ensemble = nullptr, RowForm most = RowForm::cells);
+             const Ensemble* ensemble = nullptr, RowForm furthest = RowForm::cells);
   PackedRows(const PackedRows&) = delete;
   PackedRows& operator=(const PackedRows&) = delete;
 
@@ -66,15 +66,27 @@ public:
   int stage_halo = 0;   ///< rows that a stage needs beside its own: reach, or an extra link's
   int packs_across = 0; ///< packs of the widest body's grid
   int max_packs = 0;    ///< packs of the longest row
+  int tiled_packs = 0;  ///< packs of the longest row that is not merged
   int carry_size = 0;   ///< numbers of a pack in a carry buffer; the largest over the bodies
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
-  const int* scattered() const { return maps_.scattered(); }
+  const LaneMaps<T>& maps() const { return maps_; }
   /// Calls visit(element, x) for each element of a row, in ascending x of `lattice`.
   template <class Visit>
   void each_element(int row, Visit&& visit) const {
     each_cell(lattice, lattice.rows[std::size_t(row)],
               [&](std::size_t number, int x) { visit(filled.element_at(number), x); });
+  }
+  /// Calls visit(element, row, x) for elements [first, first + count) in their order.
+  template <class Visit>
+  void each_element(std::size_t first, std::size_t count, Visit&& visit) const {
+    if (count == 0) return;
+    for (std::size_t r = row_of(cells, first);
+         r < cells.rows.size() && cells.rows[r].first_element < first + count; ++r)
+      filled.each_of_cells(int(r), [&](std::size_t element, int, int x) {
+        if (element >= first && element < first + count)
+          visit(element, std::size_t(filled.row(int(r))), x);
+      });
   }
 
   /// Packs of rows [begin, end).

@@ -96,7 +96,8 @@ int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowS
   double planes = sweeps * (1 + double(packed.carry_size) / (storage.stored() * W));
   for (int stage = 0; stage + 1 < method.stages; ++stage)
     planes += last_reader(method, stage) - stage;
-  const double across_bytes = planes * double(packed.max_packs) * storage.stored() * W * sizeof(T);
+  const double across_bytes =
+      planes * double(packed.tiled_packs) * storage.stored() * W * sizeof(T);
   if (asked >= across || across <= 1) return no_tiles;
   if (const int most = int(double(l3_bytes()) / across_bytes); asked > std::max(most, 1))
     throw InputError(fmt::format(

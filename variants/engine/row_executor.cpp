@@ -5,15 +5,17 @@
 #include "variants/isa/denormals.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <stdexcept>
 
 namespace dss {
 
 /// The members of an ensemble already fill packs. The layers of a part's halo are rows, which
-/// cannot be merged.
-static RowForm most_filled(const Setup& setup) {
+/// cannot be merged. A merged body has no tiles.
+static RowForm furthest_form(const Setup& setup) {
   if (setup.ensemble != nullptr || !has_filled_rows(setup.model)) return RowForm::cells;
-  return part_with_neighbours(setup.part) == nullptr ? RowForm::merged : RowForm::filled;
+  const bool may_merge = part_with_neighbours(setup.part) == nullptr && setup.tile == 0;
+  return may_merge ? RowForm::merged : RowForm::filled;
 }
 
 template <class T>
@@ -27,7 +29,7 @@ template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
     : setup_(setup), part_(part_with_neighbours(setup.part)),
       packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, Memory::heap(),
-              setup.ensemble, most_filled(setup)),
+              setup.ensemble, furthest_form(setup)),
       rows_(packed_, setup_.method, setup_.precision, setup_.steps(),
             [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows)
@@ -316,10 +318,9 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
     for (long n = 0; n < steps; ++n) {
       values.set(&signals[std::size_t(n) * step_width], setup_.method.stages);
       staged_->step(thread, values, n + 1 == steps, synchronise);
-      const int failed = staged_->failed_row();
-      if (failed >= 0 && thread == 0 && !failure.is_met())
-        failure.meet(n, *packed_.first_failed(failed, row(failed), stored_fields()));
-      if (failed >= 0 && !is_part()) break;
+      const std::optional<std::size_t> failed = staged_->failed_element();
+      if (failed && thread == 0 && !failure.is_met()) failure.meet(n, *failed);
+      if (failed && !is_part()) break;
       synchronise(); // no thread starts the next step, and fails in it, before all have looked
     }
   };
@@ -329,11 +330,12 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
 
 template <class T>
 std::string RowExecutor<T>::schedule() const {
-  if (staged_) return "stage by stage: " + std::string(why_staged_);
-  return "wavefront over rows, reach " + std::to_string(packed_.reach) + ", in place" +
-         (shape_.steps > 1 ? ", " + std::to_string(shape_.steps) + " steps a pass" : "") +
-         tiles_text(shape_.form.tile) + (packed_.filled.is_any() ? ", filled packs" : "") +
-         (setup_.problem.extra_links.empty() ? "" : ", with extra links");
+  const std::string_view rows = packed_.filled.is_any() ? ", filled packs" : "";
+  if (staged_) return fmt::format("stage by stage: {}{}", why_staged_, rows);
+  return fmt::format("wavefront over rows, reach {}, in place{}{}{}{}", packed_.reach,
+                     shape_.steps > 1 ? fmt::format(", {} steps a pass", shape_.steps) : "",
+                     tiles_text(shape_.form.tile), rows,
+                     setup_.problem.extra_links.empty() ? "" : ", with extra links");
 }
 
 template <class T>

@@ -50,7 +50,7 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   task.stride = int(pack_size);
   task.masks = p.masks;
   task.maps = p.maps;
-  task.scattered = packed.scattered();
+  task.places = packed.maps().places();
   task.body = p.body;
   task.members = p.members;
   task.live_lanes = &packed.live_lanes;

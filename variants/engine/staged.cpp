@@ -18,7 +18,7 @@ StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Method& method, dou
                              const RowStorage& storage, int threads, const PartSetup* exchange)
     : packed_(packed), method_(method), exchange_(exchange), fields_(storage.stored()),
       pack_size_(std::size_t(fields_) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
-      failed_rows_(cuts_.size() - 1, -1), storage_(storage),
+      failed_(cuts_.size() - 1), storage_(storage),
       updates_(stage_updates<T>(method, storage, W, {&dt, 1})), extra_links_(packed) {
   const int copies = std::max(method.stages + int(method.has_error_stage), 2);
   for (int m = 0; m < copies; ++m)
@@ -95,9 +95,10 @@ void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& sign
     }
     task.signals = signals.stage(stage);
     const bool is_finite = packed_.rows[std::size_t(r)].kernels->stage(task);
-    if (!is_finite && failed_rows_[std::size_t(thread)] < 0 &&
-        packed_.first_failed(r, task.out, fields_))
-      failed_rows_[std::size_t(thread)] = r;
+    if (is_finite) continue;
+    std::optional<std::size_t>& failed = failed_[std::size_t(thread)];
+    if (const auto element = packed_.first_failed(r, task.out, fields_))
+      failed = std::min(*element, failed.value_or(*element));
   }
 }
 
@@ -120,10 +121,11 @@ void StagedRows<T, W>::accept(int thread) {
 }
 
 template <class T, int W>
-int StagedRows<T, W>::failed_row() const {
-  for (const int row : failed_rows_)
-    if (row >= 0) return row;
-  return -1;
+std::optional<std::size_t> StagedRows<T, W>::failed_element() const {
+  std::optional<std::size_t> least;
+  for (const std::optional<std::size_t>& failed : failed_)
+    if (failed) least = std::min(*failed, least.value_or(*failed));
+  return least;
 }
 
 template <class T, int W>

@@ -9,6 +9,7 @@
 #include "variants/engine/wavefront.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 namespace dss {
@@ -74,8 +75,9 @@ public:
     return exchange_ != nullptr && (stage == 0 || exchange_->is_every_stage);
   }
   int copy_of(int stage) const { return is_swapped() ? parity_ : stage; }
-  int failed_row() const;
-  void forget_failures() { std::fill(failed_rows_.begin(), failed_rows_.end(), -1); }
+  /// The least element that is not finite after a step, if there is one.
+  std::optional<std::size_t> failed_element() const;
+  void forget_failures() { failed_.assign(failed_.size(), std::nullopt); }
   std::size_t bytes() const;
   int threads() const { return int(cuts_.size()) - 1; }
 
@@ -112,7 +114,7 @@ private:
   std::vector<Buffer<T>> stages_;
   int parity_ = 0;
   std::vector<CarryRings<T>> carry_;
-  std::vector<int> failed_rows_;
+  std::vector<std::optional<std::size_t>> failed_; ///< of each thread
   const RowStorage storage_;
   T step_ = 1; ///< length of a step [s]; only methods with an error stage use it
   /// Lanes of own elements in each pack; only for methods with an error stage.

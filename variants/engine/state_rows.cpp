@@ -12,19 +12,10 @@ namespace dss {
 template <class T, int W>
 template <class Visit>
 void StateRows<T, W>::each_element(std::size_t first, std::size_t count, Visit&& visit) {
-  if (count == 0) return;
-  const bool is_in_order = packed_.filled.keeps_numbers();
-  for (std::size_t r = is_in_order ? row_of(packed_.lattice, first) : 0; r < packed_.rows.size();
-       ++r) {
-    if (is_in_order && packed_.lattice.rows[r].first_element >= first + count) break;
-    T* const packs = row_(int(r));
-    packed_.each_element(int(r), [&](std::size_t element, int x) {
-      if (element < first || element >= first + count) return;
-      visit(element, packs +
-                         std::ptrdiff_t(x / W - packed_.rows[r].first_pack) * stored_fields() * W +
-                         x % W);
-    });
-  }
+  packed_.each_element(first, count, [&](std::size_t element, std::size_t r, int x) {
+    const std::ptrdiff_t pack = x / W - packed_.rows[r].first_pack;
+    visit(element, row_(int(r)) + pack * stored_fields() * W + x % W);
+  });
 }
 
 template <class T, int W>

@@ -100,7 +100,7 @@ auto WavefrontStep<T, W>::tasks_of(const std::vector<PassTask>& order, int parit
     }
     const int r = what.row, s = what.sweep % stages_;
     const bool is_last = s + 1 == stages_;
-    RowStage stage{what.work, what.sweep, r, packed_.rows[std::size_t(r)].kernels, {}};
+    RowStage stage{what.work, what.sweep, r, false, packed_.rows[std::size_t(r)].kernels, {}};
     set_row(stage.task, packed_, r, fields_, SweepLinks{*this, what.sweep},
             [&](int row) { return input_row(what.sweep, row, parity); });
     stage.task.signals = signals_.stage(what.sweep);
@@ -122,7 +122,7 @@ auto WavefrontStep<T, W>::tasks_of(const std::vector<PassTask>& order, int parit
 
 template <class T, int W>
 auto WavefrontStep<T, W>::extra_task(const PassTask& what, int parity) -> RowStage {
-  RowStage stage{what.work, what.sweep, what.row, nullptr, {}};
+  RowStage stage{what.work, what.sweep, what.row, false, nullptr, {}};
   if (what.work == RowWork::extra_sum) {
     stage.row = extra_links_.index_of(what.row);
     stage.task.out = extra_wrenches_.wrench(what.row);
@@ -191,6 +191,7 @@ bool WavefrontStep<T, W>::note_failures(const RowStage& stage) {
 /// Tasks are read once a pass, so those of a large body are out of the cache by then.
 template <class T, int W>
 void WavefrontStep<T, W>::fetch(const RowStage& next) {
+  static_assert(sizeof(RowStage) <= 5 * Memory::line);
   for (std::size_t byte = 0; byte < sizeof(RowStage); byte += Memory::line)
     simd::fetch(reinterpret_cast<const char*>(&next) + byte);
 }

@@ -55,11 +55,11 @@ public:
   struct RowStage {
     RowWork work;
     int sweep;
-    int row; ///< of an extra link: its number; of a sum: ExtraLinks::index_of its row
+    int row;           ///< of an extra link: its number; of a sum: ExtraLinks::index_of its row
+    bool is_published; ///< the task leaves a new state that others read
     const KernelSet<T>* kernels; ///< null for devices and for extra links
     /// Of an extra link: `in` and `base` are the rows of its elements. Of a sum: `out`.
     RowTask<T> task;
-    bool is_published = false; ///< the task leaves a new state that others read
     T* kept = nullptr; ///< where the row goes before the task overwrites it, for other blocks
   };
   /// The tasks of the passes of a parity, in their order.

@@ -43,7 +43,9 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
       LastTiles& of_axis = links[axis - 1];
       const int from = row.lower(axis);
       if (from >= 0 && of_axis.touch(places_->links(axis, sweep, from), tile))
-        plan.first_read(n, this->links(axis, sweep, from), links_size_ * sizeof(T));
+        plan.first_read(n, this->links(axis, sweep, from),
+                        std::size_t(packed_.rows[std::size_t(from)].packs) *
+                            std::size_t(packed_.carry_size) * sizeof(T));
       if (row.upper(axis) >= 0) of_axis.touch(places_->links(axis, sweep, r), tile);
     }
     if (s + 1 < stages_) stage_rows.touch(places_->stage_row(s, r), tile);

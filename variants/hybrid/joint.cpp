@@ -77,10 +77,9 @@ void JointExecutor::build(Decomposition decomposition) {
         std::make_unique<MemberPart>(setup_, participants_[m], decomposition_, int(m), *exchange_);
   });
   is_broken_ = was_broken;
-  const int lanes = dss::halo_lanes(parts_.front()->executor());
-  const bool is_mixed = lanes == 0 || std::ranges::any_of(parts_, [&](const auto& part) {
-                          return dss::halo_lanes(part->executor()) != lanes;
-                        });
+  std::vector<int> lanes;
+  for (const auto& part : parts_) lanes.push_back(dss::halo_lanes(part->executor()));
+  const bool is_mixed = are_mixed(lanes);
   const std::size_t bytes = number_bytes(setup_.precision);
   each_member([&](MemberPart& member, std::size_t) {
     member.halo().open(member.executor(), is_mixed, bytes);

@@ -27,8 +27,7 @@ DistributedPart::DistributedPart(const Setup& setup, const Plugin& plugin,
                                  plugin.name, plugin.name));
   const std::size_t bytes = number_bytes(setup.precision);
   const auto lanes = world.gather(halo_lanes(*executor_));
-  const bool is_mixed = std::ranges::any_of(
-      lanes, [&](double other) { return other == 0 || other != lanes.front(); });
+  const bool is_mixed = are_mixed(lanes);
   const std::vector<MessageOrder> orders =
       is_mixed ? neighbours_orders(bytes, world.comm()) : std::vector<MessageOrder>{};
   exchange_->attach(halo_copies(*executor_), [&](const Face& face, Way way, int copy) {
