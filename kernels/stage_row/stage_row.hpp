@@ -20,8 +20,7 @@ inline constexpr int any_fields = 0;
 /// @tparam terms  terms that are compiled in
 /// @tparam fixed_fields  numbers an element in a pack of any row; any_fields: the task says
 /// @tparam kind  members: a pack's neighbours along x are the packs beside it, lane by lane.
-/// filled:
-///   those across y and z are found by maps
+///   filled: those across y and z are found by maps
 template <class P, class T, Terms terms, int fixed_fields = any_fields,
           LaneKind kind = LaneKind::neighbours>
 struct StageRow {

@@ -34,12 +34,12 @@ struct BodyRows {
   RowCosts costs;
 
   double as_cells() const {
-    double cost = costs.row * (end - begin);
+    int packs = 0;
     for (int r = begin; r < end; ++r) {
       const Row& row = cells.rows[std::size_t(r)];
-      cost += packs_for(row.x_end, lanes) - row.x_begin / lanes;
+      packs += packs_for(row.x_end, lanes) - row.x_begin / lanes;
     }
-    return cost;
+    return costs.row * (end - begin) + packs;
   }
   /// @return nothing if it is not less than a limit
   std::optional<double> filled(double limit) const {
