@@ -1,12 +1,14 @@
 /// The order of a pass, the places of what its tasks leave for one another, and its fetches.
 #include "variants/engine/body_group.hpp"
 #include "variants/engine/fetch_plan.hpp"
+#include "variants/engine/filled_rows.hpp"
 #include "variants/engine/pass_places.hpp"
 #include "variants/engine/seams.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <map>
 #include <random>
@@ -27,6 +29,12 @@ Lattice scattered_bodies(int nx, int ny, int nz, unsigned seed) {
     append_body(lattice, grid, body);
   }
   return lattice;
+}
+
+/// The same bodies with merged rows, whose upper rows across y and z are one.
+Lattice merged(const Lattice& cells) {
+  constexpr RowCosts of_rows{100, 0};
+  return FilledRows(cells, 8, std::array{of_rows, of_rows}, RowForm::merged).lattice();
 }
 
 /// Sweeps over a block of rows and the halo that later sweeps read.
@@ -73,8 +81,10 @@ void each_case(Check&& check) {
   for (const auto& [ny, nz] : {std::pair{7, 5}, {3, 9}, {11, 1}})
     for (const int count : {1, 2, 4, 8})
       for (const int tile : {no_tiles, 1, 2, 3, 5, 50})
-        for (const bool is_in_row_order : {false, true}) {
-          const Lattice lattice = scattered_bodies(9, ny, nz, unsigned(ny));
+        for (const auto& [is_in_row_order, is_merged] :
+             {std::pair{false, false}, {true, false}, {false, true}}) {
+          const Lattice cells = scattered_bodies(9, ny, nz, unsigned(ny));
+          const Lattice lattice = is_merged ? merged(cells) : cells;
           const int rows = int(lattice.rows.size());
           for (const std::vector<LinkedRows>& extra : sets_of_links(lattice))
             for (const auto& [begin, end] :
