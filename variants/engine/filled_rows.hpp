@@ -12,6 +12,14 @@
 
 namespace dss {
 
+/// Calls visit(element, x) for every present cell of a row, in ascending x.
+template <class Visit>
+void each_cell(const Lattice& lattice, const Row& row, Visit&& visit) {
+  std::size_t element = row.first_element;
+  for (int x = row.x_begin; x < row.x_end; ++x)
+    if (lattice.is_present(row, x)) visit(element++, x);
+}
+
 /// How the rows of a body are held. Each form may also take those before it.
 enum class RowForm : std::uint8_t { cells, filled, merged };
 
@@ -38,8 +46,6 @@ public:
   RowForm form(const Row& row) const {
     return is_any() ? forms_[std::size_t(row.body)] : RowForm::cells;
   }
-  /// Whether elements have the same numbers in lattice().
-  bool keeps_numbers() const { return numbers_.empty(); }
   /// From an element of the cells to its number in lattice(), and back.
   std::size_t number_of(std::size_t element) const {
     return numbers_.empty() ? element : numbers_[element];
@@ -90,10 +96,9 @@ template <class Visit>
 void FilledRows::each_of_cells(int cell_row, Visit&& visit) const {
   const Row& row = cells_->rows[std::size_t(cell_row)];
   const bool is_filled = form(row) != RowForm::cells;
-  std::size_t element = row.first_element;
   int place = is_filled ? first_place(cell_row) : 0;
-  for (int x = row.x_begin; x < row.x_end; ++x)
-    if (cells_->is_present(row, x)) visit(element++, x, is_filled ? place++ : x);
+  each_cell(*cells_, row,
+            [&](std::size_t element, int x) { visit(element, x, is_filled ? place++ : x); });
 }
 
 /// Of each element of a filled row of cells, the number of its neighbour among the elements of a

@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdlib>
-#include <cstring>
 #include <stdexcept>
 #include <utility>
 

@@ -16,13 +16,6 @@ namespace dss {
 
 /// The row that holds an element: the last row whose first_element is not behind it.
 std::size_t row_of(const Lattice& lattice, std::size_t element);
-/// Calls visit(element, x) for every present cell of a row, in ascending x.
-template <class Visit>
-void each_cell(const Lattice& lattice, const Row& row, Visit&& visit) {
-  std::size_t element = row.first_element;
-  for (int x = row.x_begin; x < row.x_end; ++x)
-    if (lattice.is_present(row, x)) visit(element++, x);
-}
 
 /// One row of packs. A pack starts at a multiple of W on the body's grid, so an element has the
 /// same lane as its neighbours in the rows beside it. In filled rows it may have another.
