@@ -4,7 +4,7 @@
 /// before the lower; then ties; then wrenches. It depends on neither threads nor lanes.
 #include "kernels/physics.hpp"
 #include "kernels/rk_update/update.hpp"
-#include "kernels/stage_row/row.hpp"
+#include "kernels/stage_row/row_packs.hpp"
 
 #include <array>
 #include <atomic>
@@ -18,11 +18,9 @@ inline constexpr int any_fields = 0;
 
 /// @tparam P  a model's physics over packs of T
 /// @tparam terms  terms that are compiled in
-/// @tparam fixed_fields  numbers an element in a pack of any row; any_fields: the task says
 /// @tparam kind  members: a pack's neighbours along x are the packs beside it, lane by lane.
 ///   filled: those across y and z are found by maps
-template <class P, class T, Terms terms, int fixed_fields = any_fields,
-          LaneKind kind = LaneKind::neighbours>
+template <class P, class T, Terms terms, LaneKind kind = LaneKind::neighbours>
 struct StageRow {
   using R = typename P::real;
   using element = typename P::element;
@@ -87,46 +85,6 @@ struct StageRow {
     return (masks.link_x & masks.link_y & masks.below_y) == all ? plane_path : general_path;
   }
 
-  static element load_element(const T* p) {
-    element e{};
-    each_component(e, [&](R& c) { c = simd::load(p), p += W; });
-    return e;
-  }
-  template <class Tuple>
-  static void store_all(T*& p, Tuple t) {
-    each_component(t, [&](R& c) { simd::store(p, c), p += W; });
-  }
-  template <class Tuple>
-  static Tuple load_all(const T*& p) {
-    Tuple t{};
-    each_component(t, [&](R& c) { c = simd::load(p), p += W; });
-    return t;
-  }
-  template <class Tuple>
-  static Tuple zero() {
-    Tuple t{};
-    each_component(t, [](R& c) { c = R(T(0)); });
-    return t;
-  }
-  template <class Tuple>
-  static Tuple from_above(const Tuple& a, const Tuple& next) {
-    if constexpr (is_ensemble)
-      return next;
-    else
-      return each_pair(a, next, [](const R& x, const R& y) { return simd::shift_down(x, y); });
-  }
-  template <class Tuple>
-  static Tuple from_below(const Tuple& previous, const Tuple& a) {
-    if constexpr (is_ensemble)
-      return previous;
-    else
-      return each_pair(previous, a, [](const R& x, const R& y) { return simd::shift_up(x, y); });
-  }
-  template <class Tuple>
-  static void keep(simd::LaneMask mask, Tuple& t) {
-    each_component(t, [&](R& c) { c = simd::keep(mask, c); });
-  }
-
   typename P::paper_law paper_law(int axis) const {
     if (!terms.is_oblong) axis = 0;
     return {R(body.edge[axis]), R(body.half_edge[axis]), R(body.tau), R(body.kt2), R(body.dt)};
@@ -140,87 +98,61 @@ struct StageRow {
   axis_law law(int axis) const {
     return {laws[0], laws[std::size_t(axis)], material(axis), R(body.edge_ratio)};
   }
-  prepared prepare(const T* p) const { return P::prepare(load_element(p), laws[0], flags); }
+  prepared prepare(const T* p) const { return P::prepare(load_at<element>(p), laws[0], flags); }
 
   static constexpr int parked_size = is_parked ? 4 * P::vec_size * W : 1;
   static void park(T* p, const prepared& a) {
-    store_all(p, a.pull);
-    store_all(p, a.lower_x);
-    store_all(p, a.x.arm);
-    store_all(p, a.x.swing);
+    store_next(p, a.pull);
+    store_next(p, a.lower_x);
+    store_next(p, a.x.arm);
+    store_next(p, a.x.swing);
   }
   static prepared parked(const T* p, const T* fields) {
     prepared a{};
-    a.pull = load_all<vec>(p);
-    a.lower_x = load_all<vec>(p);
-    a.x.arm = load_all<vec>(p);
-    a.x.swing = load_all<vec>(p);
-    a.e = load_element(fields);
+    a.pull = load_next<vec>(p);
+    a.lower_x = load_next<vec>(p);
+    a.x.arm = load_next<vec>(p);
+    a.x.swing = load_next<vec>(p);
+    a.e = load_at<element>(fields);
     return a;
   }
 
   template <bool is_plain = false>
   static void mask_links(simd::LaneMask mask, exchange& x) {
     if (is_plain || mask == simd::all_lanes<T>) return;
-    keep(mask, x.force);
-    if constexpr (terms.has_couples()) keep(mask, x.couple_i);
-    if constexpr (terms.is_material) keep(mask, x.couple_j);
+    keep_lanes(mask, x.force);
+    if constexpr (terms.has_couples()) keep_lanes(mask, x.couple_i);
+    if constexpr (terms.is_material) keep_lanes(mask, x.couple_j);
   }
   static void store_carry(T* p, const carried& c) {
-    store_all(p, c.force);
-    if constexpr (terms.has_couples()) store_all(p, c.couple);
+    store_next(p, c.force);
+    if constexpr (terms.has_couples()) store_next(p, c.couple);
   }
   static carried load_carry(const T* p) {
     carried c{zero<vec>(), zero<spin>()};
-    c.force = load_all<vec>(p);
-    if constexpr (terms.has_couples()) c.couple = load_all<spin>(p);
+    c.force = load_next<vec>(p);
+    if constexpr (terms.has_couples()) c.couple = load_next<spin>(p);
     return c;
   }
 
-  /// Copies numbers of a pack from any lanes of a row.
-  /// @param size  numbers from pack to pack of `from`
-  [[gnu::noinline]] static void collect(const T* from, std::ptrdiff_t size, int numbers,
-                                        const int* places, T* to) {
-    for (int l = 0; l < W; ++l) {
-      const T* const lane = from + places[l] / W * size + places[l] % W;
-      for (int n = 0; n < numbers; ++n) to[n * W + l] = lane[n * W];
-    }
-  }
-  /// Loads a pack's neighbours from another row.
-  /// @param size  numbers from pack to pack of `from`
-  template <class Tuple, int numbers>
-  Tuple load_mapped(const T* from, std::ptrdiff_t size, const LaneMap<T>& map) const {
-    Tuple t{};
-    if (map.is_scattered()) [[unlikely]] {
-      alignas(64) T lanes[numbers > 0 ? numbers * W : 1];
-      collect(from, size, numbers, task.places + map.first, lanes);
-      const T* p = lanes;
-      return load_all<Tuple>(p);
-    }
-    const T *first = from + map.first * size, *second = from + map.second * size;
-    const auto choice = simd::lane_choice<T>(map.lanes);
-    each_component(t, [&](R& c) {
-      c = simd::pick(simd::load(first), simd::load(second), choice);
-      first += W, second += W;
-    });
-    return t;
-  }
   element load_upper(const T* upper, int pack, std::ptrdiff_t stride, int axis) const {
     if constexpr (is_filled)
-      return load_mapped<element, P::fields>(upper, stride, task.maps[pack].upper(axis));
+      return load_mapped<element, P::fields>(upper, stride, task.maps[pack].upper(axis),
+                                             task.places);
     else
-      return load_element(upper + std::ptrdiff_t(pack) * stride);
+      return load_at<element>(upper + std::ptrdiff_t(pack) * stride);
   }
   carried load_lower(const T* from, int pack, int axis, simd::LaneMask below) const {
     if constexpr (is_filled) {
       const LaneMap<T>& map = task.maps[pack].lower(axis);
-      carried c{load_mapped<vec, P::vec_size>(from, carry_size, map), zero<spin>()};
+      carried c{load_mapped<vec, P::vec_size>(from, carry_size, map, task.places), zero<spin>()};
       // A map gives lanes without a lower neighbour another one's link, so they are cleared. Where
       // lanes are the same, the lower row left 0 there.
-      keep(below, c.force);
+      keep_lanes(below, c.force);
       if constexpr (terms.has_couples()) {
-        c.couple = load_mapped<spin, P::spin_size>(from + P::vec_size * W, carry_size, map);
-        keep(below, c.couple);
+        c.couple =
+            load_mapped<spin, P::spin_size>(from + P::vec_size * W, carry_size, map, task.places);
+        keep_lanes(below, c.couple);
       }
       return c;
     } else {
@@ -256,20 +188,20 @@ struct StageRow {
     element j{};
     vec lower, upper;
     if constexpr (terms.is_material) {
-      j = from_above(i.e, next.e);
+      j = from_above<kind>(i.e, next.e);
       lower = upper = i.e.u;
     } else {
-      lower = from_above(i.lower_x, next.lower_x);
+      lower = from_above<kind>(i.lower_x, next.lower_x);
       upper = P::upper_face(i.pull, i.x);
-      if constexpr (terms.is_damped) j.w = from_above(i.e.w, next.e.w);
-      if constexpr (terms.is_bending) j.q = from_above(i.e.q, next.e.q);
+      if constexpr (terms.is_damped) j.w = from_above<kind>(i.e.w, next.e.w);
+      if constexpr (terms.is_bending) j.q = from_above<kind>(i.e.q, next.e.q);
     }
     exchange up = P::link_exchange(i.e, upper, j, lower, 0, law(0), flags);
     mask_links<is_plain>(mask, up);
     const carried own = P::carried_by(up, flags);
     carried low{zero<vec>(), zero<spin>()};
-    low.force = from_below(previous.force, own.force);
-    if constexpr (terms.has_couples()) low.couple = from_below(previous.couple, own.couple);
+    low.force = from_below<kind>(previous.force, own.force);
+    if constexpr (terms.has_couples()) low.couple = from_below<kind>(previous.couple, own.couple);
     previous = own;
     return P::wrench_of_x(i, up, low, law(0), flags);
   }
@@ -299,15 +231,6 @@ struct StageRow {
     each_component(force, hold);
     each_component(turn, hold);
   }
-  /// `value(n)` gives x, y, z; a model takes the components that it has.
-  template <class Tuple, class Value>
-  static Tuple components(Value&& value) {
-    Tuple t{};
-    if constexpr (requires { t.x; }) t.x = value(0);
-    if constexpr (requires { t.y; }) t.y = value(1);
-    if constexpr (requires { t.z; }) t.z = value(2);
-    return t;
-  }
   /// A scalar inertia is the same about every axis. A planar model has only the inertia about z.
   UpdateScales<R> update_scales() const {
     const R turn_scale = terms.is_gyroscopic ? R(T(1)) : R(body.inverse_inertia[2]);
@@ -330,7 +253,7 @@ struct StageRow {
       const simd::LaneMask above = axis == 1 ? task.masks[pack].link_y : task.masks[pack].link_z;
       if (above == 0) continue;
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * task.stride;
-      const element i = load_element(task.in + place);
+      const element i = load_at<element>(task.in + place);
       const element j =
           load_upper(axis == 1 ? task.upper_y : task.upper_z, pack, task.stride, axis);
       exchange up =
@@ -342,7 +265,8 @@ struct StageRow {
   }
 
   /// Calls update(place, element, force, turn) for every pack of the row.
-  template <class Update>
+  /// @tparam fixed_fields  numbers an element in a pack of any row; any_fields: the task says
+  template <int fixed_fields = any_fields, class Update>
   void run(Update&& update) const {
     // Local copies: stores of packs may alias anything, so the compiler would read members through
     // a reference again for every pack.
@@ -377,7 +301,7 @@ struct StageRow {
       if (fetch_lines > 0) [[unlikely]]
         for (int line = fetch_lines; line > 0; --line, fetch += 64) simd::fetch(fetch);
       prepared i = next;
-      i.e = load_element(in + place);
+      i.e = load_at<element>(in + place);
       next = prepare(in + place + stride);
       const auto read_again = [&] {
         if constexpr (is_parked) {

@@ -9,6 +9,57 @@
 
 namespace dss {
 
+/// Computes an extra link, of either law: KernelSet::extra_link, KernelSet::member_links.
+/// @tparam R  T, or packs of an ensemble
+template <Model model, class T, class R, class Number>
+void compute_link(const ExtraLinkConstants<Number>& link, const T* fields_i, const T* fields_j,
+                  T* wrench_i, T* wrench_j) {
+  using S = Physics<model, R>;
+  constexpr int width = int(sizeof(R) / sizeof(T));
+  const auto read = [](const T* from, typename S::element& e) {
+    each_component(e, [&](R& c) {
+      if constexpr (width == 1)
+        c = *from;
+      else
+        c = simd::load(from);
+      from += width;
+    });
+  };
+  const auto write = [](T* to, auto sum) {
+    each_component(sum, [&](R& c) {
+      if constexpr (width == 1)
+        *to = c;
+      else
+        simd::store(to, c);
+      to += width;
+    });
+    return to;
+  };
+  typename S::element i, j;
+  read(fields_i, i);
+  read(fields_j, j);
+  const auto along = [&](auto axis) {
+    const auto& b = link.body;
+    const auto& a = b.axis[axis];
+    const R edge_i(link.edge_i), edge_j(link.edge_j), half(T(0.5));
+    const auto w =
+        S::wrench_of_pair(i, j, axis, link.is_material,
+                          {edge_i, edge_j, R(a.k_s), R(a.k_ns), R(a.d_s), R(a.d_ns), R(a.k_z),
+                           R(a.k_xz), R(a.k_yz), R(a.d_z), R(a.d_xz), R(a.d_yz)},
+                          {edge_i, edge_i * half, R(b.tau), R(b.kt2), R(b.dt)},
+                          {edge_j, edge_j * half, R(b.tau), R(b.kt2), R(b.dt)});
+    typename S::vec back = w.force;
+    each_component(back, [](R& c) { c = -c; });
+    write(write(wrench_i, w.force), w.moment_i);
+    write(write(wrench_j, back), w.moment_j);
+  };
+  if (link.axis == 0) along(std::integral_constant<int, 0>{});
+  if constexpr (S::axes > 1)
+    if (link.axis == 1) along(std::integral_constant<int, 1>{});
+  if constexpr (S::axes > 2)
+    if (link.axis == 2) along(std::integral_constant<int, 2>{});
+}
+
 template <Model model, class T, Terms terms, LaneKind kind>
 struct RowKernels {
   using P = Physics<model, simd::Pack<T>>;
@@ -33,9 +84,9 @@ struct RowKernels {
   static constexpr int in_place = half_velocities > 0 ? predicted_step : leapfrog_step;
   template <int action, int fields>
   DSS_FLATTEN static bool run_stage(const RowTask<T>& task) {
-    const StageRow<P, T, terms, fields, kind> row{task};
+    const StageRow<P, T, terms, kind> row{task};
     RowUpdate<P, T, simd::lanes<T>, action> update(task, row.update_scales());
-    row.run(update);
+    row.template run<fields>(update);
     return simd::is_zero(row.checked(update.check()));
   }
   static bool stage(const RowTask<T>& task) {
@@ -61,67 +112,18 @@ struct RowKernels {
     return run_stage<any_action, any_fields>(task);
   }
   DSS_FLATTEN static void prime(const RowTask<T>& task, int axis) {
-    const StageRow<P, T, terms, any_fields, kind> row{task};
+    const StageRow<P, T, terms, kind> row{task};
     if constexpr (P::axes > 1)
       if (axis == 1) row.prime(1);
     if constexpr (P::axes > 2)
       if (axis == 2) row.prime(2);
   }
 
-  /// @tparam R  T, or packs of an ensemble
-  template <class R, class Number>
-  static void compute_link(const ExtraLinkConstants<Number>& link, const T* fields_i,
-                           const T* fields_j, T* wrench_i, T* wrench_j) {
-    using S = Physics<model, R>;
-    constexpr int width = int(sizeof(R) / sizeof(T));
-    const auto read = [](const T* from, typename S::element& e) {
-      each_component(e, [&](R& c) {
-        if constexpr (width == 1)
-          c = *from;
-        else
-          c = simd::load(from);
-        from += width;
-      });
-    };
-    const auto write = [](T* to, auto sum) {
-      each_component(sum, [&](R& c) {
-        if constexpr (width == 1)
-          *to = c;
-        else
-          simd::store(to, c);
-        to += width;
-      });
-      return to;
-    };
-    typename S::element i, j;
-    read(fields_i, i);
-    read(fields_j, j);
-    const auto along = [&](auto axis) {
-      const auto& b = link.body;
-      const auto& a = b.axis[axis];
-      const R edge_i(link.edge_i), edge_j(link.edge_j), half(T(0.5));
-      const auto w =
-          S::wrench_of_pair(i, j, axis, link.is_material,
-                            {edge_i, edge_j, R(a.k_s), R(a.k_ns), R(a.d_s), R(a.d_ns), R(a.k_z),
-                             R(a.k_xz), R(a.k_yz), R(a.d_z), R(a.d_xz), R(a.d_yz)},
-                            {edge_i, edge_i * half, R(b.tau), R(b.kt2), R(b.dt)},
-                            {edge_j, edge_j * half, R(b.tau), R(b.kt2), R(b.dt)});
-      typename S::vec back = w.force;
-      each_component(back, [](R& c) { c = -c; });
-      write(write(wrench_i, w.force), w.moment_i);
-      write(write(wrench_j, back), w.moment_j);
-    };
-    if (link.axis == 0) along(std::integral_constant<int, 0>{});
-    if constexpr (S::axes > 1)
-      if (link.axis == 1) along(std::integral_constant<int, 1>{});
-    if constexpr (S::axes > 2)
-      if (link.axis == 2) along(std::integral_constant<int, 2>{});
-  }
   static constexpr KernelSet<T> make_set() {
     if constexpr (is_ensemble)
-      return {terms, stage, prime, nullptr, compute_link<simd::Pack<T>, LaneNumbers<T>>};
+      return {terms, stage, prime, nullptr, compute_link<model, T, simd::Pack<T>, LaneNumbers<T>>};
     else
-      return {terms, stage, prime, compute_link<T, T>, nullptr};
+      return {terms, stage, prime, compute_link<model, T, T, T>, nullptr};
   }
 
   static constexpr KernelSet<T> set = make_set();
