@@ -69,7 +69,8 @@ class Advise(ProgramTest):
         scene = self.write("pendulum.json", json.dumps(PENDULUM))
         result = dssbench("advise", scene, "--end", 1, "--tolerance", "1e-4")
         self.assertEqual(result.returncode, 0, result.stderr)
-        result = dssbench("advise", scene, "--end", 40, "--tolerance", "1e-4")
+        result = dssbench("advise", scene, "--end", 40, "--tolerance", "1e-4",
+                          "--budget", 300)
         self.assertEqual(result.returncode, 1, result.stdout)
         self.assertIn("amplifies", result.stderr)
         self.assertNotIn("dssbench run", result.stdout)
