@@ -211,13 +211,13 @@ def continuum_table(results):
 
 def geometry_table(results):
     """Rates of the bodies of many shapes, and those of a link over those of the plate n = 100."""
-    frame = results.table("geometry", "scene", "set", "variant", "threads", "elements", "links",
-                          "element_steps_per_s", "link_steps_per_s", "label", "status",
+    frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "elements",
+                          "links", "element_steps_per_s", "link_steps_per_s", "label", "status",
                           optional=["speedup_vs_scalar", "speedup_vs_scalar_low",
                                     "speedup_vs_scalar_high", "extrapolated_speedup_vs_scalar",
                                     "extrapolated_speedup_vs_scalar_low",
                                     "extrapolated_speedup_vs_scalar_high"])
-    frame = frame[~frame["label"].str.contains("A/A")].copy()
+    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
     frame["set"] = frame["set"].fillna("")
     rates = ["scalar", "avx2", "avx512"]
 
