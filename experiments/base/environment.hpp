@@ -20,8 +20,14 @@ inline constexpr std::array environment_variables = {
                         "CPU features to ignore, separated by commas: avx512f,fma."},
     EnvironmentVariable{"DSSBENCH_KEEP_DENORMALS",
                         "1: keep denormal numbers instead of flushing them to zero."},
-    EnvironmentVariable{"DSSBENCH_OPENCL_AS",
-                        "gpu or cpu: treat every OpenCL device as one of this kind."},
+    EnvironmentVariable{
+        "DSSBENCH_OPENCL_AS",
+        "gpu or discrete: treat every OpenCL device as a GPU, or as one with memory of "
+        "its own."},
+    EnvironmentVariable{
+        "DSSBENCH_STAGE_TILE",
+        "What a work-group of a GPU computes in a launch: WIDTHxHEIGHTxSTAGES, or 0 "
+        "for one stage of a row."},
     EnvironmentVariable{"DSSBENCH_PATIENCE_S",
                         "Time in seconds after which ranks give up waiting for another rank."},
     EnvironmentVariable{

@@ -49,8 +49,11 @@ TEST_F(OpenCl, failures_are_those_of_packs_in_any_batch_of_steps) {
 }
 
 TEST_F(OpenCl, failures_are_those_of_packs_in_the_work_groups_of_a_gpu) {
-  const DeviceAs gpu("gpu");
-  expect_the_failure_of_packs(packs(), "opencl", {1});
+  for (const char* tile : {"0", "8x9x4"}) {
+    SCOPED_TRACE(tile);
+    const DeviceAs gpu("gpu", tile);
+    expect_the_failure_of_packs(packs(), "opencl", {1});
+  }
 }
 
 /// Far from the failure, the state is that of the failing step, or a few steps ahead of it.

@@ -12,13 +12,17 @@ namespace dss::test {
 /// While this object lives, executors use the device as one of another kind.
 class DeviceAs {
 public:
-  explicit DeviceAs(const char* kind) { ::setenv(variable, kind, 1); }
+  /// @param tile  null, or the tile of a GPU (variants/opencl/stage_tile.hpp)
+  explicit DeviceAs(const char* kind, const char* tile = nullptr) {
+    ::setenv("DSSBENCH_OPENCL_AS", kind, 1);
+    if (tile != nullptr) ::setenv("DSSBENCH_STAGE_TILE", tile, 1);
+  }
   DeviceAs(const DeviceAs&) = delete;
   DeviceAs& operator=(const DeviceAs&) = delete;
-  ~DeviceAs() { ::unsetenv(variable); }
-
-private:
-  static constexpr const char* variable = "DSSBENCH_OPENCL_AS";
+  ~DeviceAs() {
+    ::unsetenv("DSSBENCH_OPENCL_AS");
+    ::unsetenv("DSSBENCH_STAGE_TILE");
+  }
 };
 
 class OpenCl : public testing::Test {

@@ -15,12 +15,14 @@ void refuse_tile(const Setup& setup, std::string_view why) {
 
 template <class T, int W>
 StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Method& method, double dt,
-                             const RowStorage& storage, int threads, const PartSetup* exchange)
-    : packed_(packed), method_(method), exchange_(exchange), fields_(storage.stored()),
+                             const RowStorage& storage, int threads, const PartSetup* exchange,
+                             bool is_swapped)
+    : packed_(packed), method_(method), exchange_(exchange),
+      is_swapped_(is_swapped || method.stages == 1), fields_(storage.stored()),
       pack_size_(std::size_t(fields_) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
       failed_(cuts_.size() - 1), storage_(storage),
       updates_(stage_updates<T>(method, storage, W, {&dt, 1})), extra_links_(packed) {
-  const int copies = std::max(method.stages + int(method.has_error_stage), 2);
+  const int copies = method.stages + int(method.has_error_stage || is_swapped_);
   for (int m = 0; m < copies; ++m)
     stages_.emplace_back(packed.readable_packs() * pack_size_, packed.memory);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);
@@ -75,9 +77,7 @@ RowTask<T> StagedRows<T, W>::task_of(int thread, int stage, int r, bool is_whole
           [&](int row) { return stage_row(stage, row); });
   if (!is_whole) return task;
   const bool is_last = stage + 1 == method_.stages && !method_.has_error_stage;
-  T* const out = is_swapped() ? stage_row(1, r)
-                 : is_last    ? stage_row(0, r)
-                              : stage_row(stage + 1, r);
+  T* const out = stage_row(is_last && !is_swapped_ ? 0 : stage + 1, r);
   updates_[std::size_t(stage)].set(
       task, stage_row(0, r), out, [&](int m) { return stage_row(m + 1, r); }, step_);
   return task;

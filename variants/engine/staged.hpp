@@ -24,8 +24,9 @@ class StagedRows {
 public:
   /// @param dt        step [s]
   /// @param exchange  null, or how the part exchanges its halo
+  /// @param is_swapped  see is_swapped(); always true for methods of one stage
   StagedRows(PackedRows<T, W>& packed, const Method& method, double dt, const RowStorage& storage,
-             int threads, const PartSetup* exchange);
+             int threads, const PartSetup* exchange, bool is_swapped = false);
   T* row(int r) { return stage_row(0, r); }
   /// Methods with an error stage: sets the length of the next steps [s]. A step does not change the
   /// state; its result is in the tried rows.
@@ -64,11 +65,13 @@ public:
   }
   /// A row of the input of a stage, which is the output of the stage before it.
   T* stage_row(int stage, int r) {
-    return buffer_row(std::size_t(is_swapped() ? stage ^ parity_ : stage), r);
+    const bool is_state = stage == 0 || stage == method_.stages;
+    if (!is_swapped_ || !is_state) return buffer_row(std::size_t(stage), r);
+    return buffer_row((stage == 0) == (parity_ == 0) ? 0 : std::size_t(method_.stages), r);
   }
-  /// A method of one stage reads neighbours while it writes. So its output gets buffers of its own,
-  /// and output and state swap after each step.
-  bool is_swapped() const { return method_.stages == 1; }
+  /// Whether neighbours may still read the state while the last stage writes its output, as in a
+  /// method of one stage. Then the output gets buffers of its own, and both swap after each step.
+  bool is_swapped() const { return is_swapped_; }
   void swap() { parity_ ^= 1; }
   /// Whether parts exchange the input of a stage. copy_of() is the number of that copy.
   bool is_exchanged(int stage) const {
@@ -105,12 +108,13 @@ private:
   PackedRows<T, W>& packed_;
   const Method& method_;
   const PartSetup* exchange_;
+  const bool is_swapped_;
   const int fields_;
   const std::size_t pack_size_;
   std::vector<int> cuts_;
   std::vector<std::vector<StageRows>> plan_; ///< [thread][stage]
-  /// [0]: the state; [m]: the output of stage m - 1. A method of one stage: the states of both
-  /// parities.
+  /// [0]: the state; [m]: the output of stage m - 1. If swapped, the first and the last are the
+  /// states of both parities.
   std::vector<Buffer<T>> stages_;
   int parity_ = 0;
   std::vector<CarryRings<T>> carry_;

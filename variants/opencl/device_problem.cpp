@@ -143,7 +143,8 @@ void DeviceProblem<T, W>::finish() {
                          W,
                          layout.has_items,
                          compiled_actions(actions_),
-                         terms_};
+                         terms_,
+                         tile_};
   program_ = build_program(device, row_program(kind));
   build_s_ += program_.build_s, is_cached_ &= program_.is_cached;
   if (has_extra_links()) {
@@ -158,7 +159,7 @@ void DeviceProblem<T, W>::finish() {
                                           memory.start())
                       : queue.make_buffer(memory.bytes());
   if (!is_shared_) queue.write(arena_, 0, {memory.start(), memory.bytes()});
-  if (!layout.has_items) return;
+  if (!layout.has_items || tile_.is_used()) return;
   const auto items = std::size_t(packed.packs_across * W);
   group_size_ = std::min(items, largest_group());
   items_across_ = (items + group_size_ - 1) / group_size_ * group_size_;
@@ -209,6 +210,15 @@ void DeviceProblem<T, W>::launch_rows(const Kernel& kernel, int bands) {
     queue.launch(kernel, cl::NDRange(count), cl::NDRange(1));
   else
     queue.launch(kernel, cl::NDRange(items_across_, count), cl::NDRange(group_size_, 1));
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::launch_tiles(const Kernel& kernel) {
+  const std::size_t width(tile_.width), height(tile_.height);
+  queue.launch(kernel,
+               cl::NDRange(std::size_t(tile_.groups_across(packed.packs_across * W)) * width,
+                           std::size_t(tile_.groups_along(int(packed.rows.size()))) * height),
+               cl::NDRange(width, height));
 }
 
 /// The queue is in order: a wait for the last transfer is a wait for all.

@@ -65,6 +65,9 @@ public:
   int add(const RowTask<T>& task, int row, row_action action, int fields,
           const T* published = nullptr, int sweep = 0);
   int next_place() const { return int(rows_.size()); }
+  /// Gives the program the kernel run_tiles in place of run_rows.
+  void set_tile(const StageTile& tile) { tile_ = tile; }
+  const StageTile& tile() const { return tile_; }
   /// Call it when the arena and the tables are complete. Builds the program and gives the device
   /// its memory.
   void finish();
@@ -81,6 +84,8 @@ public:
   /// Launches a kernel whose work-items need no others, in the problem's queue. A GPU gets a
   /// work-item for each element across.
   void launch_rows(const Kernel& kernel, int bands);
+  /// Launches run_tiles over all elements.
+  void launch_tiles(const Kernel& kernel);
   /// to_host() lets the host use the arena until to_device(). If the memory is not shared, both
   /// copy [from, to) of these ranges.
   struct Range {
@@ -119,6 +124,7 @@ private:
   std::vector<Terms> terms_;
   std::vector<Row> rows_;
   std::set<row_action> actions_; ///< actions of rows_
+  StageTile tile_;
   std::vector<typename Tables<T>::extra_link> extra_;
   opencl::Buffer arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_,
       extra_table_, signals_;

@@ -22,12 +22,15 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
   const bool is_staged = layout.has_items || setup_.method.has_error_stage ||
                          !setup_.problem.extra_links.empty() ||
                          (is_part() && part_->is_every_stage);
-  if (is_staged) refuse_tile(setup_, "it is computed stage by stage");
-  if (is_staged)
-    staged_.emplace(packed_, setup_.method, setup_.dt, rows_.storage(), layout.bands, part_);
-  else
+  if (is_staged) {
+    refuse_tile(setup_, "it is computed stage by stage");
+    problem_.set_tile(stage_tile());
+    staged_.emplace(packed_, setup_.method, setup_.dt, rows_.storage(), layout.bands, part_,
+                    problem_.tile().is_used());
+    add_stages();
+  } else {
     make_blocks();
-  if (staged_) add_stages();
+  }
   problem_.add_extra_links(setup_.problem, stored_fields());
   problem_.finish();
   make_kernels();
@@ -116,35 +119,11 @@ void ResidentExecutor<T, W>::add_neighbours(const std::vector<int>& cuts, int ba
   neighbours_.push_back({{first, last + 1}});
 }
 
-/// Makes the lists of row tasks: one for each band, or on a GPU for each row.
-template <class T, int W>
-void ResidentExecutor<T, W>::add_stages() {
-  const int stages = setup_.method.stages, parities = staged_->is_swapped() ? 2 : 1;
-  const bool has_items = problem_.layout.has_items;
-  for (int parity = 0; parity < parities; ++parity) {
-    for (int stage = 0; stage < stages; ++stage) {
-      std::vector<cl_int2>& lists = lists_.emplace_back();
-      for (int band = 0; band < staged_->threads(); ++band) {
-        const int begin = problem_.next_place();
-        staged_->each_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& task) {
-          if (has_items && !is_whole) return; // work-items compute links at both ends
-          const int place =
-              problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields());
-          if (has_items) lists.push_back({{place, place + 1}});
-        });
-        if (!has_items) lists.push_back({{begin, problem_.next_place()}});
-      }
-      bands_ = std::max(bands_, int(lists.size()));
-    }
-    if (parities == 2) staged_->swap();
-  }
-  // A part computes less of its halo in later stages.
-  for (auto& lists : lists_) lists.resize(std::size_t(bands_));
-}
-
 template <class T, int W>
 void ResidentExecutor<T, W>::make_kernels() {
-  kernel_ = problem_.kernel(staged_ ? "run_rows" : "run_passes");
+  kernel_ = problem_.kernel(problem_.tile().is_used() ? "run_tiles"
+                            : staged_                 ? "run_rows"
+                                                      : "run_passes");
   failed_ = problem_.queue.make_buffer(std::size_t(1 + 2 * bands_) * sizeof(cl_int));
   if (!staged_) {
     pass_table_ = problem_.table(passes_);
@@ -173,7 +152,10 @@ void ResidentExecutor<T, W>::warm_up() {
   problem_.set_signals(std::vector<double>(signal_count(setup_.problem)),
                        signal_count(setup_.problem));
   forget_failures();
-  if (staged_) {
+  if (problem_.tile().is_used()) {
+    set_tile_arguments(0, 0, 0);
+    problem_.launch_tiles(kernel_);
+  } else if (staged_) {
     if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_.front());
     set_stage_arguments(nothing, 0, 0);
     problem_.launch_rows(kernel_, bands_);
@@ -320,8 +302,8 @@ template <class T, int W>
 std::string ResidentExecutor<T, W>::schedule() const {
   const std::string& device = problem_.queue.device().entry.name;
   if (problem_.layout.has_items)
-    return fmt::format("on {}: a work-item an element, in packs of {} lanes; stage by stage",
-                       device, W);
+    return fmt::format("on {}: a work-item an element, in packs of {} lanes; {}", device, W,
+                       stages_text(problem_.tile()));
   return fmt::format("on {}: {} bands of rows, work-items of {} lanes; {}", device, bands_, W,
                      staged_ ? "stage by stage"
                              : fmt::format("wavefront, reach {}, in place{}", packed_.reach,

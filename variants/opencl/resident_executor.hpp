@@ -58,9 +58,13 @@ private:
   int stored_fields() const { return rows_.stored_fields(); }
   void make_blocks();
   void add_neighbours(const std::vector<int>& cuts, int band, int halo);
+  /// The tile of a method of several stages whose rows need only the rows next to them.
+  StageTile stage_tile() const;
   void add_stages();
   void make_kernels();
   void set_pass_arguments(long steps);
+  /// @param stages  to compute from `first_stage` on
+  void set_tile_arguments(int first_stage, int stages, long step);
   void set_stage_arguments(const opencl::Buffer& lists, int stage, long step);
   /// Launches all kernels with nothing to do: some drivers, such as PoCL, compile a kernel at its
   /// first launch.
@@ -108,6 +112,8 @@ private:
   void make_error_kernels();
   void warm_up_error_kernels(const opencl::Buffer& nothing);
   void launch_stage(int stage, long step);
+  /// Launches all stages of a step of a whole problem, some in each launch.
+  void launch_tiles(long step);
   void forget_failures();
   Outcome outcome(long steps);
 

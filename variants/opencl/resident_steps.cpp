@@ -156,99 +156,6 @@ long ResidentExecutor<T, W>::passes_to_do(long passes) {
 }
 
 template <class T, int W>
-void ResidentExecutor<T, W>::launch_stage(int stage, long step) {
-  const int stages = setup_.method.stages;
-  const std::size_t table =
-      std::size_t((staged_->is_swapped() ? staged_->current_copy() : 0) * stages + stage);
-  if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_[table]);
-  set_stage_arguments(list_tables_[table], stage, step);
-  problem_.launch_rows(kernel_, bands_);
-}
-
-template <class T, int W>
-void ResidentExecutor<T, W>::set_stage_arguments(const opencl::Buffer& lists, int stage,
-                                                 long step) {
-  const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
-  cl_uint n = DeviceProblem<T, W>::table_arguments;
-  kernel_.set_one(n++, lists);
-  kernel_.set_one(n++, problem_.signals());
-  kernel_.set_one(n++, failed_);
-  const int signal_row = int(step) * stages + stage;
-  for (const cl_int value : {signal_row * width, int(step)}) kernel_.set_one(n++, value);
-}
-
-template <class T, int W>
-Outcome ResidentExecutor<T, W>::run_stages(long steps) {
-  if (is_part()) send(staged_->current_copy());
-  for (long step = 0; step < steps; ++step) launch_step(step, step + 1 == steps);
-  return outcome(steps);
-}
-
-template <class T, int W>
-void ResidentExecutor<T, W>::launch_step(long step, bool is_last) {
-  const int stages = setup_.method.stages;
-  const auto exchanged = [&](int stage) { return is_part() && staged_->is_exchanged(stage); };
-  for (int stage = 0; stage < stages; ++stage) {
-    if (exchanged(stage)) receive(staged_->copy_of(stage));
-    launch_stage(stage, step);
-    const bool is_step_done = stage + 1 == stages;
-    if (is_step_done && staged_->is_swapped()) staged_->swap();
-    const int next = is_step_done ? 0 : stage + 1;
-    if (exchanged(next) && !(is_step_done && is_last)) send(staged_->copy_of(next));
-  }
-}
-
-constexpr std::size_t maxima_of_band = 2 * StepMaxima::kinds + 1;
-
-template <class T, int W>
-void ResidentExecutor<T, W>::make_error_kernels() {
-  // warm_up_error_kernels sets this argument.
-  constexpr cl_uint lists = DeviceProblem<T, W>::table_arguments;
-  maxima_ = problem_.queue.make_buffer(std::size_t(bands_) * maxima_of_band * sizeof(T));
-  maxima_kernel_ = problem_.kernel("step_maxima");
-  maxima_kernel_.set_one(lists + 1, maxima_);
-  maxima_kernel_.set_one(lists + 2, cl::Local(problem_.group_size() * maxima_of_band * sizeof(T)));
-  accept_kernel_ = problem_.kernel("accept_rows");
-}
-
-template <class T, int W>
-void ResidentExecutor<T, W>::warm_up_error_kernels(const opencl::Buffer& nothing) {
-  constexpr cl_uint lists = DeviceProblem<T, W>::table_arguments;
-  for (Kernel* const kernel : {&maxima_kernel_, &accept_kernel_}) {
-    kernel->set_one(lists, nothing);
-    problem_.launch(problem_.queue, *kernel, bands_);
-    kernel->set_one(lists, list_tables_.back()); // of the last stage
-  }
-}
-
-template <class T, int W>
-StepMaxima ResidentExecutor<T, W>::try_step(double dt, std::span<const double> signals) {
-  to_device();
-  problem_.set_signals(signals, signal_count(setup_.problem));
-  kernel_.set_one(DeviceProblem<T, W>::step_argument, T(dt));
-  if (is_part()) send(staged_->current_copy());
-  launch_step(0, true);
-  problem_.launch(problem_.queue, maxima_kernel_, bands_);
-  std::vector<T> bands(std::size_t(bands_) * maxima_of_band);
-  problem_.queue.read(maxima_, 0, std::as_writable_bytes(std::span(bands)));
-  StepMaxima all;
-  for (std::size_t band = 0; band < bands.size(); band += maxima_of_band) {
-    StepMaxima one;
-    std::copy_n(&bands[band], StepMaxima::kinds, one.error.begin());
-    std::copy_n(&bands[band + StepMaxima::kinds], StepMaxima::kinds, one.state.begin());
-    one.is_finite = bands[band + 2 * StepMaxima::kinds] == 0;
-    all.add(one);
-  }
-  return all;
-}
-
-template <class T, int W>
-void ResidentExecutor<T, W>::accept_step() {
-  to_device();
-  problem_.launch_rows(accept_kernel_, bands_);
-}
-
-template <class T, int W>
 Outcome ResidentExecutor<T, W>::outcome(long steps) {
   std::vector<cl_int> failed(std::size_t(1 + 2 * bands_));
   problem_.queue.read(failed_, 0, std::as_writable_bytes(std::span(failed)));
@@ -267,17 +174,13 @@ Outcome ResidentExecutor<T, W>::outcome(long steps) {
   return {false, failed[0], first.value_or(0)};
 }
 
-// What resident_executor.cpp calls.
+// What other files call.
 #define DSS_INSTANTIATE(T, W)                                                                      \
   template Outcome ResidentExecutor<T, W>::advance(long, std::span<const double>);                 \
-  template StepMaxima ResidentExecutor<T, W>::try_step(double, std::span<const double>);           \
-  template void ResidentExecutor<T, W>::accept_step();                                             \
-  template void ResidentExecutor<T, W>::make_error_kernels();                                      \
-  template void ResidentExecutor<T, W>::warm_up_error_kernels(const opencl::Buffer&);              \
+  template Outcome ResidentExecutor<T, W>::outcome(long);                                          \
   template void ResidentExecutor<T, W>::forget_failures();                                         \
   template void ResidentExecutor<T, W>::set_pass_arguments(long);                                  \
-  template void ResidentExecutor<T, W>::run_to(long, bool);                                        \
-  template void ResidentExecutor<T, W>::set_stage_arguments(const opencl::Buffer&, int, long);
+  template void ResidentExecutor<T, W>::run_to(long, bool);
 DSS_EACH_PACK(DSS_INSTANTIATE)
 #undef DSS_INSTANTIATE
 

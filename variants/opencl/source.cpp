@@ -116,6 +116,12 @@ std::string row_program(const ProgramKind& kind) {
                       "NUMBER* signals) {{\n"
                       "{}  return 1;\n}}\n",
                       cases);
+  text += device_text("failures.cl");
+  if (kind.tile.is_used())
+    return text +
+           fmt::format("#define WIDTH {}\n#define HEIGHT {}\n#define HALO {}\n", kind.tile.width,
+                       kind.tile.height, kind.tile.halo()) +
+           device_text("tiles.cl");
   text += device_text("rows.cl");
   if (!kind.has_items) text += device_text("passes.cl");
   if (kind.actions.contains(error_stage) || kind.actions.contains(kept_error))

@@ -5,6 +5,7 @@
 #include "kernels/physics.hpp"
 
 #include "kernels/stage_row/row.hpp"
+#include "variants/opencl/stage_tile.hpp"
 #include <set>
 #include <string>
 #include <vector>
@@ -20,9 +21,10 @@ struct ProgramKind {
   bool has_items = false;
   std::set<row_action> actions; ///< the actions that rows need; others are not compiled
   std::vector<Terms> terms;     ///< the combinations that rows refer to by index
+  StageTile tile;               ///< of a GPU
 };
 
-/// Text of a program with the kernels run_passes and run_rows.
+/// Text of a program with the kernel run_tiles if it has a tile, else with run_passes and run_rows.
 std::string row_program(const ProgramKind& kind);
 /// Text of a program with the kernel evaluate_extra_links.
 std::string extra_link_program(const ProgramKind& kind);

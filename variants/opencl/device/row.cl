@@ -2,17 +2,6 @@
  * NAME(f), which is f_<number of the combination>. The loop over packs is in row_of_vectors.cl or
  * row_of_items.cl; this file has what both share. `d` holds the tables of the device. */
 
-static inline exchange NAME(masked)(exchange x, const uint mask) {
-  if (mask == ALL_LANES) return x;
-  EACH_OF_VEC(KEEP, x.force)
-  if (has_couples(FLAGS)) {
-    EACH_OF_SPIN(KEEP, x.couple_i)
-  }
-  if (FLAGS.is_material) {
-    EACH_OF_SPIN(KEEP, x.couple_j)
-  }
-  return x;
-}
 static inline paper_law NAME(paper_law_of)(global const body_constants* body, int axis) {
   if (!FLAGS.is_oblong) axis = 0;
   paper_law law = {SPLAT(body->edge[axis]), SPLAT(body->half_edge[axis]), SPLAT(body->tau),

@@ -11,16 +11,16 @@ static inline exchange NAME(exchange_x)(prepared i, prepared j, axis_law law) {
 }
 
 /* Adds the links across y or z.
- * @param above, below  lane masks of the links to the upper and to the lower element */
+ * @param above, below  whether there is a link to the upper and to the lower element */
 static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law,
-                                      const uint above, const uint below,
+                                      const int above, const int below,
                                       global const NUMBER* upper, global const NUMBER* lower) {
-  if ((above | below) == 0) return sum;
+  if (!(above || below)) return sum;
   const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
-  if (above >> LANE & 1) up = link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS);
+  if (above) up = link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS);
   carried low = nothing_carried();
-  if (below >> LANE & 1) {
+  if (below) {
     const element j = element_at(lower);
     low =
         carried_by(link_across(j, upper_across(j, axis, law, FLAGS), i.e, axis, law, FLAGS), FLAGS);
@@ -59,11 +59,11 @@ static inline int NAME(run)(device d, global const row_stage* task, global const
   }
   wrench sum = wrench_of_x(i, up, low, x, FLAGS);
 #if AXES > 1
-  sum = NAME(add_across)(sum, i, 1, y, masks->link_y, masks->below_y,
+  sum = NAME(add_across)(sum, i, 1, y, masks->link_y >> lane & 1, masks->below_y >> lane & 1,
                          d.arena + task->upper_y + place, d.arena + task->lower_y + place);
 #endif
 #if AXES > 2
-  sum = NAME(add_across)(sum, i, 2, z, masks->link_z, masks->below_z,
+  sum = NAME(add_across)(sum, i, 2, z, masks->link_z >> lane & 1, masks->below_z >> lane & 1,
                          d.arena + task->upper_z + place, d.arena + task->lower_z + place);
 #endif
   const REAL check = NAME(update)(d, task, signals, pack, place, i, sum, 0);

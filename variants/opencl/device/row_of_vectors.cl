@@ -2,6 +2,18 @@
  * kernels/stage_row/stage_row.hpp does. */
 
 #define CARRY_SIZE(flags) (has_couples(flags) ? WRENCH_SIZE : VEC_SIZE)
+
+static inline exchange NAME(masked)(exchange x, const uint mask) {
+  if (mask == ALL_LANES) return x;
+  EACH_OF_VEC(KEEP, x.force)
+  if (has_couples(FLAGS)) {
+    EACH_OF_SPIN(KEEP, x.couple_i)
+  }
+  if (FLAGS.is_material) {
+    EACH_OF_SPIN(KEEP, x.couple_j)
+  }
+  return x;
+}
 static inline void NAME(put_carried)(carried c, global NUMBER* p) {
   put_vec(c.force, p);
   if (has_couples(FLAGS)) put_spin(c.couple, p + VEC_SIZE * W);

@@ -9,6 +9,7 @@ typedef struct {
   global const pattern* patterns;
   global const ushort* free_lanes;
   NUMBER step;
+  int item; /* x of the element that a work-item computes */
 } device;
 #define TABLES                                                                                     \
   global NUMBER *arena, global const row_stage *restrict tasks,                                    \
@@ -16,7 +17,7 @@ typedef struct {
       global const applied_row *restrict applied, global const pattern *restrict patterns,         \
       global const ushort *restrict free_lanes, const NUMBER step_length
 #define DEVICE                                                                                     \
-  { arena, tasks, bodies, masks, applied, patterns, free_lanes, step_length }
+  { arena, tasks, bodies, masks, applied, patterns, free_lanes, step_length, ITEM }
 
 /* A row of a device, in the words of kernels/rk_update/row_update.h. */
 typedef struct {

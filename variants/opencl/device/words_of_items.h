@@ -1,6 +1,5 @@
-/* Words of GPUs: a REAL is a number, and a work-item is an element. The first dimension of a
- * launch is x of the body's grid; the second is a list of rows, mostly of one row. The host
- * defines NUMBER, W, REAL. */
+/* Words of GPUs: a REAL is a number, and a work-item is an element. `d.item` is its x on the
+ * body's grid. The host defines NUMBER, W, REAL. */
 #define LOAD(p) (*(p))
 #define STORE(v, p) (*(p) = (v))
 /* Compilers do not move loads before stores that may have the same address. So all loads of an
@@ -9,8 +8,9 @@
 #define STORE_LATE(v, p) STORE(v, p)
 #define IS_ZERO(v) ((v) == 0)
 #define KEEP(c) c = (mask >> LANE & 1) ? c : 0;
-#define LANE ((int)get_global_id(0) % W)
-#define PACK(task) ((int)get_global_id(0) / W - (task)->first_pack)
+#define ITEM ((int)get_global_id(0))
+#define LANE (d.item % W)
+#define PACK(task) (d.item / W - (task)->first_pack)
 #define EACH_PACK(task)                                                                            \
   (int pack = max(PACK(task), 0), end = min(PACK(task) + 1, (task)->packs); pack < end; ++pack)
 #define BLOCK get_group_id(1)

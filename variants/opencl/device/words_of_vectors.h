@@ -8,6 +8,7 @@
 #define STORE_LATE(v, p) ((void)0)
 #define IS_ZERO(v) all((v) == SPLAT(0))
 #define KEEP(c) c = select(SPLAT(0), c, ((BITS)(mask)&LANE_BITS) != (BITS)(0));
+#define ITEM 0
 #define LANE 0
 #define EACH_PACK(task) (int pack = 0; pack < (task)->packs; ++pack)
 #define BLOCK get_global_id(0)
