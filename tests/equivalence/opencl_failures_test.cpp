@@ -49,7 +49,7 @@ TEST_F(OpenCl, failures_are_those_of_packs_in_any_batch_of_steps) {
 }
 
 TEST_F(OpenCl, failures_are_those_of_packs_in_the_work_groups_of_a_gpu) {
-  for (const char* tile : {"0", "8x9x4"}) {
+  for (const char* tile : {"0", "8x9x4", "8x9x2"}) {
     SCOPED_TRACE(tile);
     const DeviceAs gpu("gpu", tile);
     expect_the_failure_of_packs(packs(), "opencl", {1});

@@ -24,7 +24,8 @@ class StagedRows {
 public:
   /// @param dt        step [s]
   /// @param exchange  null, or how the part exchanges its halo
-  /// @param is_swapped  see is_swapped(); always true for methods of one stage
+  /// @param is_swapped  see is_swapped(); always true for methods of one stage. Others must not be
+  ///   parts then, whose copies are the inputs of stages.
   StagedRows(PackedRows<T, W>& packed, const Method& method, double dt, const RowStorage& storage,
              int threads, const PartSetup* exchange, bool is_swapped = false);
   T* row(int r) { return stage_row(0, r); }

@@ -128,7 +128,7 @@ void DeviceProblem<T, W>::make_constant_tables() {
 }
 
 /// The actions to compile. All that Runge-Kutta methods may need are compiled together, so that
-/// they share one program with the rates.
+/// they share one program with the rates. Programs of tiles have no rates.
 static std::set<row_action> compiled_actions(std::set<row_action> actions) {
   if (actions.contains(plain_stage)) actions.insert({combined_stage, wide_stage});
   if (actions.contains(kept_step)) actions.insert(kept_stage);
@@ -142,7 +142,7 @@ void DeviceProblem<T, W>::finish() {
                          sizeof(T) == 8 ? Precision::f64 : Precision::f32,
                          W,
                          layout.has_items,
-                         compiled_actions(actions_),
+                         tile_.is_used() ? actions_ : compiled_actions(actions_),
                          terms_,
                          tile_};
   program_ = build_program(device, row_program(kind));
@@ -159,7 +159,8 @@ void DeviceProblem<T, W>::finish() {
                                           memory.start())
                       : queue.make_buffer(memory.bytes());
   if (!is_shared_) queue.write(arena_, 0, {memory.start(), memory.bytes()});
-  if (!layout.has_items || tile_.is_used()) return;
+  if (tile_.is_used()) return require_tile();
+  if (!layout.has_items) return;
   const auto items = std::size_t(packed.packs_across * W);
   group_size_ = std::min(items, largest_group());
   items_across_ = (items + group_size_ - 1) / group_size_ * group_size_;
@@ -168,20 +169,33 @@ void DeviceProblem<T, W>::finish() {
 /// 64 are as good on small scenes, 256 on large ones (README.md).
 constexpr std::size_t group_of_rows = 128;
 
+/// Work-items that a group of a kernel can have.
+template <class T, int W>
+std::size_t DeviceProblem<T, W>::most_items(const char* name) const {
+  return guarded(queue.device().entry.name, [&] {
+    return kernel(name).handle().template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(
+        queue.device().handle);
+  });
+}
+
 /// Work-items of a group: at most what the kernel allows, in multiples of the lanes of a pack.
 template <class T, int W>
 std::size_t DeviceProblem<T, W>::largest_group() const {
-  const std::size_t most =
-      std::min(group_of_rows, guarded(queue.device().entry.name, [&] {
-                 return kernel("run_rows")
-                     .handle()
-                     .template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(queue.device().handle);
-               }));
+  const std::size_t most = std::min(group_of_rows, most_items("run_rows"));
   if (most < W)
     throw InputError(
         "opencl: " + queue.device().entry.name + ": its work-groups hold " + std::to_string(most) +
         " work-items of these kernels, fewer than the 16 lanes of a pack; take another device");
   return most / W * W;
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::require_tile() const {
+  const int items = tile_.width * tile_.height;
+  if (const std::size_t most = most_items("run_tiles"); most < std::size_t(items))
+    throw InputError("opencl: " + queue.device().entry.name + ": its work-groups hold " +
+                     std::to_string(most) + " work-items of these kernels, the tile has " +
+                     std::to_string(items) + "; set DSSBENCH_STAGE_TILE=0");
 }
 
 template <class T, int W>

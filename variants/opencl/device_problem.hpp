@@ -66,8 +66,8 @@ public:
           const T* published = nullptr, int sweep = 0);
   int next_place() const { return int(rows_.size()); }
   /// Gives the program the kernel run_tiles in place of run_rows.
-  void set_tile(const StageTile& tile) { tile_ = tile; }
-  const StageTile& tile() const { return tile_; }
+  void set_stage_tile(const StageTile& tile) { tile_ = tile; }
+  const StageTile& stage_tile() const { return tile_; }
   /// Call it when the arena and the tables are complete. Builds the program and gives the device
   /// its memory.
   void finish();
@@ -115,7 +115,10 @@ public:
 private:
   int shape_of(const Terms& terms);
   long lower(long in, int row, int lower, int fields) const;
+  std::size_t most_items(const char* kernel) const;
   std::size_t largest_group() const;
+  /// @throws InputError if the device's groups cannot hold the tile
+  void require_tile() const;
   void make_constant_tables();
   const Problem& problem_;
   const Model model_;

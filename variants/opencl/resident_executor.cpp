@@ -23,10 +23,11 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
                          !setup_.problem.extra_links.empty() ||
                          (is_part() && part_->is_every_stage);
   if (is_staged) {
-    refuse_tile(setup_, "it is computed stage by stage");
-    problem_.set_tile(stage_tile());
+    refuse_tile(setup_,
+                layout.has_items ? "a GPU has no wavefront" : "it is computed stage by stage");
+    problem_.set_stage_tile(tile_of_rows());
     staged_.emplace(packed_, setup_.method, setup_.dt, rows_.storage(), layout.bands, part_,
-                    problem_.tile().is_used());
+                    problem_.stage_tile().is_used());
     add_stages();
   } else {
     make_blocks();
@@ -121,9 +122,9 @@ void ResidentExecutor<T, W>::add_neighbours(const std::vector<int>& cuts, int ba
 
 template <class T, int W>
 void ResidentExecutor<T, W>::make_kernels() {
-  kernel_ = problem_.kernel(problem_.tile().is_used() ? "run_tiles"
-                            : staged_                 ? "run_rows"
-                                                      : "run_passes");
+  kernel_ = problem_.kernel(problem_.stage_tile().is_used() ? "run_tiles"
+                            : staged_                       ? "run_rows"
+                                                            : "run_passes");
   failed_ = problem_.queue.make_buffer(std::size_t(1 + 2 * bands_) * sizeof(cl_int));
   if (!staged_) {
     pass_table_ = problem_.table(passes_);
@@ -152,7 +153,7 @@ void ResidentExecutor<T, W>::warm_up() {
   problem_.set_signals(std::vector<double>(signal_count(setup_.problem)),
                        signal_count(setup_.problem));
   forget_failures();
-  if (problem_.tile().is_used()) {
+  if (problem_.stage_tile().is_used()) {
     set_tile_arguments(0, 0, 0);
     problem_.launch_tiles(kernel_);
   } else if (staged_) {
@@ -303,7 +304,7 @@ std::string ResidentExecutor<T, W>::schedule() const {
   const std::string& device = problem_.queue.device().entry.name;
   if (problem_.layout.has_items)
     return fmt::format("on {}: a work-item an element, in packs of {} lanes; {}", device, W,
-                       stages_text(problem_.tile()));
+                       stages_text(problem_.stage_tile()));
   return fmt::format("on {}: {} bands of rows, work-items of {} lanes; {}", device, bands_, W,
                      staged_ ? "stage by stage"
                              : fmt::format("wavefront, reach {}, in place{}", packed_.reach,

@@ -59,7 +59,7 @@ private:
   void make_blocks();
   void add_neighbours(const std::vector<int>& cuts, int band, int halo);
   /// The tile of a method of several stages whose rows need only the rows next to them.
-  StageTile stage_tile() const;
+  StageTile tile_of_rows() const;
   void add_stages();
   void make_kernels();
   void set_pass_arguments(long steps);

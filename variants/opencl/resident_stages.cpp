@@ -9,10 +9,10 @@
 namespace dss::opencl {
 
 template <class T, int W>
-StageTile ResidentExecutor<T, W>::stage_tile() const {
+StageTile ResidentExecutor<T, W>::tile_of_rows() const {
   const Method& method = setup_.method;
   if (!problem_.layout.has_items || is_part() || !setup_.problem.extra_links.empty() ||
-      method.has_error_stage || method.stages == 1 || packed_.reach > 1)
+      method.has_error_stage || method.stages == 1 || packed_.reach != 1)
     return {};
   return choose_stage_tile(packed_.packs_across * W, int(packed_.rows.size()), method.stages,
                            sizeof(T) == 8 ? Precision::f64 : Precision::f32,
@@ -81,7 +81,7 @@ void ResidentExecutor<T, W>::set_tile_arguments(int first_stage, int stages, lon
 
 template <class T, int W>
 void ResidentExecutor<T, W>::launch_tiles(long step) {
-  const int stages = setup_.method.stages, of_launch = problem_.tile().stages;
+  const int stages = setup_.method.stages, of_launch = problem_.stage_tile().stages;
   for (int first = 0; first < stages; first += of_launch) {
     set_tile_arguments(first, std::min(of_launch, stages - first), step);
     problem_.launch_tiles(kernel_);
@@ -98,7 +98,7 @@ Outcome ResidentExecutor<T, W>::run_stages(long steps) {
 
 template <class T, int W>
 void ResidentExecutor<T, W>::launch_step(long step, bool is_last) {
-  if (problem_.tile().is_used()) return launch_tiles(step);
+  if (problem_.stage_tile().is_used()) return launch_tiles(step);
   const int stages = setup_.method.stages;
   const auto exchanged = [&](int stage) { return is_part() && staged_->is_exchanged(stage); };
   for (int stage = 0; stage < stages; ++stage) {
@@ -163,7 +163,7 @@ void ResidentExecutor<T, W>::accept_step() {
 
 // What other files call.
 #define DSS_INSTANTIATE(T, W)                                                                      \
-  template StageTile ResidentExecutor<T, W>::stage_tile() const;                                   \
+  template StageTile ResidentExecutor<T, W>::tile_of_rows() const;                                 \
   template void ResidentExecutor<T, W>::add_stages();                                              \
   template Outcome ResidentExecutor<T, W>::run_stages(long);                                       \
   template StepMaxima ResidentExecutor<T, W>::try_step(double, std::span<const double>);           \

@@ -24,11 +24,10 @@ struct StageTile {
   int groups_along(int count) const { return (count + rows() - 1) / rows(); }
 };
 
-/// The smallest tile whose groups all run side by side. A larger problem in f64 gets the widest
-/// tile, of two stages; in f32 none. README.md has what was measured on an H100. If
-/// DSSBENCH_STAGE_TILE is set, it decides: WIDTHxHEIGHTxSTAGES, or 0 for none.
+/// The tile for a problem whose rows need only the rows next to them (README.md, "Several stages a
+/// launch"). If DSSBENCH_STAGE_TILE is set, it decides: WIDTHxHEIGHTxSTAGES, or 0 for none.
 /// @param elements_across  of the widest body, in whole packs
-/// @param rows             whose neighbours are the rows next to them
+/// @param rows             of all bodies
 /// @param stages           of the method
 /// @throws InputError if the variable is not of that form, or the device's groups are smaller
 StageTile choose_stage_tile(int elements_across, int rows, int stages, Precision precision,

@@ -1,8 +1,6 @@
-/* Several stages of a tile of elements in one launch. A work-group has a work-item for each element
- * of the tile and of its halo. In each stage one layer less of the halo is computed, so no group
- * waits for another. What several groups compute has the same bits, so it may be stored more than
- * once. The last stage does not overwrite the state, which other groups still read. The host
- * defines WIDTH, HEIGHT and HALO. */
+/* Several stages of a tile of elements in one launch (README.md). Groups store what they compute of
+ * one another's elements. OpenCL does not define such a race, but all of them store the same bits.
+ * The host defines WIDTH, HEIGHT and HALO. */
 #define TILE_X (WIDTH - 2 * HALO)
 #define TILE_ROWS (HEIGHT - 2 * HALO)
 
