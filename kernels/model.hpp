@@ -52,7 +52,6 @@ struct ModelDescriptor {
   /// The equations of motion are linear in the state. Loads may vary in time.
   bool is_linear = false;
   bool is_common = false; ///< many runs use it, so that specialised code is worth its compile time
-  bool is_heavy = false;  ///< takes longest to compile; builds with DSS_FEWER_MODELS leave it out
   RowFlops flops{}, material_flops{};
 
   /// Number of wrench components that are forces.
@@ -96,12 +95,12 @@ inline constexpr std::array model_descriptors{
                     .material_flops = {368, 437}},
     ModelDescriptor{.model = Model::linear, .name = "linear",
                     .fields = model_parts::vectors, .wrench = model_parts::in_space, .axes = 3,
-                    .has_vectors = true, .is_linear = true, .is_heavy = true,
+                    .has_vectors = true, .is_linear = true,
                     .flops = {123, 243},
                     .material_flops = {193, 313}},
     ModelDescriptor{.model = Model::small, .name = "small",
                     .fields = model_parts::vectors, .wrench = model_parts::in_space, .axes = 3,
-                    .has_vectors = true, .is_heavy = true, .flops = {165, 285},
+                    .has_vectors = true, .flops = {165, 285},
                     .material_flops = {666, 786}},
     ModelDescriptor{.model = Model::spatial, .name = "spatial",
                     .fields = model_parts::quaternions, .wrench = model_parts::in_space, .axes = 3,

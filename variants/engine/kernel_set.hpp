@@ -77,10 +77,10 @@ constexpr bool has_filled_rows(Model model) {
   return descriptor(model).is_common && !descriptor(model).is_linear;
 }
 
-/// True if this build has the kernels of a model.
+/// True if this build has the kernels of a model. With DSS_FEWER_MODELS these are planar and spatial.
 constexpr bool is_built([[maybe_unused]] Model model) {
 #ifdef DSS_FEWER_MODELS
-  return !descriptor(model).is_heavy;
+  return has_filled_rows(model);
 #else
   return true;
 #endif
