@@ -77,7 +77,7 @@ constexpr bool has_filled_rows(Model model) {
   return descriptor(model).is_common && !descriptor(model).is_linear;
 }
 
-/// True if this build has the kernels of a model. With DSS_FEWER_MODELS these are planar and spatial.
+/// True if this build has the kernels of a model. With DSS_FEWER_MODELS it has planar and spatial.
 constexpr bool is_built([[maybe_unused]] Model model) {
 #ifdef DSS_FEWER_MODELS
   return has_filled_rows(model);
