@@ -30,13 +30,14 @@ struct RunArguments {
 /// Reports all mistakes that can be found without ranks before any rank is started.
 void require_startable(RunRequest request) {
   request.is_model_auto = true;
-  const RunPlan plan = request.ensemble.empty() ? plan_run(request)
-                                                : std::move(plan_ensemble(request).plans.front());
   if (request.ranks > most_ranks_here())
     throw InputError(fmt::format("--ranks {}: more than {} are too many for this machine; start "
                                  "them by mpirun and your hosts",
                                  request.ranks, most_ranks_here()));
-  decomposition_for(plan.scene.problem, request.decomposition, request.ranks);
+  if (request.ensemble.empty())
+    decomposition_for(plan_run(request).scene.problem, request.decomposition, request.ranks);
+  else
+    plan_ensemble(request);
 }
 
 /// Parts of ranks and hybrids choose their tiles themselves.

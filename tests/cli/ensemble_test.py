@@ -17,6 +17,10 @@ def members_of(record):
     return record["ensemble"]["members"]
 
 
+def on_ranks(ranks):
+    return ["--ranks", ranks, "--warmup", 5, "--warmup-time", 0.02]
+
+
 class Ensemble(ProgramTest):
     def run_json(self, *arguments, code=0):
         result = dssbench("run", *arguments, "--json", "-")
@@ -124,15 +128,44 @@ class Ensemble(ProgramTest):
             if not single["model_choice"]["is_bounded"]:
                 self.assertEqual(members_of(whole)[1]["state_digest"], single["state_digest"])
 
-    def test_ranks_and_hybrids_compute_member_after_member(self):
+    def test_ranks_take_whole_members(self):
+        if why_no_variant("mpi") is not None:
+            self.skipTest("no mpi")
+        # Members of both ranks fail, at different steps.
+        sets = [{"run.dt": 1e-3 * (1 + 0.01 * m)} for m in range(21)]
+        sets[2], sets[14] = {"run.dt": 0.2}, {"run.dt": 0.3}
+        options = ["two_elements", "--ensemble", self.members(*sets), "--model", "spatial",
+                   "--steps", 300, "--force"]
+        for variant, precision in (("scalar", "f64"), ("avx2", "f32"), ("avx512", "f64")):
+            if why_no_variant(variant) is not None:
+                continue
+            kind = ["--variant", variant, "--precision", precision]
+            one = self.run_json(*options, *kind, code=3)
+            self.assertEqual([m["status"] for m in members_of(one)].count("unstable"), 2)
+            for ranks in (2, 3):
+                several = self.run_json(*options, *kind, *on_ranks(ranks), code=3)
+                lanes = one["ensemble"]["lanes"]
+                self.assertEqual(several["ensemble"]["lanes"], ranks * lanes)
+                self.assertIn(f"{ranks} ranks, {lanes} member", several["schedule"])
+                self.assertEqual(several["messages_per_step"], 0)
+                for key in ("status", "reason", "steps", "state_digest", "energy_error"):
+                    self.assertEqual([m[key] for m in members_of(several)],
+                                     [m[key] for m in members_of(one)], (variant, ranks, key))
+
+    def test_ranks_and_hybrids_divide_members_if_they_must(self):
         if why_no_variant("mpi") is not None:
             self.skipTest("no mpi")
         single = self.run_json("l_bracket", *SHORT)["state_digest"]
-        for options in (["--ranks", 2, "--warmup", 5, "--warmup-time", 0.02],
-                        ["--variant", "hybrid"]):
-            whole = self.run_json("l_bracket", "--ensemble", 2, *SHORT, *options)
-            self.assertEqual([own["state_digest"] for own in members_of(whole)], [single] * 2)
-            self.assertEqual(whole["ranks"], 2 if "--ranks" in options else 1)
+        # Members with a halo strategy; fewer members than ranks; a hybrid.
+        for members, schedule, options in (
+                (2, "halo deep", [*on_ranks(2), "--halo", "deep"]),
+                (2, "3 ranks, strips", on_ranks(3)),
+                (2, "members", ["--variant", "hybrid"])):
+            whole = self.run_json("l_bracket", "--ensemble", members, *SHORT, *options)
+            self.assertIn(schedule, whole["schedule"])
+            self.assertEqual(whole["messages_per_step"] > 0, "--ranks" in options)
+            self.assertEqual([own["state_digest"] for own in members_of(whole)],
+                             [single] * members)
         self.assert_refused(2, ["member 2", "kk"], "run", "two_elements", "--ranks", 2,
                             "--ensemble", self.members({}, {"kk": 1}))
 

@@ -117,7 +117,7 @@ void expect_reference_agrees(const Case& c, Model model, double tolerance) {
 TEST(AdaptiveSteps, agree_with_those_of_the_reference) {
   for (const Case& c : cases()) {
     expect_reference_agrees(c, Model::spatial, 1e-8);
-#ifndef DSS_FEWER_MODELS
+#ifndef DSS_FEWER_KERNELS
     // Its rows have the stage of the error estimate apart. The estimate of the reference is that of
     // quaternions, so its steps differ a little.
     expect_reference_agrees(c, Model::small, 1e-3);

@@ -112,7 +112,7 @@ class EveryEnsemble : public testing::TestWithParam<std::string> {
 protected:
   const Plugin& plugin = load_variant(GetParam());
   std::size_t lanes(Precision precision) const {
-    return std::size_t(plugin.ensemble_lanes(precision));
+    return std::size_t(plugin.ensemble_lanes(precision, {}));
   }
   void expect_bits_of_single_runs(const Problem& problem, const Scheme& scheme, Model model,
                                   int threads = 1) {
@@ -206,7 +206,7 @@ std::vector<std::string> variants_with_lanes() {
   std::vector<std::string> names = usable_variants();
   std::erase_if(names, [](const std::string& name) {
     const Plugin& plugin = load_variant(name);
-    return plugin.ensemble_lanes == nullptr || plugin.ensemble_lanes(Precision::f64) == 1;
+    return plugin.ensemble_lanes == nullptr || plugin.ensemble_lanes(Precision::f64, {}) == 1;
   });
   return names;
 }

@@ -93,8 +93,9 @@ struct Plugin {
   /// quaternions.
   bool has_all = false;
   bool has_tiles = false; ///< takes Setup::tile
-  /// Members of an ensemble that one executor computes: a member a lane. Null: none.
-  int (*ensemble_lanes)(Precision precision) = nullptr;
+  /// Members of an ensemble that one executor computes: a member a lane of each rank. Null: none.
+  /// @param distribution  for distributed variants
+  int (*ensemble_lanes)(Precision precision, const Distribution& distribution) = nullptr;
   /// Rotation of a run that asks for none.
   Rotation rotation = Rotation::quaternion;
   std::size_t layout = plugin_layout;
@@ -102,7 +103,7 @@ struct Plugin {
 
 /// Raise this with every change of Plugin, Executor or a type that they receive (Method, Problem,
 /// Model).
-constexpr int plugin_abi = 14;
+constexpr int plugin_abi = 15;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

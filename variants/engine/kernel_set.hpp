@@ -77,14 +77,16 @@ constexpr bool has_filled_rows(Model model) {
   return descriptor(model).is_common && !descriptor(model).is_linear;
 }
 
-/// True if this build has the kernels of a model. With DSS_FEWER_MODELS it has planar and spatial.
-constexpr bool is_built([[maybe_unused]] Model model) {
-#ifdef DSS_FEWER_MODELS
-  return has_filled_rows(model);
+/// False with DSS_FEWER_KERNELS: only the models planar and spatial, and one function for all
+/// actions of a row.
+#ifdef DSS_FEWER_KERNELS
+inline constexpr bool has_all_kernels = false;
 #else
-  return true;
+inline constexpr bool has_all_kernels = true;
 #endif
-}
+
+/// True if this build has the kernels of a model.
+constexpr bool is_built(Model model) { return has_all_kernels || has_filled_rows(model); }
 
 /// The kernels of a model for terms of compiled_terms. The build makes one file for each model,
 /// type and kind (kernels_of_model.cpp.in), which instantiates the template of instantiate.hpp.

@@ -5,7 +5,7 @@
 #include "variants/engine/row_executor.hpp"
 
 /// Members of an ensemble lie in the lanes of packs.
-static int ensemble_lanes(dss::Precision precision) {
+static int ensemble_lanes(dss::Precision precision, const dss::Distribution&) {
   return dss::is_single(precision) ? dss::simd::lanes<float> : dss::simd::lanes<double>;
 }
 

@@ -1,53 +1,22 @@
 #include "variants/mpi/distributed_executor.hpp"
 
-#include "solver/error.hpp"
-#include "variants/loading/loader.hpp"
+#include "variants/mpi/rank_variant.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <limits>
 
 namespace dss {
-
-/// Each text once, in the order of ranks, separated by commas.
-static std::string joined(const std::vector<std::string>& texts) {
-  std::vector<std::string> distinct;
-  for (const std::string& text : texts)
-    if (std::ranges::find(distinct, text) == distinct.end()) distinct.push_back(text);
-  return fmt::format("{}", fmt::join(distinct, ","));
-}
-
-const Plugin& DistributedExecutor::find_plugin(Setup& setup) {
-  std::string variant = setup.distribution->variant;
-  if (!setup.members.empty()) {
-    if (setup.members == "auto")
-      throw InputError(
-          "--hybrid auto chooses among executors of one process; name the members of ranks");
-    const std::vector<Member> members = parse_members(setup.members);
-    const Member& own = members[std::size_t(world_.rank()) % members.size()];
-    variant = own.variant;
-    setup.device = own.device;
-    setup.threads = own.threads;
-  }
-  const Plugin& plugin = load_variant(variant);
-  if (plugin.is_distributed)
-    throw InputError(fmt::format("variant mpi:{}: a part cannot be distributed again", variant));
-  info_.variant = joined(world_.gather(std::string(plugin.name)));
-  info_.isa = joined(world_.gather(std::string(plugin.isa)));
-  info_.has_fma = world_.least(plugin.has_fma) > 0;
-  return plugin;
-}
 
 DistributedExecutor::DistributedExecutor(const Setup& asked)
     : world_(World::instance()), fault_(Fault::of_rank(world_.rank())) {
   static const Distribution alone;
   Setup setup = asked;
   if (setup.distribution == nullptr) setup.distribution = &alone;
-  const Plugin& plugin = find_plugin(setup);
+  const Plugin& plugin = rank_plugin(setup, world_);
+  info_ = info_of_ranks(plugin, world_);
   const Spread found = spread(setup, plugin, world_, fault_);
   part_.emplace(setup, plugin, found.decomposition, *found.halo, world_, fault_);
-  info_.ranks = world_.ranks();
   info_.decomposition = found.decomposition.method;
   info_.halo = found.halo->name;
   info_.halo_reason = found.halo_reason;

@@ -36,9 +36,6 @@ private:
   template <class Visit>
   void each_own(std::size_t first, std::size_t count, Visit&& visit) const;
   std::size_t global_of(std::size_t local) const;
-  /// Finds this rank's variant and puts its device and threads into the setup. Joins the names of
-  /// all ranks' variants in info_. Collective.
-  const Plugin& find_plugin(Setup& setup);
 
   World& world_;
   const Fault fault_;

@@ -1,11 +1,13 @@
 /// The variant `mpi`: several ranks, each with the executor of another variant. Without mpirun
 /// there is one rank.
 #include "variants/mpi/distributed_executor.hpp"
+#include "variants/mpi/distributed_members.hpp"
 
 namespace dss {
 namespace {
 
 std::unique_ptr<Executor> create(const Setup& setup) {
+  if (setup.ensemble != nullptr) return std::make_unique<DistributedMembers>(setup);
   return std::make_unique<DistributedExecutor>(setup);
 }
 
@@ -26,6 +28,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .create = dss::create,
                                       .kernels = nullptr,
                                       .end = dss::end,
-                                      .has_tiles = true};
+                                      .has_tiles = true,
+                                      .ensemble_lanes = dss::members_of_ranks};
   return &plugin;
 }

@@ -3,6 +3,7 @@
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "variants/cost/trial.hpp"
+#include "variants/mpi/rank_variant.hpp"
 #include "variants/mpi/strategy_choice.hpp"
 
 #include <algorithm>
@@ -61,10 +62,7 @@ Weights member_weights(const std::string& text, int ranks) {
 
 Spread spread(const Setup& setup, const Plugin& plugin, World& world, const Fault& fault) {
   const Distribution& asked = *setup.distribution;
-  if (asked.ranks != world.ranks())
-    throw InputError(fmt::format(
-        "--ranks {}: this job has {} ranks; give --ranks {}, or start it by dssbench alone",
-        asked.ranks, world.ranks(), world.ranks()));
+  require_ranks(asked, world);
   Spread result;
   const Weights given =
       setup.members.empty() ? Weights{} : member_weights(setup.members, asked.ranks);

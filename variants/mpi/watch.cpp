@@ -1,6 +1,7 @@
 #include "variants/mpi/watch.hpp"
 
 #include "variants/mpi/start_guard.hpp"
+#include "variants/mpi/waiting.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 #include "experiments/run/ensemble/ensemble_plan.hpp"
 
-#include "experiments/run/ensemble/member_batch.hpp"
 #include "experiments/run/timed/verdict.hpp"
+#include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 
@@ -79,6 +79,12 @@ RunPlan plan_of(const RunRequest& own, const MemberSet& member, const EnsemblePl
   return plan;
 }
 
+/// Ranks divide each member that does not lie in a lane.
+void require_division(const RunRequest& request, const EnsemblePlan& plan) {
+  if (request.ranks > 1 && !std::ranges::all_of(plan.batches, &BatchPlan::has_lanes))
+    decomposition_for(plan.plans.front().scene.problem, request.decomposition, request.ranks);
+}
+
 } // namespace
 
 EnsemblePlan plan_ensemble(const RunRequest& request) {
@@ -103,9 +109,11 @@ EnsemblePlan plan_ensemble(const RunRequest& request) {
                      plan.plans.front().scene.problem.lattice.element_count);
   }
   const Plugin& plugin = *plan.plans.front().plugin;
-  if (plugin.ensemble_lanes != nullptr)
-    plan.lanes = plugin.ensemble_lanes(plan.plans.front().precision);
-  plan.batches = group_members(plan.plans, plan.lanes);
+  if (plugin.ensemble_lanes != nullptr && request.hybrid.empty())
+    plan.lanes =
+        plugin.ensemble_lanes(plan.plans.front().precision, plan.plans.front().distribution);
+  plan.batches = group_members(plan.plans, plan.lanes, request.ranks);
+  require_division(request, plan);
   return plan;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// From the request of an ensemble to a plan of each member and to batches.
+#include "experiments/run/ensemble/member_batch.hpp"
 #include "experiments/run/ensemble/members_file.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 
@@ -11,10 +12,10 @@ namespace dss {
 /// An ensemble in which every value is decided.
 struct EnsemblePlan {
   std::vector<MemberSet> members;
-  std::vector<RunRequest> requests;              ///< of each member, as of a run of its own
-  std::vector<RunPlan> plans;                    ///< of each member
-  std::vector<std::vector<std::size_t>> batches; ///< members that one executor computes
-  int lanes = 1;                                 ///< members of a batch, at most
+  std::vector<RunRequest> requests; ///< of each member, as of a run of its own
+  std::vector<RunPlan> plans;       ///< of each member
+  std::vector<BatchPlan> batches;
+  int lanes = 1; ///< members of a batch, at most
 };
 
 /// Makes the plan of request.ensemble. @throws InputError, UnstableError as run_ensemble

@@ -6,6 +6,7 @@
 #include "experiments/run/ensemble/member_batch.hpp"
 #include "experiments/run/ensemble/member_run.hpp"
 #include "experiments/run/state/state_access.hpp"
+#include "experiments/run/timed/rank_sums.hpp"
 #include "experiments/run/timed/run_record.hpp"
 #include "experiments/run/timed/timed_run.hpp"
 #include "experiments/run/timed/verdict.hpp"
@@ -40,6 +41,8 @@ private:
   double pass(Looks looks);
   /// Work of one thread is metered as it is timed; of several threads with all that they do.
   Usage metered(const std::function<void()>& work);
+  /// What this rank exchanged for all batches so far.
+  Traffic sent() const;
   void take_samples(double first_s);
   std::uint64_t digest_of_all();
   bool is_balanced_by_steps() const;
@@ -79,17 +82,17 @@ EnsembleRun::EnsembleRun(const RunRequest& request)
 
 void EnsembleRun::make_batches() {
   const std::size_t count = plan_.batches.size();
-  // Threads divide batches. Only a single batch is divided like a body, unless extra links join
-  // distant rows of its threads.
-  const bool is_of_engine = plan_.plans.front().plugin->ensemble_lanes != nullptr;
-  team_ = is_of_engine ? int(std::min(count, std::size_t(request_.threads))) : 1;
-  for (const std::vector<std::size_t>& batch : plan_.batches) {
+  // Threads divide batches. A single batch, or a batch of several ranks, is divided like a body,
+  // unless extra links join distant rows of its threads.
+  const Plugin& plugin = *plan_.plans.front().plugin;
+  const bool is_team = plugin.ensemble_lanes != nullptr && !plugin.is_distributed;
+  team_ = is_team ? int(std::min(count, std::size_t(request_.threads))) : 1;
+  for (const auto& [members, has_lanes] : plan_.batches) {
     std::vector<const RunPlan*> plans;
-    for (const std::size_t m : batch) plans.push_back(&plan_.plans[m]);
+    for (const std::size_t m : members) plans.push_back(&plan_.plans[m]);
     const RunPlan& plan = *plans.front();
-    const bool has_lanes = batch.size() > 1,
-               is_divided = !is_of_engine ||
-                            (count == 1 && !(has_lanes && !plan.scene.problem.extra_links.empty()));
+    const bool is_divided =
+        (!is_team || count == 1) && !(has_lanes && !plan.scene.problem.extra_links.empty());
     const Setup setup{plan.scene.problem,
                       *plan.method,
                       plan.model,
@@ -118,12 +121,12 @@ void EnsembleRun::describe_executors() {
 }
 
 std::vector<long> EnsembleRun::stops(std::size_t b, Looks looks) const {
-  const RunPlan& plan = plan_.plans[plan_.batches[b].front()];
+  const RunPlan& plan = plan_.plans[plan_.batches[b].members.front()];
   std::vector<long> steps{plan.steps};
   if (looks == Looks::at_steps)
     for (long step = 1; step < plan.steps; ++step) steps.push_back(step);
   if (looks == Looks::at_stops) {
-    const MemberRun& member = *members_[plan_.batches[b].front()];
+    const MemberRun& member = *members_[plan_.batches[b].members.front()];
     const std::vector<long> checks = member.oracle_check().stops();
     steps.insert(steps.end(), checks.begin(), checks.end());
     steps.insert(steps.end(), plan.frame_steps.begin(), plan.frame_steps.end());
@@ -157,7 +160,7 @@ void EnsembleRun::look(std::size_t b, Looks looks) {
   batch.read(); // all ranks take part
   const WorkAlone alone(batch.executor(), request_.is_root);
   for (std::size_t n = 0; n < batch.size(); ++n) {
-    MemberRun& member = *members_[plan_.batches[b][n]];
+    MemberRun& member = *members_[plan_.batches[b].members[n]];
     if (!member.is_ok()) continue;
     if (batch.failure(n)) {
       member.fail(*batch.failure(n));
@@ -199,7 +202,16 @@ Usage EnsembleRun::metered(const std::function<void()>& work) {
   const UsageMeter meter;
   usage_ = {};
   work();
-  return team_ == 1 ? usage_ : meter.read();
+  return of_all_ranks(batches_.front()->executor(), team_ == 1 ? usage_ : meter.read());
+}
+
+Traffic EnsembleRun::sent() const {
+  Traffic all;
+  for (const auto& batch : batches_) {
+    const Traffic own = traffic(batch->executor());
+    all = {all.messages + own.messages, all.bytes + own.bytes, all.wait_s + own.wait_s};
+  }
+  return all;
 }
 
 void EnsembleRun::warm_up() {
@@ -221,7 +233,8 @@ template <class Visit>
 void EnsembleRun::each_member(Visit&& visit) {
   for (std::size_t b = 0; b < batches_.size(); ++b)
     for (std::size_t n = 0; n < batches_[b]->size(); ++n)
-      visit(*members_[plan_.batches[b][n]], batches_[b]->state(n), !batches_[b]->failure(n));
+      visit(*members_[plan_.batches[b].members[n]], batches_[b]->state(n),
+            !batches_[b]->failure(n));
 }
 
 std::uint64_t EnsembleRun::digest_of_all() {
@@ -240,7 +253,9 @@ bool EnsembleRun::is_balanced_by_steps() const {
 void EnsembleRun::run() {
   try {
     warm_up();
+    const Traffic before = sent();
     whole_.usage = metered([&] { whole_.wall_s = pass(Looks::at_stops); });
+    put_traffic(batches_.front()->executor(), since(before, sent()), whole_);
     whole_.digest = digest_of_all();
     each_member([](MemberRun& member, std::span<const double> state, bool) {
       if (member.is_ok()) member.end(state);
@@ -316,6 +331,9 @@ EnsembleResult EnsembleRun::result() const {
     RunResult own = members_[m]->result();
     describe_executor(batches_.front()->executor(), *plan_.plans[m].plugin, own);
     own.schedule = whole.schedule, own.workers = whole.workers, own.wall_s = whole.wall_s;
+    own.usage = whole.usage, own.messages_per_step = whole.messages_per_step;
+    own.bytes_per_step = whole.bytes_per_step;
+    own.communication_share = whole.communication_share;
     own.samples = whole.samples, own.runs = whole.runs;
     *whole.element_steps += double(own.elements) * double(own.steps);
     whole.max_displacement_m = std::max(whole.max_displacement_m, own.max_displacement_m);

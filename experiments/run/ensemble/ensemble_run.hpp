@@ -10,7 +10,8 @@
 
 namespace dss {
 
-/// The result of one member, as of a run of its own. Its time is that of the whole ensemble.
+/// The result of one member, as of a run of its own. Its times and messages are those of the
+/// whole ensemble.
 struct MemberResult {
   MemberSet member;
   RunResult result;

@@ -40,13 +40,18 @@ Likeness likeness(const RunPlan& plan) {
 }
 
 /// Whether lanes pay. A batch has a pack for each element. Single runs have fewer packs if their
-/// rows are long, and all their rows: to begin one takes about as long as half a pack.
-bool fill_lanes(const Lattice& lattice, std::size_t members, int lanes) {
+/// rows are long, and all their rows: to begin one takes about as long as half a pack. Ranks divide
+/// a single run if it has enough rows, and take whole members of a batch.
+bool fill_lanes(const Lattice& lattice, std::size_t members, int lanes, int ranks) {
+  if (lanes == 1) return false;
+  const std::size_t rows = lattice.rows.size();
+  if (std::size_t(ranks) > rows) return true;
+  if (members == 1) return false;
+  const int width = lanes / ranks;
   std::size_t packs = 0;
   for (const Row& row : lattice.rows)
-    packs += std::size_t((row.x_end + lanes - 1) / lanes - row.x_begin / lanes);
-  const std::size_t rows = lattice.rows.size();
-  return members > 1 && 2 * lattice.element_count + rows <= members * (2 * packs + rows);
+    packs += std::size_t((row.x_end + width - 1) / width - row.x_begin / width);
+  return std::size_t(ranks) * (2 * lattice.element_count + rows) <= members * (2 * packs + rows);
 }
 
 } // namespace
@@ -125,17 +130,17 @@ std::span<const double> MemberBatch::state(std::size_t member) {
   return states_[member];
 }
 
-std::vector<std::vector<std::size_t>> group_members(std::span<const RunPlan> members, int lanes) {
+std::vector<BatchPlan> group_members(std::span<const RunPlan> members, int lanes, int ranks) {
   std::map<Likeness, std::vector<std::size_t>> alike;
   for (std::size_t m = 0; m < members.size(); ++m) alike[likeness(members[m])].push_back(m);
-  std::vector<std::vector<std::size_t>> batches;
+  std::vector<BatchPlan> batches;
   for (const auto& [like, all] : alike)
     for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
       to = std::min(all.size(), from + std::size_t(lanes));
-      if (fill_lanes(members[all[from]].scene.problem.lattice, to - from, lanes))
-        batches.emplace_back(all.begin() + std::ptrdiff_t(from), all.begin() + std::ptrdiff_t(to));
+      if (fill_lanes(members[all[from]].scene.problem.lattice, to - from, lanes, ranks))
+        batches.push_back({{&all[from], &all[from] + (to - from)}, true});
       else
-        for (std::size_t n = from; n < to; ++n) batches.push_back({all[n]});
+        for (std::size_t n = from; n < to; ++n) batches.push_back({{all[n]}, false});
     }
   return batches;
 }

@@ -50,8 +50,15 @@ private:
   std::vector<std::vector<double>> states_; ///< of each member; empty: not read since the last step
 };
 
+/// Members that one executor computes.
+struct BatchPlan {
+  std::vector<std::size_t> members; ///< their indices
+  bool has_lanes;                   ///< false: one member, as a run of its own
+};
+
 /// Groups members that one executor can compute: of equal model, method, steps, terms and loads.
-/// @return their indices, in batches of at most `lanes`
-std::vector<std::vector<std::size_t>> group_members(std::span<const RunPlan> members, int lanes);
+/// @param lanes  members that one executor computes on all ranks; 1: each member is divided
+/// @return batches of at most `lanes` members
+std::vector<BatchPlan> group_members(std::span<const RunPlan> members, int lanes, int ranks);
 
 } // namespace dss

@@ -86,7 +86,7 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (request.shares == "measured" && is_file(request.decomposition))
     refuse("--shares measured: the parts are in the file of --decomposition; give a method, or "
            "--shares equal");
-  if (std::size_t(request.ranks) > plan.scene.problem.lattice.element_count)
+  if (!request.is_member && std::size_t(request.ranks) > plan.scene.problem.lattice.element_count)
     refuse(fmt::format("--ranks {}: the scene has {} elements; give at most that", request.ranks,
                        plan.scene.problem.lattice.element_count));
   if (request.halo != "auto") asked_halo_strategy(request.halo, request.threads);

@@ -1,12 +1,12 @@
 #include "experiments/run/timed/timed_run.hpp"
 #include "experiments/base/clock.hpp"
 #include "experiments/run/state/state_access.hpp"
+#include "experiments/run/timed/rank_sums.hpp"
 #include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <numeric>
 #include <utility>
 
 namespace dss {
@@ -43,7 +43,8 @@ void TimedRun::run() {
     if (result_.status != "ok") return;
   if (meter_)
     result_.reference = {plan_.reference->times, plan_.reference->error, meter_->result()};
-  sum_over_ranks(before);
+  put_traffic(*executor_, since(before, traffic(*executor_)), result_);
+  result_.usage = of_all_ranks(*executor_, result_.usage);
   result_.hybrid = hybrid_info(*executor_);
   result_.device_use = since(used_by_looks_, since(used_before, device_use(*executor_)));
   if (const std::string written = series_.finish(); !written.empty())
@@ -82,7 +83,7 @@ RunResult TimedRun::sample(double least_s) {
     ++again.runs;
   } while (again.wall_s < least_s);
   again.wall_s /= double(again.runs);
-  again.usage = of_all_ranks(again.usage);
+  again.usage = of_all_ranks(*executor_, again.usage);
   return again;
 }
 
@@ -186,37 +187,6 @@ void TimedRun::report_breakdown(long step, const Outcome& outcome, RunResult& re
   result.status = "unstable";
   result.steps = step + 1;
   result.reason = fmt::format("{}: {}", problem_.name, breakdown_reason(plan_, outcome, step));
-}
-
-void TimedRun::sum_over_ranks(const Traffic& before) {
-  const auto sum = [&](double value) {
-    double total = 0;
-    for (const double of_rank : gather(*executor_, value)) total += of_rank;
-    return total;
-  };
-  const Traffic now = traffic(*executor_);
-  const double steps = double(result_.steps);
-  result_.messages_per_step = sum(now.messages - before.messages) / steps;
-  result_.bytes_per_step = sum(now.bytes - before.bytes) / steps;
-  result_.communication_share =
-      sum(now.wait_s - before.wait_s) / (result_.wall_s * result_.ranks.ranks);
-  result_.usage = of_all_ranks(result_.usage);
-}
-
-Usage TimedRun::of_all_ranks(Usage usage) {
-  const auto gathered = [&](double value) { return gather(*executor_, value); };
-  const auto sum = [&](double value) {
-    const std::vector<double> of_ranks = gathered(value);
-    return std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0);
-  };
-  // Each rank counts the other ranks among what ran beside it on its machine.
-  const double machine_s = std::ranges::max(gathered(usage.others_s + usage.cpu_s));
-  usage.cpu_s = sum(usage.cpu_s);
-  usage.wait_s = sum(usage.wait_s);
-  usage.involuntary_switches = long(sum(double(usage.involuntary_switches)));
-  usage.steal_s = std::ranges::max(gathered(usage.steal_s));
-  usage.others_s = machine_s - usage.cpu_s;
-  return usage;
 }
 
 AdaptiveSteps TimedRun::adaptive_steps() {

@@ -74,8 +74,6 @@ private:
   /// that overflow in the last step before a pause.
   bool is_finite_after(long step);
   void report_breakdown(long step, const Outcome& outcome, RunResult& result) const;
-  void sum_over_ranks(const Traffic& before);
-  Usage of_all_ranks(Usage usage);
   /// Runs from the initial state, again and again, until this took `least_s` seconds.
   RunResult sample(double least_s);
 

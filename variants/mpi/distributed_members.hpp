@@ -1,0 +1,70 @@
+#pragma once
+/// Computes an ensemble on all ranks of a job. Each rank computes whole members with the executor
+/// of another variant, so ranks exchange nothing during steps.
+#include "variants/api/api.hpp"
+#include "variants/mpi/world.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace dss {
+
+/// Rank r computes the members [r w, (r + 1) w), where w is the number of lanes of its variant. All
+/// calls are collective, except rank_info, traffic, outcomes, workers, bytes, schedule and
+/// work_alone.
+class DistributedMembers final : public Executor, public RankGroup, public MemberOutcomes {
+public:
+  /// @throws InputError if the variants of the ranks have packs of different width
+  explicit DistributedMembers(const Setup& setup);
+  void write(std::size_t first, std::span<const double> fields) override;
+  void read(std::size_t first, std::span<double> fields) override;
+  void derivative(std::span<const double> signals, std::span<double> rates) override;
+  Outcome advance(long steps, std::span<const double> signals) override;
+  std::string schedule() const override;
+  int workers() const override { return workers_; }
+  std::size_t bytes() const override { return bytes_; }
+  RankGroup* rank_group() override { return this; }
+  RankInfo rank_info() const override { return info_; }
+  Traffic traffic() const override { return {}; }
+  void work_alone(bool is_alone) override { world_.work_alone(is_alone); }
+  std::vector<double> gather(double value) override { return world_.gather(value); }
+  MemberOutcomes* member_outcomes() override { return this; }
+  std::span<const Outcome> outcomes() const override { return outcomes_; }
+
+private:
+  /// Makes the executor of this rank's members.
+  void make_own(const Setup& asked);
+  /// Number of own elements before an element of the ensemble.
+  std::size_t own_before(std::size_t element) const;
+  /// Where an own element lies in the ensemble.
+  std::size_t place_of(std::size_t own) const {
+    return own / width_ * members_ + first_member() + own % width_;
+  }
+  std::size_t first_member() const { return std::size_t(world_.rank()) * width_; }
+  std::vector<double> own_signals(std::span<const double> signals) const;
+  /// Puts rows of own elements from `first` on into those of the whole, and joins all ranks'.
+  void join(std::size_t first, std::size_t first_own, std::span<const double> own,
+            std::span<double> whole);
+  bool is_own_alive() const;
+  /// Tells all ranks how the own members ended.
+  void join_outcomes();
+
+  World& world_;
+  std::size_t members_;       ///< of the ensemble
+  std::size_t width_;         ///< members of a rank
+  std::size_t own_count_ = 0; ///< elements
+  RankInfo info_;
+  std::optional<Ensemble> ensemble_; ///< of this rank, if it has lanes
+  std::unique_ptr<Executor> executor_;
+  std::vector<Outcome> outcomes_; ///< of all members
+  int workers_ = 0;
+  std::size_t bytes_ = 0;
+};
+
+/// Members that all ranks compute at once (Plugin::ensemble_lanes). 1 if the user asked how to
+/// divide a body, by a decomposition, a halo strategy or measured shares. Not collective.
+int members_of_ranks(Precision precision, const Distribution& distribution);
+
+} // namespace dss
