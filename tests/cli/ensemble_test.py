@@ -152,14 +152,32 @@ class Ensemble(ProgramTest):
                     self.assertEqual([m[key] for m in members_of(several)],
                                      [m[key] for m in members_of(one)], (variant, ranks, key))
 
+    def test_ranks_write_the_files_of_their_members(self):
+        if why_no_variant("mpi") is not None:
+            self.skipTest("no mpi")
+        # Extra links, threads in each rank, batches with empty lanes, members of unequal steps.
+        sets = [{"run.steps": 20 + 10 * (m % 2)} for m in range(11)]
+        found = []
+        for number, options in enumerate(([], [*on_ranks(2), "--threads", 2], on_ranks(3))):
+            state = self.path(f"s{number}.csv")
+            whole = self.run_json("two_bodies", "--ensemble", self.members(*sets), "--model",
+                                  "spatial", "--state", state, "--samples", 2, "--check-tail", 5,
+                                  *options)
+            files = [self.read(f"s{number}-{m['name']}.csv") for m in members_of(whole)]
+            digests = [(m["state_digest"], m["steps"], m["check_tail_error"]) for m in members_of(whole)]
+            found.append((files, digests))
+            if options:
+                self.assertIn("members each", whole["schedule"])
+        self.assertEqual(found[1:], found[:1] * 2)
+
     def test_ranks_and_hybrids_divide_members_if_they_must(self):
         if why_no_variant("mpi") is not None:
             self.skipTest("no mpi")
         single = self.run_json("l_bracket", *SHORT)["state_digest"]
-        # Members with a halo strategy; fewer members than ranks; a hybrid.
+        # Members with a halo strategy or with a decomposition; a hybrid.
         for members, schedule, options in (
                 (2, "halo deep", [*on_ranks(2), "--halo", "deep"]),
-                (2, "3 ranks, strips", on_ranks(3)),
+                (2, "3 ranks, blocks", [*on_ranks(3), "--decomposition", "blocks"]),
                 (2, "members", ["--variant", "hybrid"])):
             whole = self.run_json("l_bracket", "--ensemble", members, *SHORT, *options)
             self.assertIn(schedule, whole["schedule"])

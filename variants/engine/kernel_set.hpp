@@ -77,8 +77,8 @@ constexpr bool has_filled_rows(Model model) {
   return descriptor(model).is_common && !descriptor(model).is_linear;
 }
 
-/// False with DSS_FEWER_KERNELS: only the models planar and spatial, and one function for all
-/// actions of a row.
+/// False with DSS_FEWER_KERNELS: only the models planar and spatial. Only spatial rows of single
+/// runs have functions of their own for actions.
 #ifdef DSS_FEWER_KERNELS
 inline constexpr bool has_all_kernels = false;
 #else

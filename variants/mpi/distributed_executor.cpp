@@ -10,9 +10,8 @@ namespace dss {
 
 DistributedExecutor::DistributedExecutor(const Setup& asked)
     : world_(World::instance()), fault_(Fault::of_rank(world_.rank())) {
-  static const Distribution alone;
   Setup setup = asked;
-  if (setup.distribution == nullptr) setup.distribution = &alone;
+  setup.distribution = &distribution_of(asked);
   const Plugin& plugin = rank_plugin(setup, world_);
   info_ = info_of_ranks(plugin, world_);
   const Spread found = spread(setup, plugin, world_, fault_);

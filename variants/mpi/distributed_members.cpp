@@ -1,11 +1,11 @@
 #include "variants/mpi/distributed_members.hpp"
 
-#include "solver/error.hpp"
 #include "variants/loading/loader.hpp"
 #include "variants/mpi/rank_variant.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 #include <set>
 
 namespace dss {
@@ -21,6 +21,19 @@ std::string_view kept_text(const std::string& text) {
   return *texts.insert(text).first;
 }
 
+MemberSlice slice_of(const Setup& setup, const World& world) {
+  const std::size_t members = setup.ensemble->size(), width = members / std::size_t(world.ranks());
+  return {members, width, std::size_t(world.rank()) * width};
+}
+
+/// Members of a slice. The first member of an ensemble comes again in lanes that have none.
+std::size_t real_members(const Ensemble& all, const MemberSlice& slice) {
+  std::size_t count = 0;
+  for (std::size_t m = slice.first; m < slice.first + slice.width; ++m)
+    count += m == 0 || all.members[m] != all.members.front();
+  return count;
+}
+
 } // namespace
 
 int members_of_ranks(Precision precision, const Distribution& distribution) {
@@ -28,62 +41,64 @@ int members_of_ranks(Precision precision, const Distribution& distribution) {
   if (distribution.decomposition != default_one.decomposition ||
       distribution.halo != default_one.halo || distribution.is_measured)
     return 1;
-  return distribution.ranks * lanes_of(load_variant(distribution.variant), precision);
+  const int lanes = lanes_of(load_variant(distribution.variant), precision);
+  if (World::is_in_job()) {
+    World& world = World::instance();
+    const double least = world.least(lanes), largest = world.largest(lanes);
+    if (least != largest) return 1;
+  }
+  return distribution.ranks * lanes;
 }
 
-DistributedMembers::DistributedMembers(const Setup& asked)
-    : world_(World::instance()), members_(asked.ensemble->size()),
-      width_(members_ / std::size_t(world_.ranks())), outcomes_(members_) {
-  static const Distribution alone;
-  require_ranks(asked.distribution == nullptr ? alone : *asked.distribution, world_);
-  make_own(asked);
+DistributedMembers::DistributedMembers(const Setup& setup)
+    : world_(World::instance()), slice_(slice_of(setup, world_)), outcomes_(slice_.members) {
+  require_ranks(distribution_of(setup), world_);
+  make_own(setup);
   info_.decomposition = "members";
   info_.halo = "none";
+  const std::vector<double> members = world_.gather(double(real_members(*setup.ensemble, slice_)));
+  is_idle_ = members[std::size_t(world_.rank())] == 0;
+  info_.imbalance = std::ranges::max(members) * world_.ranks() /
+                    std::accumulate(members.begin(), members.end(), 0.0);
   for (const double workers : world_.gather(executor_->workers())) workers_ += int(workers);
   for (const double bytes : world_.gather(double(executor_->bytes()))) bytes_ += std::size_t(bytes);
 }
 
-void DistributedMembers::make_own(const Setup& asked) {
-  static const Distribution alone;
-  Setup named = asked;
-  if (named.distribution == nullptr) named.distribution = &alone;
-  const Plugin& plugin = rank_plugin(named, world_);
+void DistributedMembers::make_own(const Setup& setup) {
+  Setup own = setup;
+  const Plugin& plugin = rank_plugin(own, world_);
   info_ = info_of_ranks(plugin, world_);
-  const double lanes = lanes_of(plugin, asked.precision), width = double(width_);
-  if (world_.least(lanes) != width || world_.largest(lanes) != width ||
-      width_ * std::size_t(world_.ranks()) != members_)
-    throw InputError(fmt::format("--ensemble: the variants {} of the ranks compute unequal numbers "
-                                 "of members; name one by --variant",
-                                 info_.variant));
-  const Ensemble& all = *asked.ensemble;
-  const Problem& first = *all.members[first_member()];
-  Setup own{first,          asked.method, asked.model, asked.precision, all.dt[first_member()],
-            asked.threads,  nullptr,      nullptr,     asked.device,    {},
-            asked.rotation, asked.tile};
-  if (width_ > 1) {
-    const auto slice = [&](const auto& of_all) {
-      const auto begin = of_all.begin() + std::ptrdiff_t(first_member());
-      return std::vector(begin, begin + std::ptrdiff_t(width_));
+  const Ensemble& all = *setup.ensemble;
+  const Problem& first = *all.members[slice_.first];
+  if (slice_.width > 1) {
+    const auto own_of = [&](const auto& of_all) {
+      const auto begin = of_all.begin() + std::ptrdiff_t(slice_.first);
+      return std::vector(begin, begin + std::ptrdiff_t(slice_.width));
     };
-    ensemble_ = interleave(slice(all.members), slice(all.dt));
-    own.ensemble = &*ensemble_;
+    ensemble_ = interleave(own_of(all.members), own_of(all.dt));
   }
-  own_count_ = first.lattice.element_count * width_;
-  executor_ = plugin.create(own);
-}
-
-std::size_t DistributedMembers::own_before(std::size_t element) const {
-  const std::size_t member = element % members_;
-  const std::size_t passed = std::clamp(member, first_member(), first_member() + width_);
-  return element / members_ * width_ + (passed - first_member());
+  own_count_ = first.lattice.element_count * slice_.width;
+  executor_ = plugin.create({first,
+                             setup.method,
+                             setup.model,
+                             setup.precision,
+                             all.dt[slice_.first],
+                             own.threads,
+                             nullptr,
+                             nullptr,
+                             own.device,
+                             {},
+                             setup.rotation,
+                             setup.tile,
+                             ensemble_ ? &*ensemble_ : nullptr});
 }
 
 void DistributedMembers::write(std::size_t first, std::span<const double> fields) {
-  const std::size_t begin = own_before(first),
-                    end = own_before(first + fields.size() / field_count);
+  const std::size_t begin = slice_.own_before(first),
+                    end = slice_.own_before(first + fields.size() / field_count);
   std::vector<double> own((end - begin) * field_count);
   for (std::size_t n = begin; n < end; ++n)
-    std::copy_n(&fields[(place_of(n) - first) * field_count], field_count,
+    std::copy_n(&fields[(slice_.place_of(n) - first) * field_count], field_count,
                 &own[(n - begin) * field_count]);
   executor_->write(begin, own);
   std::ranges::fill(outcomes_, Outcome{});
@@ -94,13 +109,13 @@ void DistributedMembers::join(std::size_t first, std::size_t first_own, std::spa
   std::ranges::fill(whole, 0.0);
   for (std::size_t n = 0; n < own.size() / field_count; ++n)
     std::copy_n(&own[n * field_count], field_count,
-                &whole[(place_of(first_own + n) - first) * field_count]);
+                &whole[(slice_.place_of(first_own + n) - first) * field_count]);
   world_.join(whole);
 }
 
 void DistributedMembers::read(std::size_t first, std::span<double> fields) {
-  const std::size_t begin = own_before(first),
-                    end = own_before(first + fields.size() / field_count);
+  const std::size_t begin = slice_.own_before(first),
+                    end = slice_.own_before(first + fields.size() / field_count);
   std::vector<double> own((end - begin) * field_count);
   executor_->read(begin, own);
   join(first, begin, own, fields);
@@ -114,24 +129,32 @@ void DistributedMembers::derivative(std::span<const double> signals, std::span<d
 
 std::vector<double> DistributedMembers::own_signals(std::span<const double> signals) const {
   std::vector<double> own;
-  own.reserve(signals.size() / members_ * width_);
-  for (std::size_t n = first_member(); n < signals.size(); n += members_)
+  own.reserve(signals.size() / slice_.members * slice_.width);
+  for (std::size_t n = slice_.first; n < signals.size(); n += slice_.members)
     own.insert(own.end(), signals.begin() + std::ptrdiff_t(n),
-               signals.begin() + std::ptrdiff_t(n + width_));
+               signals.begin() + std::ptrdiff_t(n + slice_.width));
   return own;
 }
 
 bool DistributedMembers::is_own_alive() const {
-  const auto own = std::span(outcomes_).subspan(first_member(), width_);
+  const auto own = std::span(outcomes_).subspan(slice_.first, slice_.width);
   return std::ranges::any_of(own, &Outcome::is_finite);
 }
 
+Outcome DistributedMembers::advance_own(long steps, const std::vector<double>& signals) {
+  // Ranks meet only after many steps, and one whose members have failed waits all the time.
+  world_.work_alone(true);
+  const Outcome outcome = executor_->advance(steps, signals);
+  world_.work_alone(false);
+  return outcome;
+}
+
 Outcome DistributedMembers::advance(long steps, std::span<const double> signals) {
-  if (is_own_alive()) {
-    const Outcome outcome = executor_->advance(steps, own_signals(signals));
+  if (!is_idle_ && is_own_alive()) {
+    const Outcome outcome = advance_own(steps, own_signals(signals));
     MemberOutcomes* const of_members = executor_->member_outcomes();
-    for (std::size_t m = 0; m < width_; ++m)
-      outcomes_[first_member() + m] = of_members == nullptr ? outcome : of_members->outcomes()[m];
+    for (std::size_t m = 0; m < slice_.width; ++m)
+      outcomes_[slice_.first + m] = of_members == nullptr ? outcome : of_members->outcomes()[m];
   }
   join_outcomes();
   const auto alive = std::ranges::find_if(outcomes_, &Outcome::is_finite);
@@ -141,16 +164,16 @@ Outcome DistributedMembers::advance(long steps, std::span<const double> signals)
 
 void DistributedMembers::join_outcomes() {
   constexpr std::size_t numbers = 3;
-  std::vector<double> all(members_ * numbers);
-  for (std::size_t m = first_member(); m < first_member() + width_; ++m) {
+  std::vector<double> all(slice_.members * numbers);
+  for (std::size_t m = slice_.first; m < slice_.first + slice_.width; ++m) {
     all[m * numbers] = outcomes_[m].is_finite;
     all[m * numbers + 1] = double(outcomes_[m].step);
     all[m * numbers + 2] = double(outcomes_[m].element);
   }
   world_.join(all);
   std::string why; // the ranks' members fail for one reason: that of their method
-  const auto is_own = [&](std::size_t m) { return m / width_ == std::size_t(world_.rank()); };
-  for (std::size_t m = 0; m < members_; ++m) {
+  const auto is_own = [&](std::size_t m) { return m / slice_.width == std::size_t(world_.rank()); };
+  for (std::size_t m = 0; m < slice_.members; ++m) {
     if (is_own(m)) {
       if (!outcomes_[m].is_finite) why = outcomes_[m].what;
       continue;
@@ -160,13 +183,14 @@ void DistributedMembers::join_outcomes() {
   }
   if (std::ranges::all_of(outcomes_, &Outcome::is_finite)) return;
   const std::vector<std::string> reasons = world_.gather(why);
-  for (std::size_t m = 0; m < members_; ++m)
-    if (!outcomes_[m].is_finite && !is_own(m)) outcomes_[m].what = kept_text(reasons[m / width_]);
+  for (std::size_t m = 0; m < slice_.members; ++m)
+    if (!outcomes_[m].is_finite && !is_own(m))
+      outcomes_[m].what = kept_text(reasons[m / slice_.width]);
 }
 
 std::string DistributedMembers::schedule() const {
   return fmt::format("{} rank{}, {} member{} each; {}", info_.ranks, info_.ranks == 1 ? "" : "s",
-                     width_, width_ == 1 ? "" : "s", executor_->schedule());
+                     slice_.width, slice_.width == 1 ? "" : "s", executor_->schedule());
 }
 
 } // namespace dss

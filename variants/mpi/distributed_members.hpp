@@ -4,6 +4,7 @@
 #include "variants/api/api.hpp"
 #include "variants/mpi/world.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -11,12 +12,28 @@
 
 namespace dss {
 
+/// Where the elements of one rank lie among those of the ensemble.
+struct MemberSlice {
+  std::size_t members; ///< of the ensemble
+  std::size_t width;   ///< members of each rank
+  std::size_t first;   ///< first member of this rank
+
+  /// Number of own elements before an element of the ensemble.
+  std::size_t own_before(std::size_t element) const {
+    const std::size_t member = std::clamp(element % members, first, first + width);
+    return element / members * width + (member - first);
+  }
+  /// The element of the ensemble that an own element is.
+  std::size_t place_of(std::size_t own) const {
+    return own / width * members + first + own % width;
+  }
+};
+
 /// Rank r computes the members [r w, (r + 1) w), where w is the number of lanes of its variant. All
-/// calls are collective, except rank_info, traffic, outcomes, workers, bytes, schedule and
+/// calls are collective, except write, rank_info, traffic, outcomes, workers, bytes, schedule and
 /// work_alone.
 class DistributedMembers final : public Executor, public RankGroup, public MemberOutcomes {
 public:
-  /// @throws InputError if the variants of the ranks have packs of different width
   explicit DistributedMembers(const Setup& setup);
   void write(std::size_t first, std::span<const double> fields) override;
   void read(std::size_t first, std::span<double> fields) override;
@@ -35,25 +52,19 @@ public:
 
 private:
   /// Makes the executor of this rank's members.
-  void make_own(const Setup& asked);
-  /// Number of own elements before an element of the ensemble.
-  std::size_t own_before(std::size_t element) const;
-  /// Where an own element lies in the ensemble.
-  std::size_t place_of(std::size_t own) const {
-    return own / width_ * members_ + first_member() + own % width_;
-  }
-  std::size_t first_member() const { return std::size_t(world_.rank()) * width_; }
+  void make_own(const Setup& setup);
   std::vector<double> own_signals(std::span<const double> signals) const;
   /// Puts rows of own elements from `first` on into those of the whole, and joins all ranks'.
   void join(std::size_t first, std::size_t first_own, std::span<const double> own,
             std::span<double> whole);
   bool is_own_alive() const;
+  Outcome advance_own(long steps, const std::vector<double>& signals);
   /// Tells all ranks how the own members ended.
   void join_outcomes();
 
   World& world_;
-  std::size_t members_;       ///< of the ensemble
-  std::size_t width_;         ///< members of a rank
+  const MemberSlice slice_;
+  bool is_idle_ = false;      ///< all own members only fill lanes
   std::size_t own_count_ = 0; ///< elements
   RankInfo info_;
   std::optional<Ensemble> ensemble_; ///< of this rank, if it has lanes
@@ -64,7 +75,8 @@ private:
 };
 
 /// Members that all ranks compute at once (Plugin::ensemble_lanes). 1 if the user asked how to
-/// divide a body, by a decomposition, a halo strategy or measured shares. Not collective.
+/// divide a body, by a decomposition, a halo strategy or measured shares, or if ranks have packs of
+/// different width. Collective in a job.
 int members_of_ranks(Precision precision, const Distribution& distribution);
 
 } // namespace dss

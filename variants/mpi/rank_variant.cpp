@@ -17,8 +17,13 @@ static std::string joined(const std::vector<std::string>& texts) {
   return fmt::format("{}", fmt::join(distinct, ","));
 }
 
+const Distribution& distribution_of(const Setup& setup) {
+  static const Distribution alone;
+  return setup.distribution == nullptr ? alone : *setup.distribution;
+}
+
 const Plugin& rank_plugin(Setup& setup, const World& world) {
-  std::string variant = setup.distribution->variant;
+  std::string variant = distribution_of(setup).variant;
   if (!setup.members.empty()) {
     if (setup.members == "auto")
       throw InputError(

@@ -5,6 +5,9 @@
 
 namespace dss {
 
+/// How the setup wants to be distributed, or the default.
+const Distribution& distribution_of(const Setup& setup);
+
 /// Finds this rank's variant. Of a hybrid's members it puts device and threads into the setup.
 /// @throws InputError if the variant is unknown or distributes itself
 const Plugin& rank_plugin(Setup& setup, const World& world);

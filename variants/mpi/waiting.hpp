@@ -1,4 +1,5 @@
 #pragma once
+#include "variants/mpi/all_ranks.hpp"
 
 namespace dss {
 
@@ -6,7 +7,7 @@ namespace dss {
 /// whom and for how long.
 class Waiting {
 public:
-  static constexpr int for_all = -2;
+  static constexpr int for_all = all_ranks;
   explicit Waiting(int rank);
   ~Waiting();
   Waiting(const Waiting&) = delete;

@@ -1,7 +1,7 @@
 #include "variants/mpi/watch.hpp"
 
+#include "variants/mpi/all_ranks.hpp"
 #include "variants/mpi/start_guard.hpp"
-#include "variants/mpi/waiting.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -61,7 +61,7 @@ Watch::~Watch() {
 void Watch::begin_waiting(int rank, double now) {
   work_s_.store(now - idle_since_s_, std::memory_order_relaxed);
   own_->since_s.store(now, std::memory_order_relaxed);
-  if (rank == Waiting::for_all) own_->calls.fetch_add(1, std::memory_order_relaxed);
+  if (rank == all_ranks) own_->calls.fetch_add(1, std::memory_order_relaxed);
   own_->waits_for.store(rank, std::memory_order_release);
 }
 
@@ -88,7 +88,7 @@ int Watch::culprit() const {
     if (post == nullptr) return rank;
     int next = post->waits_for.load(std::memory_order_acquire);
     if (next == nobody) return rank;
-    if (next == Waiting::for_all) { // which rank has not reached this call yet?
+    if (next == all_ranks) { // which rank has not reached this call yet?
       const auto late = std::min_element(node_ranks_.begin(), node_ranks_.end(), [&](int a, int b) {
         return post_of(a)->calls.load(std::memory_order_relaxed) <
                post_of(b)->calls.load(std::memory_order_relaxed);
@@ -107,7 +107,7 @@ bool Watch::is_speaker(int culprit) const {
   for (const int rank : node_ranks_) {
     if (rank == culprit) continue;
     const int waits_for = post_of(rank)->waits_for.load(std::memory_order_acquire);
-    if (waits_for == culprit || waits_for == Waiting::for_all) return rank == rank_;
+    if (waits_for == culprit || waits_for == all_ranks) return rank == rank_;
   }
   return false;
 }

@@ -16,21 +16,21 @@ namespace {
 
 World* world = nullptr;
 
-bool is_started_by_mpirun() {
-  return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr;
-}
-
 /// Sets variables that MPI reads when it starts. Without mpirun a process is a job of its own, and
 /// needs no daemon.
 void prepare_environment() {
   // Copies from another process' memory fail in containers without ptrace.
   ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-  if (!is_started_by_mpirun()) ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  if (!World::is_in_job()) ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
 }
 
 } // namespace
 
 bool World::is_started() { return world != nullptr; }
+
+bool World::is_in_job() {
+  return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr;
+}
 
 World& World::instance() {
   if (world == nullptr) world = new World; // lives until the program ends, see end()
@@ -40,7 +40,7 @@ World& World::instance() {
 World::World() {
   prepare_environment();
   std::optional<StartGuard> guard;
-  if (is_started_by_mpirun()) {
+  if (is_in_job()) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL); // a rank ends with its mpirun
     guard.emplace();
   }

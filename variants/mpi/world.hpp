@@ -23,6 +23,8 @@ public:
   /// @throws InputError if MPI cannot start
   static World& instance();
   static bool is_started();
+  /// Whether mpirun or srun started this process.
+  static bool is_in_job();
 
   MPI_Comm comm() const { return comm_; }
   int rank() const { return rank_; }

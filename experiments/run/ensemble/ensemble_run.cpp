@@ -51,13 +51,16 @@ private:
   }
   template <class Visit>
   void each_member(Visit&& visit);
+  /// Steps that all batches together have taken since their start.
+  double steps_of_batches() const;
 
   const RunRequest& request_;
   const EnsemblePlan plan_;
   std::vector<std::unique_ptr<MemberRun>> members_;
   std::vector<std::unique_ptr<MemberBatch>> batches_;
-  int team_ = 1; ///< threads that take batches
-  Usage usage_;  ///< of the timed steps of a team of one
+  std::vector<MemberBatch*> batch_of_; ///< each member
+  int team_ = 1;                       ///< threads that take batches
+  Usage usage_;                        ///< of the timed steps of a team of one
   RunResult whole_;
 };
 
@@ -82,6 +85,7 @@ EnsembleRun::EnsembleRun(const RunRequest& request)
 
 void EnsembleRun::make_batches() {
   const std::size_t count = plan_.batches.size();
+  batch_of_.resize(members_.size());
   // Threads divide batches. A single batch, or a batch of several ranks, is divided like a body,
   // unless extra links join distant rows of its threads.
   const Plugin& plugin = *plan_.plans.front().plugin;
@@ -91,8 +95,9 @@ void EnsembleRun::make_batches() {
     std::vector<const RunPlan*> plans;
     for (const std::size_t m : members) plans.push_back(&plan_.plans[m]);
     const RunPlan& plan = *plans.front();
-    const bool is_divided =
-        (!is_team || count == 1) && !(has_lanes && !plan.scene.problem.extra_links.empty());
+    const bool has_packs = has_lanes && plan_.lanes > request_.ranks,
+               is_divided = (!is_team || count == 1) &&
+                            !(has_packs && !plan.scene.problem.extra_links.empty());
     const Setup setup{plan.scene.problem,
                       *plan.method,
                       plan.model,
@@ -107,6 +112,7 @@ void EnsembleRun::make_batches() {
                       request_.tile};
     batches_.push_back(
         std::make_unique<MemberBatch>(std::move(plans), has_lanes ? plan_.lanes : 1, setup));
+    for (const std::size_t m : members) batch_of_[m] = batches_.back().get();
   }
 }
 
@@ -115,9 +121,11 @@ void EnsembleRun::describe_executors() {
   whole_.bytes = 0;
   for (const auto& batch : batches_) whole_.bytes += batch->executor().bytes();
   whole_.workers = std::max(whole_.workers, team_);
-  if (plan_.lanes > 1)
-    whole_.schedule += fmt::format(", {} members in {} batch{}", members_.size(), batches_.size(),
-                                   batches_.size() == 1 ? "" : "es");
+  if (plan_.lanes == 1) return;
+  const auto alone = std::ranges::count(plan_.batches, false, &BatchPlan::has_lanes);
+  whole_.schedule += fmt::format(", {} members in {} batch{}", members_.size(), batches_.size(),
+                                 batches_.size() == 1 ? "" : "es");
+  if (alone > 0) whole_.schedule += fmt::format(", {} of one member by itself", alone);
 }
 
 std::vector<long> EnsembleRun::stops(std::size_t b, Looks looks) const {
@@ -205,6 +213,12 @@ Usage EnsembleRun::metered(const std::function<void()>& work) {
   return of_all_ranks(batches_.front()->executor(), team_ == 1 ? usage_ : meter.read());
 }
 
+double EnsembleRun::steps_of_batches() const {
+  double steps = 0;
+  for (const auto& batch : batches_) steps += double(batch->step());
+  return steps;
+}
+
 Traffic EnsembleRun::sent() const {
   Traffic all;
   for (const auto& batch : batches_) {
@@ -255,7 +269,7 @@ void EnsembleRun::run() {
     warm_up();
     const Traffic before = sent();
     whole_.usage = metered([&] { whole_.wall_s = pass(Looks::at_stops); });
-    put_traffic(batches_.front()->executor(), since(before, sent()), whole_);
+    put_traffic(batches_.front()->executor(), since(before, sent()), steps_of_batches(), whole_);
     whole_.digest = digest_of_all();
     each_member([](MemberRun& member, std::span<const double> state, bool) {
       if (member.is_ok()) member.end(state);
@@ -329,8 +343,8 @@ EnsembleResult EnsembleRun::result() const {
   std::string failures;
   for (std::size_t m = 0; m < members_.size(); ++m) {
     RunResult own = members_[m]->result();
-    describe_executor(batches_.front()->executor(), *plan_.plans[m].plugin, own);
-    own.schedule = whole.schedule, own.workers = whole.workers, own.wall_s = whole.wall_s;
+    describe_executor(batch_of_[m]->executor(), *plan_.plans[m].plugin, own);
+    own.workers = whole.workers, own.wall_s = whole.wall_s;
     own.usage = whole.usage, own.messages_per_step = whole.messages_per_step;
     own.bytes_per_step = whole.bytes_per_step;
     own.communication_share = whole.communication_share;

@@ -40,8 +40,9 @@ Likeness likeness(const RunPlan& plan) {
 }
 
 /// Whether lanes pay. A batch has a pack for each element. Single runs have fewer packs if their
-/// rows are long, and all their rows: to begin one takes about as long as half a pack. Ranks divide
-/// a single run if it has enough rows, and take whole members of a batch.
+/// rows are long, and all their rows: to begin one takes about as long as half a pack. Ranks take
+/// whole members of a batch, and divide a single run. That makes it faster only if each rank has
+/// some thousand elements, and is impossible with fewer rows than ranks (`strips`, the default).
 bool fill_lanes(const Lattice& lattice, std::size_t members, int lanes, int ranks) {
   if (lanes == 1) return false;
   const std::size_t rows = lattice.rows.size();
@@ -51,7 +52,10 @@ bool fill_lanes(const Lattice& lattice, std::size_t members, int lanes, int rank
   std::size_t packs = 0;
   for (const Row& row : lattice.rows)
     packs += std::size_t((row.x_end + width - 1) / width - row.x_begin / width);
-  return std::size_t(ranks) * (2 * lattice.element_count + rows) <= members * (2 * packs + rows);
+  constexpr std::size_t least_elements = 2000; // of a rank, or its exchanges take longer
+  const std::size_t gain =
+      std::clamp(lattice.element_count / least_elements, std::size_t(1), std::size_t(ranks));
+  return gain * (2 * lattice.element_count + rows) <= members * (2 * packs + rows);
 }
 
 } // namespace

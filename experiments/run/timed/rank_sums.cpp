@@ -22,8 +22,7 @@ Usage of_all_ranks(Executor& executor, Usage usage) {
   return usage;
 }
 
-void put_traffic(Executor& executor, const Traffic& sent, RunResult& result) {
-  const double steps = double(result.steps);
+void put_traffic(Executor& executor, const Traffic& sent, double steps, RunResult& result) {
   result.messages_per_step = sum(executor, sent.messages) / steps;
   result.bytes_per_step = sum(executor, sent.bytes) / steps;
   result.communication_share = sum(executor, sent.wait_s) / (result.wall_s * result.ranks.ranks);

@@ -15,8 +15,9 @@ inline Traffic since(const Traffic& before, Traffic now) {
   return {now.messages - before.messages, now.bytes - before.bytes, now.wait_s - before.wait_s};
 }
 
-/// Puts what all ranks sent in the run into its result, which has its steps and its time.
-/// @param sent  by this rank
-void put_traffic(Executor& executor, const Traffic& sent, RunResult& result);
+/// Puts what all ranks sent in the run into its result, which has its time.
+/// @param sent   by this rank
+/// @param steps  of the executors that sent it
+void put_traffic(Executor& executor, const Traffic& sent, double steps, RunResult& result);
 
 } // namespace dss

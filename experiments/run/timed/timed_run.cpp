@@ -43,7 +43,7 @@ void TimedRun::run() {
     if (result_.status != "ok") return;
   if (meter_)
     result_.reference = {plan_.reference->times, plan_.reference->error, meter_->result()};
-  put_traffic(*executor_, since(before, traffic(*executor_)), result_);
+  put_traffic(*executor_, since(before, traffic(*executor_)), double(result_.steps), result_);
   result_.usage = of_all_ranks(*executor_, result_.usage);
   result_.hybrid = hybrid_info(*executor_);
   result_.device_use = since(used_by_looks_, since(used_before, device_use(*executor_)));
