@@ -164,7 +164,8 @@ class Ensemble(ProgramTest):
                                   "spatial", "--state", state, "--samples", 2, "--check-tail", 5,
                                   *options)
             files = [self.read(f"s{number}-{m['name']}.csv") for m in members_of(whole)]
-            digests = [(m["state_digest"], m["steps"], m["check_tail_error"]) for m in members_of(whole)]
+            digests = [(m["state_digest"], m["steps"], m["check_tail_error"])
+                       for m in members_of(whole)]
             found.append((files, digests))
             if options:
                 self.assertIn("members each", whole["schedule"])

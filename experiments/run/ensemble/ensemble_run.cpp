@@ -7,14 +7,12 @@
 #include "experiments/run/ensemble/member_run.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/rank_sums.hpp"
-#include "experiments/run/timed/run_record.hpp"
 #include "experiments/run/timed/timed_run.hpp"
 #include "experiments/run/timed/verdict.hpp"
 #include "variants/isa/denormals.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <limits>
 #include <memory>
 
 namespace dss {
@@ -123,8 +121,11 @@ void EnsembleRun::describe_executors() {
   whole_.workers = std::max(whole_.workers, team_);
   if (plan_.lanes == 1) return;
   const auto alone = std::ranges::count(plan_.batches, false, &BatchPlan::has_lanes);
-  whole_.schedule += fmt::format(", {} members in {} batch{}", members_.size(), batches_.size(),
-                                 batches_.size() == 1 ? "" : "es");
+  const auto counted = [](std::size_t count, const char* what, const char* plural) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : plural);
+  };
+  whole_.schedule += fmt::format(", {} in {}", counted(members_.size(), "member", "s"),
+                                 counted(batches_.size(), "batch", "es"));
   if (alone > 0) whole_.schedule += fmt::format(", {} of one member by itself", alone);
 }
 
@@ -311,29 +312,6 @@ void EnsembleRun::take_samples(double first_s) {
   }
 }
 
-/// Of several members the largest errors count.
-void add_check(const CheckResult& own, CheckResult& all) {
-  if (!own.is_done) return;
-  const CheckResult before = all;
-  all = own;
-  if (!before.is_done) return;
-  all.error = std::max(all.error, before.error);
-  if (all.tail_error && before.tail_error)
-    all.tail_error = std::max(*all.tail_error, *before.tail_error);
-}
-
-/// Leaves out what is not the same for all members.
-void keep_common(const RunResult& own, RunResult& all) {
-  const auto keep = [](double of_one, double& of_all) {
-    if (of_one != of_all) of_all = std::numeric_limits<double>::quiet_NaN();
-  };
-  keep(own.dt_s, all.dt_s);
-  keep(own.end_s, all.end_s);
-  keep(own.stability_limit_s, all.stability_limit_s);
-  if (own.evaluations != all.evaluations) all.evaluations.reset();
-  if (own.model != all.model) all.model = "several";
-}
-
 EnsembleResult EnsembleRun::result() const {
   EnsembleResult result{whole_, {}, batches_.size(), plan_.lanes};
   RunResult& whole = result.whole;
@@ -349,11 +327,7 @@ EnsembleResult EnsembleRun::result() const {
     own.bytes_per_step = whole.bytes_per_step;
     own.communication_share = whole.communication_share;
     own.samples = whole.samples, own.runs = whole.runs;
-    *whole.element_steps += double(own.elements) * double(own.steps);
-    whole.max_displacement_m = std::max(whole.max_displacement_m, own.max_displacement_m);
-    whole.files.insert(whole.files.end(), own.files.begin(), own.files.end());
-    add_check(own.check, whole.check);
-    keep_common(own, whole);
+    add_member(own, whole);
     if (own.status != "ok") {
       constexpr std::size_t most_named = 3;
       if (whole.status == "ok" || own.status == "unstable") whole.status = own.status;
@@ -375,21 +349,6 @@ EnsembleResult run_ensemble(const RunRequest& request) {
   EnsembleRun ensemble(request);
   ensemble.run();
   return ensemble.result();
-}
-
-nlohmann::ordered_json ensemble_json(const RunRequest& request, const EnsembleResult& result) {
-  nlohmann::ordered_json json = run_json(request, result.whole);
-  nlohmann::ordered_json members = nlohmann::ordered_json::array();
-  for (const MemberResult& member : result.members) {
-    nlohmann::ordered_json own = {{"name", member.member.name},
-                                  {"set", nlohmann::ordered_json::object()}};
-    for (const Override& item : member.member.set) own["set"][item.key] = item.value;
-    own.update(run_json(member.result));
-    members.push_back(std::move(own));
-  }
-  json["ensemble"] = {
-      {"batches", result.batches}, {"lanes", result.lanes}, {"members", std::move(members)}};
-  return json;
 }
 
 } // namespace dss

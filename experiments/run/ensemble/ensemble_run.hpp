@@ -1,32 +1,8 @@
 #pragma once
 /// Runs the members of an ensemble side by side: `dssbench run SCENE --ensemble FILE`.
-#include "experiments/run/ensemble/members_file.hpp"
-#include "experiments/run/plan/run_request.hpp"
-#include "experiments/run/timed/run_result.hpp"
-
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
+#include "experiments/run/ensemble/ensemble_record.hpp"
 
 namespace dss {
-
-/// The result of one member, as of a run of its own. Its times and messages are those of the
-/// whole ensemble.
-struct MemberResult {
-  MemberSet member;
-  RunResult result;
-};
-
-/// The results of an ensemble.
-struct EnsembleResult {
-  /// The ensemble as one run: elements and links of all members, the digest of the states of all
-  /// that did not fail, batch by batch. Not "ok" if a member is not; the reason names such members.
-  /// What is not the same for all members is left out.
-  RunResult whole;
-  std::vector<MemberResult> members;
-  std::size_t batches = 0; ///< executors; each computes one member or several
-  int lanes = 1;           ///< members of a batch, at most
-};
 
 /// Runs all members of request.ensemble, each with the bits of a run of its own by the same model.
 /// A member that becomes unstable ends alone. Writes the output files of each: F.vtu becomes
@@ -34,8 +10,5 @@ struct EnsembleResult {
 /// @throws InputError before anything runs: members whose elements or links differ, what plan_run
 ///     refuses for a member, and options that ensembles do not take
 EnsembleResult run_ensemble(const RunRequest& request);
-
-/// The record of an ensemble: that of `whole`, then "ensemble" with a record of each member.
-nlohmann::ordered_json ensemble_json(const RunRequest& request, const EnsembleResult& result);
 
 } // namespace dss

@@ -41,24 +41,24 @@ std::vector<VerifyRow> verify_ranks(const Scene& scene, long steps, const Plugin
                 fmt::format("{} ranks {} {} {}", ranks, decomposition, halo.name, method.name),
                 {},
                 {},
-                Verdict::passed,
+                VerifyRow::Verdict::passed,
                 fmt::format("equal to one process of {}", part.name)};
             const Distribution distribution{ranks, part.name, std::string(decomposition),
                                             std::string(halo.name)};
             try {
               if (const std::string why = why_no_decomposition(decomposition); !why.empty())
-                row.verdict = Verdict::skipped, row.reason = why;
+                row.verdict = VerifyRow::Verdict::skipped, row.reason = why;
               else if (digest_of(distributed, &distribution) != alone)
-                row.verdict = Verdict::failed,
+                row.verdict = VerifyRow::Verdict::failed,
                 row.reason = fmt::format("other bits than one process of {}", part.name);
               // such as more parts than rows; the same on every rank
             } catch (const InputError& error) {
-              row.verdict = Verdict::skipped;
+              row.verdict = VerifyRow::Verdict::skipped;
               row.reason = error.what();
             }
             rows.push_back(std::move(row));
             // the other strategies would be skipped too
-            if (rows.back().verdict == Verdict::skipped) break;
+            if (rows.back().verdict == VerifyRow::Verdict::skipped) break;
           }
       }
   }
