@@ -1,13 +1,11 @@
 #include "variants/mpi/spread.hpp"
 
 #include "solver/decomposition/decomposition_file.hpp"
-#include "solver/error.hpp"
 #include "variants/cost/trial.hpp"
 #include "variants/mpi/rank_variant.hpp"
 #include "variants/mpi/strategy_choice.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace dss {
 namespace {
