@@ -11,7 +11,7 @@ export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
-.PHONY: verify-cpu verify-devices test-aarch64
+.PHONY: verify-cpu verify-devices test-aarch64 fuzz mutants faults
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -37,6 +37,31 @@ test-aarch64: build
 	@cmake --preset aarch64 --no-warn-unused-cli >/dev/null
 	@cmake --build --preset aarch64 --target dssbench
 	@/usr/bin/python3 tests/aarch64/aarch64_test.py $(BUILD) build/aarch64
+
+# Fuzzes the readers of files, FUZZ_S seconds each (tests/fuzz/fuzz.py).
+FUZZ_S ?= 60
+fuzz: export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
+fuzz: dependencies
+	@cmake --preset fuzz --no-warn-unused-cli >/dev/null
+	@cmake --build --preset fuzz --target dss_fuzz_targets
+	@tests/fuzz/fuzz.py build/fuzz --seconds $(FUZZ_S)
+
+# Plants mistakes into a copy of the tree, MUTANTS in each area (tests/mutants/mutate.py).
+MUTANTS ?= 60
+mutants: dependencies
+	@mkdir -p build/mutants
+	@git ls-files -z | xargs -0 cp --parents -t build/mutants
+	@cmake --preset debug -S build/mutants -DDSS_UNITY=OFF -DDSS_VARIANTS=reference >/dev/null
+	@tests/mutants/mutate.py --tree build/mutants --build build/mutants/build/debug \
+	  --count $(MUTANTS) --json build/mutants.json
+
+# Kills and failing writes, KILLS and WRITES of them (tests/faults/campaign.py).
+KILLS ?= 1000
+WRITES ?= 10000
+faults: TARGETS := --target dssbench failing_calls
+faults: build
+	@/usr/bin/python3 tests/faults/campaign.py $(BUILD)/dssbench \
+	  $$(find $(BUILD)/tests/faults -name '*failing_calls.so') --kills $(KILLS) --writes $(WRITES)
 
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.

@@ -1,5 +1,6 @@
 #include "experiments/base/child.hpp"
 #include "experiments/base/clock.hpp"
+#include "experiments/base/interrupt.hpp"
 #include "solver/error.hpp"
 
 #include <algorithm>
@@ -52,6 +53,9 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   // The child must end with its parent. Otherwise it would have no time limit and disturb the next
   // measurement.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Ctrl-C goes to this program alone, which passes it on: mpirun takes a second signal as a wish
+  // to end without tidying up.
+  ::setpgid(0, 0);
   if (::getppid() != parent) ::_exit(127);
   ::dup2(::open("/dev/null", O_RDONLY), 0);
   ::dup2(pipes.output_[1], 1);
@@ -60,14 +64,18 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   ::_exit(127);
 }
 
+/// So often a child that was asked to end is looked at.
+constexpr double longest_wait_s = 1;
+
 /// Reads both pipes until they end or the limit is reached. Returns true if they ended.
-bool drain(const Pipes& pipes, Clock::time_point start, double limit_s, ChildResult& result) {
+bool drain(const Pipes& pipes, const InterruptedChild& child, Clock::time_point start,
+           double limit_s, ChildResult& result) {
   std::array<pollfd, 2> ends = {{{pipes.output_[0], POLLIN, 0}, {pipes.error_[0], POLLIN, 0}}};
   const std::array<std::string*, 2> texts = {&result.output, &result.error};
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
     const double left_s = limit_s - seconds_since(start);
-    if (left_s <= 0) return false;
-    if (::poll(ends.data(), ends.size(), int(std::min(left_s * 1000 + 1, 1e9))) < 0 &&
+    if (left_s <= 0 || child.is_overdue()) return false;
+    if (::poll(ends.data(), ends.size(), int(std::min(left_s, longest_wait_s) * 1000 + 1)) < 0 &&
         errno != EINTR)
       return false;
     for (std::size_t e = 0; e < ends.size(); ++e) {
@@ -100,13 +108,14 @@ ChildResult run_child(const std::string& program, const std::vector<std::string>
   const Clock::time_point start = Clock::now();
   Pipes pipes;
   const pid_t pid = spawn(program, arguments, pipes);
+  const InterruptedChild child(pid);
   pipes.close_writing_ends();
-  result.timed_out = !drain(pipes, start, time_limit_s, result);
+  result.timed_out = !drain(pipes, child, start, time_limit_s, result);
   int status = 0;
   // a child may close its outputs and continue: the limit holds for its whole life
   if (!result.timed_out) {
     while (::waitpid(pid, &status, WNOHANG) == 0) {
-      if (seconds_since(start) > time_limit_s) {
+      if (seconds_since(start) > time_limit_s || child.is_overdue()) {
         result.timed_out = true;
         break;
       }
@@ -118,6 +127,7 @@ ChildResult run_child(const std::string& program, const std::vector<std::string>
     while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
     }
   }
+  InterruptedChild::end_if_interrupted();
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status) && !result.timed_out) result.signal = WTERMSIG(status);
   result.wall_s = seconds_since(start);

@@ -148,11 +148,16 @@ void RecordFile::open() {
     throw InputError(fmt::format("{}: cannot append: {}", path_, std::strerror(errno)));
 }
 
+void RecordFile::set_aside() {
+  if (descriptor_ >= 0) return;
+  std::rename(path_.c_str(), (path_ + ".previous").c_str()); // fails if there is no earlier file
+}
+
 void RecordFile::start_with(const Record& record) {
   AtomicFile fresh(path_);
   fresh.write(head_line(columns_));
   fresh.write(csv_line(columns_, record));
-  std::rename(path_.c_str(), (path_ + ".previous").c_str()); // fails if there is no earlier file
+  set_aside();
   fresh.commit();
   open();
 }

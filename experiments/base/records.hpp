@@ -59,6 +59,9 @@ public:
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
   ~RecordFile();
+  /// Before the first row: the earlier file becomes PATH.previous at once. So its records never
+  /// stand beside what describes the new ones.
+  void set_aside();
   /// @throws InputError if the row cannot be written completely
   void append(const Record& record);
   const std::vector<Record>& present() const { return present_; }

@@ -1,5 +1,6 @@
 #include "experiments/base/cores.hpp"
 #include "experiments/cli/arguments.hpp"
+#include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/advise/advice_text.hpp"
 #include "experiments/run/advise/advise.hpp"
@@ -69,6 +70,7 @@ int fail_check(const std::string& scene, const std::string& failure) {
 
 int advise_scene(const AdviseArguments& arguments) {
   AdviseRequest request = checked_request(arguments);
+  require_sound_output(arguments.scene, arguments.json);
   std::vector<Override> overrides = parse_overrides(arguments.set);
   const auto note = [&](const std::string& what) {
     if (arguments.is_verbose) fmt::print(stderr, "{}\n", what);

@@ -1,10 +1,12 @@
 #include "experiments/base/text_table.hpp"
 #include "experiments/cli/arguments.hpp"
+#include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/scene/scene_text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -127,8 +129,18 @@ void require_sound(const DecomposeArguments& arguments) {
     if (!target.empty() && target != "-") require_writable(target);
 }
 
+void require_distinct_files(const DecomposeArguments& arguments) {
+  CommandFiles files;
+  files.read("SCENE", scene_path(arguments.scene));
+  files.read("--from", arguments.from);
+  files.write("--output", arguments.output);
+  files.write("--json", arguments.json);
+  files.require_distinct();
+}
+
 int decompose_scene(const DecomposeArguments& arguments) {
   require_sound(arguments);
+  require_distinct_files(arguments);
   const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
   const Problem& problem = scene.problem;
   DecompositionReport report;

@@ -1,5 +1,6 @@
 #include "experiments/base/text_table.hpp"
 #include "experiments/cli/arguments.hpp"
+#include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/model/model_choice.hpp"
 #include "experiments/run/plan/run_plan.hpp"
@@ -61,6 +62,7 @@ void print_models(const ModelChoice& choice, const std::string& scene_model) {
 }
 
 int explain(const ExplainArguments& arguments) {
+  require_sound_output(arguments.scene, arguments.json);
   const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
   const Problem& problem = scene.problem;
   const auto precision = require_precision_name(arguments.precision);

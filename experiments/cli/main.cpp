@@ -1,4 +1,5 @@
 /// The program `dssbench`: command line, exit codes, and one line for every error.
+#include "experiments/base/interrupt.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/completion.hpp"
 #include "experiments/run/plan/job.hpp"
@@ -192,6 +193,7 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   // Exceeding a limit on file sizes then is an error of write(), reported like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
+  dss::handle_interrupts(dss::job_rank().is_started);
   if (!dss::job_rank().is_root() && std::freopen("/dev/null", "w", stdout) == nullptr)
     return dss::exit_bad_input;
   try {

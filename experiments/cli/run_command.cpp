@@ -1,4 +1,5 @@
 #include "experiments/cli/arguments.hpp"
+#include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/run_summary.hpp"
 #include "experiments/run/ensemble/ensemble_plan.hpp"
@@ -11,6 +12,7 @@
 #include "experiments/run/timed/run_record.hpp"
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
+#include "solver/scene/scene_text.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -50,6 +52,30 @@ void require_no_tile_of_parts(const RunRequest& request) {
                                  request.tile));
 }
 
+/// No output may replace a file that the run reads, or another output.
+void require_distinct_files(const RunRequest& request, const std::string& analysis) {
+  CommandFiles files;
+  files.read("SCENE", scene_path(request.scene));
+  const bool has_members = !request.ensemble.empty();
+  if (request.ensemble.ends_with(".json") || request.ensemble.ends_with(".csv"))
+    files.read("--ensemble", request.ensemble);
+  if (is_file(request.decomposition)) files.read("--decomposition", request.decomposition);
+  files.read("--check-state", request.check_state);
+  files.read("--reference", request.reference);
+  files.write("--json", request.json);
+  if (has_members) {
+    files.write_members("--state", request.state_csv);
+    files.write_members("--output", request.output);
+  } else {
+    files.write("--state", request.state_csv);
+    if (request.frames > 0 || analysis == "modal")
+      files.write_series("--output", request.output);
+    else
+      files.write("--output", request.output);
+  }
+  files.require_distinct();
+}
+
 /// Runs an ensemble. One line names the members that failed, after the others have been written.
 int run_members(const RunRequest& request) {
   const EnsembleResult result = run_ensemble(request);
@@ -70,6 +96,7 @@ int run(const CLI::App& command, const RunArguments& arguments) {
     throw InputError("--ensemble: give a file that ends in .json or .csv, or a number of members");
   if (analysis != "dynamic" && !request.ensemble.empty())
     throw InputError("--ensemble: members are computed in time; give --analysis dynamic");
+  require_distinct_files(request, analysis);
   if (analysis != "dynamic") return run_analysis(analysis, request, arguments.analysis);
   // the user started mpirun
   if (job_rank().ranks > 1 && request.ranks == 1) request.ranks = job_rank().ranks;

@@ -1,4 +1,5 @@
 #include "experiments/cli/arguments.hpp"
+#include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/cluster/simulation.hpp"
 #include "experiments/run/plan/context.hpp"
@@ -111,6 +112,7 @@ void print_simulated(const SimulateArguments& arguments, const SimulatedProblem&
 }
 
 int simulate_scene(const SimulateArguments& arguments) {
+  require_sound_output(arguments.scene, arguments.json);
   const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
   const Precision precision = require_precision_name(arguments.precision);
   const Method& method = require_method(arguments.integrator.empty() ? scene.problem.integrator

@@ -1,5 +1,6 @@
 #include "experiments/base/text_table.hpp"
 #include "experiments/cli/arguments.hpp"
+#include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/stability/stability_limit.hpp"
@@ -109,6 +110,7 @@ void print_all(const Scene& scene, const StabilityArguments& arguments,
 }
 
 int stability(const StabilityArguments& arguments) {
+  require_sound_output(arguments.scene, arguments.json);
   const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
   flush_denormals();
   const std::vector<LimitComparison> rows = comparisons(arguments, scene);

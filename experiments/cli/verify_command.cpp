@@ -1,6 +1,7 @@
 #include "experiments/base/progress.hpp"
 #include "experiments/base/text_table.hpp"
 #include "experiments/cli/arguments.hpp"
+#include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/plan/context.hpp"
 #include "experiments/run/plan/job.hpp"
@@ -252,6 +253,7 @@ std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments,
 
 int verify(VerifyArguments arguments) {
   if (arguments.ranks.empty() && job_rank().is_started) arguments.ranks = {job_rank().ranks};
+  for (const std::string& scene : arguments.scenes) require_sound_output(scene, arguments.json);
   if (!arguments.json.empty() && arguments.json != "-") require_writable(arguments.json);
   if (job_rank().is_started && arguments.ranks != std::vector<int>{job_rank().ranks})
     throw InputError(fmt::format("--ranks: this job has {}; give that, or none", job_rank().ranks));

@@ -113,14 +113,16 @@ private:
   }
 
   void record(CellState& state, const Record& row) {
-    file_.append(row);
-    // write this process's context until a measured process has reported its own
+    // Before the first record: whoever is killed in between could not resume otherwise. This
+    // process's context is written until a measured process has reported its own.
     if (!has_context_) {
+      file_.set_aside();
       write_circumstances(paths_.context,
                           context_.is_null() ? nlohmann::json(measurement_context()) : context_,
                           circumstances_of(study_));
       has_context_ = !context_.is_null();
     }
+    file_.append(row);
     all_records_.push_back(row);
     state.records.push_back(row);
     account(state);

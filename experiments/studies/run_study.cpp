@@ -1,6 +1,8 @@
 #include "experiments/studies/run_study.hpp"
 #include "experiments/base/exit_code.hpp"
+#include "experiments/base/interrupt.hpp"
 #include "experiments/measure/circumstances.hpp"
+#include "experiments/measure/study_lock.hpp"
 #include "experiments/run/plan/context.hpp"
 #include "experiments/studies/registry.hpp"
 
@@ -64,6 +66,11 @@ int run_study(Study& study, const StudyHead& head, const StudyOptions& options) 
     return exit_success;
   }
   make_directories(paths);
+  const StudyLock lock(paths.raw);
+  if (study.keeps_records())
+    say_when_interrupted(fmt::format("{} keeps what was measured; go on with --resume", paths.raw));
+  else
+    say_when_interrupted(fmt::format("{} is as it was before", paths.table));
   Progress progress;
   const StudyResult result =
       study.run({options.directory, paths, options.resumes, options.rounds, progress});

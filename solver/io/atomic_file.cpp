@@ -1,5 +1,6 @@
 #include "solver/io/atomic_file.hpp"
 #include "solver/error.hpp"
+#include "solver/io/temporaries.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -29,8 +30,8 @@ AtomicFile::AtomicFile(std::string target) : target_(std::move(target)) {
   if (is_written_in_place(target_)) {
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
-    temporary_ = fmt::format("{}.{}.part", target_, ::getpid());
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    temporary_ = target_ + ".XXXXXX.part";
+    descriptor_ = make_temporary(temporary_, 5, 0666);
   }
   if (descriptor_ < 0) {
     temporary_.clear();
@@ -40,7 +41,9 @@ AtomicFile::AtomicFile(std::string target) : target_(std::move(target)) {
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  forget_temporary(temporary_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -61,11 +64,14 @@ void AtomicFile::flush() {
 
 void AtomicFile::commit() {
   flush();
+  // After a loss of power the file is then old or new. Pipes and devices cannot be synced.
+  if (!temporary_.empty() && ::fsync(descriptor_) != 0 && errno != EINVAL) fail("write", errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0) fail("write", errno);
   if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0)
     fail("replace", errno);
+  forget_temporary(temporary_);
   temporary_.clear();
 }
 

@@ -52,8 +52,21 @@ TEST(Statistics, RankSumTestAgreesWithAWorkedExample) {
   EXPECT_EQ(rank_sum_p_value(a, b), rank_sum_p_value(b, a));
 }
 
+/// Samples of 7 and 9 with ties of 3, 4, 3 and 2 values: U = 8.5, the ties sum to 114, the variance
+/// is 7 * 9 / 12 * (17 - 114 / 240) = 86.75625, z = (23 - 0.5) / 9.31430.
+TEST(Statistics, RankSumTestSharesRanksBetweenTies) {
+  const std::vector<double> a{1, 2, 2, 3, 3, 3, 4}, b{2, 3, 4, 4, 5, 6, 6, 7, 8};
+  EXPECT_NEAR(rank_sum_p_value(a, b), 0.0157076, 1e-7);
+  EXPECT_NEAR(rank_sum_p_value(b, a), 0.0157076, 1e-7);
+}
+
+TEST(Statistics, RankSumTestNeedsValuesOnBothSides) {
+  EXPECT_THROW(rank_sum_p_value(std::vector<double>{}, one_to(9)), std::invalid_argument);
+  EXPECT_THROW(rank_sum_p_value(one_to(9), std::vector<double>{}), std::invalid_argument);
+}
+
 TEST(Statistics, RankSumTestFindsNothingBetweenEqualSamples) {
-  EXPECT_GT(rank_sum_p_value(one_to(12), one_to(12)), 0.95);
+  EXPECT_EQ(rank_sum_p_value(one_to(12), one_to(12)), 1);
   const std::vector<double> constant(10, 3.0);
   EXPECT_EQ(rank_sum_p_value(constant, constant), 1);
 }
@@ -63,6 +76,24 @@ TEST(Statistics, OutliersAreFoundByPlaceAndStayInTheSample) {
   EXPECT_TRUE(outliers(sample).empty());
   sample[4] = 1000;
   EXPECT_EQ(outliers(sample), std::vector<std::size_t>{4});
+}
+
+/// The quartiles of 0, 10, ..., 60, x lie between values, at 17.5 and 52.5. So numbers outside
+/// -87.5 and 157.5 are outliers.
+TEST(Statistics, OutliersLieThreeInterquartileRangesBeyondTheQuartiles) {
+  std::vector<double> sample{0, 10, 20, 30, 40, 50, 60, 157.5};
+  EXPECT_TRUE(outliers(sample).empty());
+  sample[7] = 157.6;
+  EXPECT_EQ(outliers(sample), std::vector<std::size_t>{7});
+  sample[0] = -87.5;
+  EXPECT_EQ(outliers(sample), std::vector<std::size_t>{7});
+  sample[0] = -87.6;
+  EXPECT_EQ(outliers(sample), (std::vector<std::size_t>{0, 7}));
+}
+
+TEST(Statistics, FiveValuesHaveNoOutliersAndSixMay) {
+  EXPECT_TRUE(outliers(std::vector<double>{1, 1, 1, 1, 100}).empty());
+  EXPECT_EQ(outliers(std::vector<double>{1, 1, 1, 1, 1, 100}), std::vector<std::size_t>{5});
 }
 
 } // namespace

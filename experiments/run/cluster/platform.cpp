@@ -6,6 +6,8 @@
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
 
 namespace dss {
 namespace {

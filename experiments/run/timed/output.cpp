@@ -1,4 +1,5 @@
 #include "experiments/run/timed/output.hpp"
+#include "experiments/base/interrupt.hpp"
 #include "solver/error.hpp"
 #include "solver/model/stress.hpp"
 
@@ -49,19 +50,25 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
     throw;
   }
   frames_.push_back({path.filename().string(), time});
+  if (!is_series_) return;
+  write_pvd(index(), frames_);
+  say_when_interrupted(fmt::format("{} lists the frames so far; give the command again", index()));
 }
 
 void FrameSeries::discard() {
   for (const Frame& frame : frames_)
     std::filesystem::remove(std::filesystem::path(output_).replace_filename(frame.file));
+  if (is_series_ && !frames_.empty()) std::filesystem::remove(index());
   frames_.clear();
+}
+
+std::string FrameSeries::index() const {
+  return std::filesystem::path(output_).replace_extension(".pvd").string();
 }
 
 std::string FrameSeries::finish() const {
   if (!is_series_ || output_.empty()) return output_;
-  const std::string index = std::filesystem::path(output_).replace_extension(".pvd").string();
-  write_pvd(index, frames_);
-  return fmt::format("{}, which lists {} files {} to {}", index, frames_.size(),
+  return fmt::format("{}, which lists {} files {} to {}", index(), frames_.size(),
                      frames_.front().file, frames_.back().file);
 }
 

@@ -17,15 +17,18 @@ class FrameSeries {
 public:
   FrameSeries(std::string output, bool is_series)
       : output_(std::move(output)), is_series_(is_series) {}
-  /// Writes the state at a time [s]. Does nothing without an output.
+  /// Writes the state at a time [s], and the index of a series so far. Does nothing without an
+  /// output.
   void add(const Problem& problem, const std::vector<double>& state, Rotation equations,
            double time);
-  /// Writes the index of a series. @return the written files as text; empty without an output
+  /// The written files as text; empty without an output.
   std::string finish() const;
   /// Removes the written files.
   void discard();
 
 private:
+  std::string index() const;
+
   std::string output_;
   bool is_series_;
   std::vector<Frame> frames_;

@@ -11,6 +11,7 @@
 #include "solver/model/sufficiency/sufficiency.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <limits>
 
 namespace dss {

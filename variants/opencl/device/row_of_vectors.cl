@@ -24,6 +24,40 @@ static inline carried NAME(carried_at)(global const NUMBER* p) {
   return c;
 }
 
+/* Spatial rows of the paper's law have more live numbers than there are registers. They store what
+ * the next pack takes of its preparation, and load it where it is used, as parked rows of
+ * stage_row.hpp do. */
+#if AXES == 3 && FIELDS == 13
+#define IS_PARKED (!FLAGS.is_material && !FLAGS.is_bending)
+#define PARKED_SIZE (4 * VEC_SIZE)
+#define PARK(c) *p++ = (c);
+#define UNPARK(c) c = *p++;
+#define EACH_PARKED(act, a)      \
+  EACH_OF_VEC(act, (a).pull)     \
+  EACH_OF_VEC(act, (a).lower_x)  \
+  EACH_OF_VEC(act, (a).x.arm)    \
+  EACH_OF_VEC(act, (a).x.swing)
+
+static inline void NAME(park)(const prepared a, volatile REAL* p) {
+  EACH_PARKED(PARK, a)
+}
+static inline prepared NAME(parked)(volatile const REAL* p, global const NUMBER* fields) {
+  prepared a;
+  EACH_PARKED(UNPARK, a)
+  FORGET_LOADS
+  a.e = element_at(fields);
+  return a;
+}
+#define PARK_NEXT(place) \
+  if (IS_PARKED) NAME(park)(next, places[(place)&1]);
+#define READ_AGAIN \
+  if (IS_PARKED) i = NAME(parked)(places[pack & 1], in + place);
+#else
+#define PARKED_SIZE 1
+#define PARK_NEXT(place)
+#define READ_AGAIN
+#endif
+
 static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, const uint mask,
                                    carried* previous) {
   element j = i.e;
@@ -84,22 +118,29 @@ static inline int NAME(run_row)(device d, global const row_stage* task,
   REAL check = SPLAT(0);
   carried previous = nothing_carried();
   prepared next = prepare(element_at(in), x.x, FLAGS);
+  volatile REAL places[2][PARKED_SIZE]; /* of this pack and of the next, by turns */
+  PARK_NEXT(0)
   for (int pack = 0; pack < task->packs; ++pack) {
     const long place = (long)pack * stride, carry = (long)pack * carry_size;
     prepared i = next;
     i.e = element_at(in + place);
     next = prepare(element_at(in + place + stride), x.x, FLAGS);
+    PARK_NEXT(pack + 1)
+    READ_AGAIN
     wrench sum = NAME(links_x)(i, next, x, masks[pack].link_x, &previous);
+    READ_AGAIN
 #if AXES > 1
     sum = NAME(add_across)(sum, i, 1, y, masks[pack].link_y, masks[pack].below_y,
                            d.arena + task->upper_y + place, d.arena + task->carry_y + carry,
                            d.arena + task->from_y + carry);
 #endif
 #if AXES > 2
+    READ_AGAIN
     sum = NAME(add_across)(sum, i, 2, z, masks[pack].link_z, masks[pack].below_z,
                            d.arena + task->upper_z + place, d.arena + task->carry_z + carry,
                            d.arena + task->from_z + carry);
 #endif
+    READ_AGAIN
     check = NAME(update)(d, task, signals, pack, place, i, sum, check);
   }
   return IS_ZERO(check);

@@ -6,6 +6,12 @@
 /* Registers are few, so results are stored at once. */
 #define STORE_EARLY(v, p) STORE(v, p)
 #define STORE_LATE(v, p) ((void)0)
+/* A fence for the compiler, which would otherwise keep earlier loads and spill them. */
+#ifdef __clang__
+#define FORGET_LOADS __asm__ volatile("" ::: "memory");
+#else
+#define FORGET_LOADS mem_fence(CLK_GLOBAL_MEM_FENCE);
+#endif
 #define IS_ZERO(v) all((v) == SPLAT(0))
 #define KEEP(c) c = select(SPLAT(0), c, ((BITS)(mask)&LANE_BITS) != (BITS)(0));
 #define ITEM 0

@@ -1,0 +1,64 @@
+#include "experiments/measure/study_lock.hpp"
+#include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
+#include "solver/io/temporaries.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace dss {
+namespace {
+
+/// True if a descriptor is still the file of this name: another process may have removed it.
+bool is_file_of(int descriptor, const std::string& path) {
+  struct stat open {
+  }, named{};
+  return ::fstat(descriptor, &open) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+}
+
+} // namespace
+
+StudyLock::StudyLock(const std::string& path) : path_(path + ".lock") {
+  for (;;) {
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor_ < 0)
+      throw InputError(fmt::format("{}: cannot lock: {}", path_, std::strerror(errno)));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) {
+      if (is_file_of(descriptor_, path_)) break;
+      ::close(descriptor_);
+      continue;
+    }
+    const int reason = errno;
+    ::close(descriptor_);
+    if (reason != EWOULDBLOCK)
+      throw InputError(fmt::format("{}: cannot lock: {}", path_, std::strerror(reason)));
+    std::string holder = read_text(path_);
+    if (holder.empty()) holder = "another process";
+    throw InputError(fmt::format("{}: {} measures this study here; wait for its end, or give "
+                                 "another --out",
+                                 path, holder.substr(0, holder.find('\n'))));
+  }
+  remember_temporary(path_);
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  const std::string text =
+      fmt::format("process {}, since {:%Y-%m-%d %H:%M:%S} UTC,\n", ::getpid(), fmt::gmtime(now));
+  // Only for messages: the lock holds without it.
+  if (::ftruncate(descriptor_, 0) != 0 || ::write(descriptor_, text.data(), text.size()) < 0)
+    return;
+}
+
+StudyLock::~StudyLock() {
+  ::unlink(path_.c_str());
+  forget_temporary(path_);
+  ::close(descriptor_);
+}
+
+} // namespace dss

@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+"""Kills the program and lets its writes fail, and counts what was lost or wrong.
+
+    make faults                                      # 1,000 kills, 10,000 failed writes
+    tests/faults/campaign.py PROGRAM LIBRARY --kills 6 --writes 40     # a short form
+
+Four kinds of fault:
+  kills    kill -9 of a study, or of the process that measures, at a random moment; then --resume
+  writes   the n-th call that changes a file fails (failing_calls.c), for every n in turn; by turns
+           the disk is full (ENOSPC), the device is broken (EIO), the directory is read-only (EROFS)
+  torn     a file of results is cut off at any length, then read
+  gone     the directory of results vanishes while a study runs
+After each fault the study is resumed. `lost`: a record that was written before the fault is missing
+or changed, or the study cannot be completed. `wrong`: a record that differs from an undisturbed
+run's, a repetition twice, a crash, or a failure at exit code 0. Exit code 1 if there is any.
+"""
+import argparse
+import collections
+import csv
+import errno
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+STUDY = {
+    "experiment": "tiny", "title": "A tiny study",
+    "cells": [{"scene": "plate_paper", "set": {"n": [8]}, "variants": ["scalar"], "threads": [1]},
+              {"scene": "two_elements", "variants": ["scalar"], "threads": [1]}],
+    "base": ["scalar"],
+    "scales": {"smoke": {"steps": 20, "oracle_steps": 5, "repetitions": [3, 3], "retries": 0,
+                         "budget_s": 60, "time_limit_s": 20}},
+}
+SCENE = ("run", "two_elements", "--variant", "scalar", "--steps", "20")
+FAULTS = (errno.ENOSPC, errno.EIO, errno.EROFS)
+CRASHES = (-signal.SIGSEGV, -signal.SIGABRT, -signal.SIGBUS, -signal.SIGFPE, -signal.SIGILL)
+
+
+class Campaign:
+    """Faults, one after another, in directories of their own."""
+
+    def __init__(self, program, library, seed, folder):
+        self.program, self.library, self.folder = program, library, pathlib.Path(folder)
+        self.random = random.Random(seed)
+        self.counts = collections.Counter()
+        self.study = self.folder / "tiny.json"
+        self.study.write_text(json.dumps(STUDY))
+        begin = time.monotonic()
+        self.require(self.experiment(self.folder / "whole"), 0)
+        self.whole_s = time.monotonic() - begin
+        self.expected = {self.key(row): row["state_digest"] for row in self.rows("whole")}
+
+    @staticmethod
+    def key(row):
+        return row["cell"], row["repetition"]
+
+    @staticmethod
+    def require(result, code):
+        if result.returncode != code:
+            sys.exit(f"campaign.py: exit code {result.returncode}: {result.stderr}")
+
+    def command(self, out, *options):
+        return [self.program, "experiment", self.study, "--scale", "smoke", "--out", out, *options]
+
+    def experiment(self, out, *options, **settings):
+        return subprocess.run(self.command(out, *options), capture_output=True, text=True,
+                              timeout=300, **settings)
+
+    def rows(self, name):
+        """Whole records; a torn last one is left out, as the program does."""
+        path = self.folder / name / "raw" / "tiny.csv"
+        if not path.exists():
+            return []
+        text = path.read_text()
+        return list(csv.DictReader(text[:text.rfind("\n") + 1].splitlines()))
+
+    def judge(self, kind, name, before, result=None):
+        """Resumes the study, and looks at what is there."""
+        self.counts[kind, "tried"] += 1
+        after = self.rows(name)
+        resumed = self.experiment(self.folder / name, "--resume")
+        is_refused, why = resumed.returncode == 2, resumed.stderr
+        if is_refused:
+            resumed = self.experiment(self.folder / name)
+        finished = [row for row in self.rows(name) if row["status"] == "ok"]
+        have = collections.Counter(self.key(row) for row in finished)
+        is_wrong = (any(count > 1 for count in have.values())
+                    or any(row["state_digest"] != self.expected.get(self.key(row))
+                           for row in finished)
+                    or (result is not None and result.returncode in CRASHES))
+        is_lost = ((is_refused and bool(before)) or resumed.returncode != 0
+                   or set(have) != set(self.expected)
+                   or any(row not in after for row in before))
+        self.counts[kind, "wrong"] += is_wrong
+        self.counts[kind, "lost"] += is_lost
+        self.counts[kind, "survived"] += not is_wrong and not is_lost
+        if is_wrong or is_lost:
+            print(f"{kind} {name}: wrong {is_wrong}, lost {is_lost}\n{why}{resumed.stderr}"
+                  f"{result.stderr if result is not None else ''}", flush=True)
+        shutil.rmtree(self.folder / name, ignore_errors=True)
+
+    def kill(self, number):
+        name = f"kill{number}"
+        run = subprocess.Popen(self.command(self.folder / name), stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+        time.sleep(self.random.uniform(0, self.whole_s))
+        victim = run.pid
+        if self.random.random() < 0.3:
+            try:
+                children = pathlib.Path(f"/proc/{victim}/task/{victim}/children").read_text()
+                victim = int(self.random.choice(children.split()))
+            except (OSError, IndexError):
+                pass
+        before = self.rows(name)
+        try:
+            os.kill(victim, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        run.wait()
+        self.judge("kills", name, before)
+
+    def failing(self, number, fault, **more):
+        return {**os.environ, "LD_PRELOAD": self.library, "DSS_FAIL_AT": str(number),
+                "DSS_FAIL_ERRNO": str(fault), **more}
+
+    def calls(self, command):
+        """The number of calls of a command that change files."""
+        count = self.folder / "calls"
+        subprocess.run(command, capture_output=True, env=self.failing(0, 0, DSS_FAIL_COUNT=count))
+        numbers = [int(line) for line in count.read_text().split()]
+        count.unlink()
+        return max(numbers)
+
+    def fail_study(self, number, fault):
+        """Two records are there already; the n-th call of the resumed study fails."""
+        name = f"write{number}-{fault}"
+        self.require(self.experiment(self.folder / name, "--rounds", "1"), 0)
+        before = self.rows(name)
+        result = self.experiment(self.folder / name, "--resume", env=self.failing(number, fault))
+        self.judge("writes", name, before, result)
+
+    def fail_run(self, number, fault):
+        """A run writes three files, of which earlier versions exist. Each is old or new."""
+        self.counts["outputs", "tried"] += 1
+        files = [self.folder / name for name in ("end.csv", "end.json", "end.vtu")]
+        for file in files:
+            file.write_text("earlier\n")
+        options = ("--state", files[0], "--json", files[1], "--output", files[2])
+        result = subprocess.run([self.program, *SCENE, *options], capture_output=True, text=True,
+                                env=self.failing(number, fault))
+        texts = [file.read_text() for file in files]
+        is_new = [text != "earlier\n" for text in texts]
+        is_whole = ((not is_new[0] or texts[0].endswith("\n"))
+                    and (not is_new[1] or texts[1].rstrip().endswith("}"))
+                    and (not is_new[2] or texts[2].rstrip().endswith("</VTKFile>")))
+        parts = [path for path in self.folder.iterdir() if path.name.endswith(".part")]
+        is_wrong = (not is_whole or result.returncode in CRASHES or bool(parts)
+                    or (result.returncode == 0 and not all(is_new))
+                    or (result.returncode != 0 and result.stderr.count("\n") != 1))
+        self.counts["outputs", "wrong"] += is_wrong
+        self.counts["outputs", "survived"] += not is_wrong
+        if is_wrong:
+            print(f"outputs: call {number} fails with {fault}: exit code {result.returncode}, new "
+                  f"{is_new}, whole {is_whole}, {parts}: {result.stderr}", flush=True)
+        for path in files + parts:
+            path.unlink()
+
+    def tear(self, number):
+        """A file of results that ends anywhere is refused in one line, or read up to there."""
+        self.counts["torn", "tried"] += 1
+        source = self.random.choice(["raw/tiny.csv", "raw/tiny.json", "tables/tiny.csv"])
+        name = f"torn{number}"
+        shutil.copytree(self.folder / "whole", self.folder / name)
+        path = self.folder / name / source
+        whole = path.read_bytes()
+        path.write_bytes(whole[:self.random.randrange(len(whole))])
+        result = self.experiment(self.folder / name, "--resume")
+        rows = self.rows(name)
+        is_wrong = (result.returncode not in (0, 2)
+                    or (result.returncode == 2 and result.stderr.count("\n") != 1)
+                    or any(row["state_digest"] != self.expected.get(self.key(row))
+                           for row in rows if row["status"] == "ok")
+                    or (result.returncode == 0 and len(rows) != len(self.expected)))
+        self.counts["torn", "wrong"] += is_wrong
+        self.counts["torn", "survived"] += not is_wrong
+        if is_wrong:
+            print(f"torn: {source} at {path.stat().st_size} of {len(whole)}: exit code "
+                  f"{result.returncode}: {result.stderr}", flush=True)
+        shutil.rmtree(self.folder / name)
+
+    def vanish(self, number):
+        """The directory of results is removed while the study runs."""
+        self.counts["gone", "tried"] += 1
+        name = f"gone{number}"
+        run = subprocess.Popen(self.command(self.folder / name), stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True)
+        time.sleep(self.random.uniform(0, self.whole_s))
+        shutil.rmtree(self.folder / name, ignore_errors=True)
+        errors = run.communicate(timeout=300)[1].splitlines()
+        has_all = len(self.rows(name)) == len(self.expected)
+        is_wrong = run.returncode in CRASHES or (run.returncode == 0 and not has_all
+                                                 and (self.folder / name).exists())
+        self.counts["gone", "wrong"] += is_wrong
+        self.counts["gone", "survived"] += not is_wrong
+        if is_wrong:
+            print(f"gone: exit code {run.returncode}: {errors}", flush=True)
+        shutil.rmtree(self.folder / name, ignore_errors=True)
+
+    def run(self, kills, writes):
+        for number in range(kills):
+            self.kill(number)
+            self.tear(number)
+            if number % 4 == 0:
+                self.vanish(number)
+        files = [self.folder / name for name in ("a.csv", "a.json", "a.vtu")]
+        most = self.calls([self.program, *SCENE, "--state", files[0], "--json", files[1],
+                           "--output", files[2]])
+        of_run = min(len(FAULTS) * most, writes // 2)
+        for place in range(of_run):
+            self.fail_run(1 + place % most, FAULTS[place // most])
+        most = self.calls(self.command(self.folder / "counted"))
+        for place in range(writes - of_run):
+            self.fail_study(1 + place % most, FAULTS[(place // most + place) % len(FAULTS)])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("library", help="failing_calls as a shared library")
+    parser.add_argument("--kills", type=int, default=1000)
+    parser.add_argument("--writes", type=int, default=10000)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="dssbench-faults-") as folder:
+        campaign = Campaign(arguments.program, arguments.library, arguments.seed, folder)
+        campaign.run(arguments.kills, arguments.writes)
+    kinds = sorted({kind for kind, _ in campaign.counts})
+    for kind in kinds:
+        print(f"{kind}: " + ", ".join(f"{what} {campaign.counts[kind, what]}"
+                                      for what in ("tried", "survived", "lost", "wrong")))
+    bad = sum(count for (_, what), count in campaign.counts.items() if what in ("lost", "wrong"))
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
