@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <optional>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -41,7 +42,7 @@ public:
 };
 
 pid_t spawn(const std::string& program, const std::vector<std::string>& arguments,
-            const Pipes& pipes) {
+            const Pipes& pipes, const InterruptsBlocked& blocked, bool has_own_group) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -53,9 +54,8 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   // The child must end with its parent. Otherwise it would have no time limit and disturb the next
   // measurement.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Ctrl-C goes to this program alone, which passes it on: mpirun takes a second signal as a wish
-  // to end without tidying up.
-  ::setpgid(0, 0);
+  if (has_own_group) ::setpgid(0, 0);
+  blocked.reset_in_child();
   if (::getppid() != parent) ::_exit(127);
   ::dup2(::open("/dev/null", O_RDONLY), 0);
   ::dup2(pipes.output_[1], 1);
@@ -64,7 +64,7 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
   ::_exit(127);
 }
 
-/// So often a child that was asked to end is looked at.
+/// Longest wait [s] between two looks at whether a child that was asked to end must be killed.
 constexpr double longest_wait_s = 1;
 
 /// Reads both pipes until they end or the limit is reached. Returns true if they ended.
@@ -103,19 +103,25 @@ std::string ChildResult::failure(double time_limit_s) const {
 }
 
 ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments,
-                      double time_limit_s) {
+                      double time_limit_s, bool has_own_group) {
   ChildResult result;
   const Clock::time_point start = Clock::now();
   Pipes pipes;
-  const pid_t pid = spawn(program, arguments, pipes);
-  const InterruptedChild child(pid);
+  pid_t pid = 0;
+  std::optional<InterruptedChild> child;
+  {
+    const InterruptsBlocked blocked;
+    pid = spawn(program, arguments, pipes, blocked, has_own_group);
+    // Whoever waits for a child that waits for its own child has more patience.
+    child.emplace(pid, has_own_group ? 10 : 15);
+  }
   pipes.close_writing_ends();
-  result.timed_out = !drain(pipes, child, start, time_limit_s, result);
+  result.timed_out = !drain(pipes, *child, start, time_limit_s, result);
   int status = 0;
   // a child may close its outputs and continue: the limit holds for its whole life
   if (!result.timed_out) {
     while (::waitpid(pid, &status, WNOHANG) == 0) {
-      if (seconds_since(start) > time_limit_s || child.is_overdue()) {
+      if (seconds_since(start) > time_limit_s || child->is_overdue()) {
         result.timed_out = true;
         break;
       }
@@ -123,11 +129,11 @@ ChildResult run_child(const std::string& program, const std::vector<std::string>
     }
   }
   if (result.timed_out) {
-    ::kill(pid, SIGKILL);
+    ::kill(has_own_group ? -pid : pid, SIGKILL);
     while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
     }
   }
-  InterruptedChild::end_if_interrupted();
+  child.reset(); // ends this process, too, if a signal came
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status) && !result.timed_out) result.signal = WTERMSIG(status);
   result.wall_s = seconds_since(start);

@@ -23,8 +23,10 @@ constexpr const char* this_program = "/proc/self/exe";
 
 /// Runs a program and waits for it, at most `time_limit_s` [s]; then it is killed.
 /// @param arguments  the first one is the program's name
+/// @param has_own_group  Ctrl-C does not reach the child, but this program passes it on: mpirun
+/// takes a second signal as a wish to end without tidying up
 /// @throws InputError if the program cannot be started
 ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments,
-                      double time_limit_s);
+                      double time_limit_s, bool has_own_group = false);
 
 } // namespace dss

@@ -8,22 +8,26 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <mutex>
 #include <unistd.h>
 
 namespace dss {
 namespace {
 
 constexpr std::array<int, 3> signals = {SIGINT, SIGTERM, SIGHUP};
-constexpr std::time_t patience_s = 10;
+/// Signals that come so soon after the first [s] are its copies: `timeout` signals the process and
+/// then its group.
+constexpr std::time_t copies_s = 2;
 
 // A handler may use atomic numbers and plain bytes alone.
-std::atomic<pid_t> child_of_process = 0;
+std::array<std::atomic<pid_t>, 64> children{};
 std::atomic<int> pending = 0; ///< the first signal that came
 std::atomic<std::time_t> pending_since = 0;
 std::atomic<bool> prints = false;
 std::array<char, 512> line = {
-    "dssbench: interrupted: nothing was written; give the command again\n"};
+    "dssbench: interrupted: its files are old or whole; give the command again\n"};
 std::atomic<std::size_t> line_size = std::strlen(line.data());
+std::mutex of_line; ///< between threads; the handler does without
 
 /// Ends the process by the signal, so that its parent sees why it ended.
 void end_by(int signal) {
@@ -33,15 +37,27 @@ void end_by(int signal) {
   ::raise(signal);
 }
 
+/// @return whether there are children
+bool pass_on() {
+  bool has_children = false;
+  for (const auto& child : children)
+    if (const pid_t pid = child; pid > 0) {
+      has_children = true;
+      ::kill(pid, SIGTERM);
+    }
+  return has_children;
+}
+
 void on_signal(int signal) {
   const int error = errno;
-  const pid_t child = child_of_process;
-  const bool is_first = pending.exchange(signal) == 0;
-  if (is_first) pending_since = ::time(nullptr);
-  if (child > 0 && is_first)
-    ::kill(child, SIGTERM);
-  else
+  const std::time_t now = ::time(nullptr);
+  if (pending == 0) {
+    pending_since = now;
+    pending = signal;
+    if (!pass_on()) end_by(signal);
+  } else if (now - pending_since > copies_s) {
     end_by(signal);
+  }
   errno = error;
 }
 
@@ -61,27 +77,49 @@ void handle_interrupts(bool is_silent) {
 }
 
 void say_when_interrupted(const std::string& what) {
-  std::string text = "dssbench: interrupted";
-  if (!what.empty()) text += ": " + what.substr(0, 400);
-  text += '\n';
+  const std::string text = "dssbench: interrupted: " + what.substr(0, 400) + '\n';
+  const std::lock_guard lock(of_line);
   line_size = 0; // a signal between here and the end prints nothing
   std::copy(text.begin(), text.end(), line.begin());
   line_size = text.size();
 }
 
-InterruptedChild::InterruptedChild(pid_t child) {
-  child_of_process = child;
-  if (pending != 0) ::kill(child, SIGTERM); // it came before the child was known
+InterruptsBlocked::InterruptsBlocked() {
+  sigset_t blocked;
+  ::sigemptyset(&blocked);
+  for (const int signal : signals) ::sigaddset(&blocked, signal);
+  ::pthread_sigmask(SIG_BLOCK, &blocked, &before_);
 }
 
-InterruptedChild::~InterruptedChild() { child_of_process = 0; }
+InterruptsBlocked::~InterruptsBlocked() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+void InterruptsBlocked::reset_in_child() const {
+  for (const int signal : signals) {
+    struct sigaction action {};
+    ::sigaction(signal, nullptr, &action);
+    if (action.sa_handler == on_signal) std::signal(signal, SIG_DFL);
+  }
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+InterruptedChild::InterruptedChild(pid_t child, double patience_s)
+    : child_(child), patience_s_(patience_s) {
+  for (auto& place : children) {
+    pid_t expected = 0;
+    if (place.compare_exchange_strong(expected, child_)) return;
+  }
+}
+
+InterruptedChild::~InterruptedChild() {
+  for (auto& place : children) {
+    pid_t expected = child_;
+    if (place.compare_exchange_strong(expected, 0)) break;
+  }
+  if (pending != 0) end_by(pending);
+}
 
 bool InterruptedChild::is_overdue() const {
-  return pending != 0 && ::time(nullptr) - pending_since > patience_s;
-}
-
-void InterruptedChild::end_if_interrupted() {
-  if (pending != 0) end_by(pending);
+  return pending != 0 && double(::time(nullptr) - pending_since) > patience_s_;
 }
 
 } // namespace dss

@@ -33,7 +33,7 @@ TemporaryFile::TemporaryFile(const std::string& text, const std::string& suffix)
   std::error_code error; // then the directory does not exist, and making the file says so
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
   path_ = ((error ? "/tmp" : folder) / ("dssbench-XXXXXX" + suffix)).string();
-  const int descriptor = make_temporary(path_, int(suffix.size()), 0600);
+  const int descriptor = make_temporary(path_, 0600);
   const int reason = descriptor < 0 ? errno : write_all(descriptor, text);
   if (reason == 0) return;
   if (descriptor >= 0) {

@@ -75,7 +75,9 @@ bool CommandFiles::is_in_family(const Entry& one, const Entry& family) {
 }
 
 bool CommandFiles::are_one_file(const Entry& one, const Entry& other) {
-  if (is_in_family(one, other) || is_in_family(other, one)) return true;
+  // Which members or frames there will be is not known here, so that a family meets outputs alone.
+  if (one.is_written && other.is_written && (is_in_family(one, other) || is_in_family(other, one)))
+    return true;
   if (!one.pattern.empty() || !other.pattern.empty()) return false;
   std::error_code error; // hard links are found where both files exist
   return place_of(one.path) == place_of(other.path) || fs::equivalent(one.path, other.path, error);

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -66,6 +67,9 @@ void require_distinct_files(const RunRequest& request, const std::string& analys
   if (has_members) {
     files.write_members("--state", request.state_csv);
     files.write_members("--output", request.output);
+    if (request.frames > 0 && !request.output.empty())
+      files.write_members("--output",
+                          std::filesystem::path(request.output).replace_extension(".pvd").string());
   } else {
     files.write("--state", request.state_csv);
     if (request.frames > 0 || analysis == "modal")

@@ -1,8 +1,8 @@
 #include "experiments/measure/study_lock.hpp"
 #include "solver/error.hpp"
-#include "solver/io/atomic_file.hpp"
 #include "solver/io/temporaries.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -24,6 +24,17 @@ bool is_file_of(int descriptor, const std::string& path) {
          open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
+[[noreturn]] void refuse(const std::string& path, int descriptor) {
+  char bytes[200] = {};
+  const ssize_t count = ::read(descriptor, bytes, sizeof bytes - 1);
+  ::close(descriptor);
+  std::string holder(bytes, std::size_t(std::max<ssize_t>(count, 0)));
+  if (holder.empty()) holder = "another process";
+  throw InputError(fmt::format("{}: {} measures this study here; wait for its end, or give "
+                               "another --out",
+                               path, holder.substr(0, holder.find('\n'))));
+}
+
 } // namespace
 
 StudyLock::StudyLock(const std::string& path) : path_(path + ".lock") {
@@ -37,14 +48,10 @@ StudyLock::StudyLock(const std::string& path) : path_(path + ".lock") {
       continue;
     }
     const int reason = errno;
-    ::close(descriptor_);
-    if (reason != EWOULDBLOCK)
-      throw InputError(fmt::format("{}: cannot lock: {}", path_, std::strerror(reason)));
-    std::string holder = read_text(path_);
-    if (holder.empty()) holder = "another process";
-    throw InputError(fmt::format("{}: {} measures this study here; wait for its end, or give "
-                                 "another --out",
-                                 path, holder.substr(0, holder.find('\n'))));
+    if (reason == EWOULDBLOCK) refuse(path, descriptor_);
+    // Some file systems of clusters have no locks. Studies there are measured without.
+    ::unlink(path_.c_str());
+    return;
   }
   remember_temporary(path_);
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -56,8 +63,8 @@ StudyLock::StudyLock(const std::string& path) : path_(path + ".lock") {
 }
 
 StudyLock::~StudyLock() {
+  forget_temporary(path_); // first: after the removal the name may be another process's
   ::unlink(path_.c_str());
-  forget_temporary(path_);
   ::close(descriptor_);
 }
 

@@ -5,7 +5,7 @@
 namespace dss {
 
 /// Holds the records of a study for this process. The system gives the lock back when the process
-/// ends, however it ends.
+/// ends, however it ends. Where the file system has no locks, nothing is held.
 class StudyLock {
 public:
   /// @param path  PATH.lock is made beside the records

@@ -68,7 +68,8 @@ int run_study(Study& study, const StudyHead& head, const StudyOptions& options) 
   make_directories(paths);
   const StudyLock lock(paths.raw);
   if (study.keeps_records())
-    say_when_interrupted(fmt::format("{} keeps what was measured; go on with --resume", paths.raw));
+    say_when_interrupted(
+        fmt::format("{} keeps the records that were measured; go on with --resume", paths.raw));
   else
     say_when_interrupted(fmt::format("{} is as it was before", paths.table));
   Progress progress;

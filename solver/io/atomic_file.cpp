@@ -31,7 +31,7 @@ AtomicFile::AtomicFile(std::string target) : target_(std::move(target)) {
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
     temporary_ = target_ + ".XXXXXX.part";
-    descriptor_ = make_temporary(temporary_, 5, 0666);
+    descriptor_ = make_temporary(temporary_, 0666);
   }
   if (descriptor_ < 0) {
     temporary_.clear();
@@ -82,6 +82,11 @@ void AtomicFile::fail(const char* what, int reason) const {
 }
 
 void require_writable(const std::string& target) {
+  // A pipe must not be opened twice: its reader would see an end. Directories are refused below.
+  struct stat status {};
+  const bool is_pipe_or_device =
+      ::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+  if (is_pipe_or_device && ::access(target.c_str(), W_OK) == 0) return;
   AtomicFile probe(target); // its destructor removes the temporary file, because nothing was
                             // committed
 }

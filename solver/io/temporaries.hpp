@@ -7,10 +7,9 @@ namespace dss {
 
 /// Creates a file that did not exist, and opens it for writing.
 /// @param pattern  its name, with XXXXXX in place of random letters; receives the name
-/// @param suffix_length  number of characters behind XXXXXX
 /// @param mode  permissions, before the umask
 /// @return the descriptor, or -1 with errno
-int make_temporary(std::string& pattern, int suffix_length, unsigned mode);
+int make_temporary(std::string& pattern, unsigned mode);
 
 /// Adds a file that exists: it is removed too if a signal ends the process.
 void remember_temporary(const std::string& path);

@@ -1,7 +1,7 @@
-/* Preloaded into the program: the n-th call that changes a file fails, with DSS_FAIL_AT=n and
- * DSS_FAIL_ERRNO (default: ENOSPC). Pipes and terminals are left alone. Calls are counted in each
- * process by itself. With DSS_FAIL_COUNT=FILE the process appends its number of calls there when it
- * ends. */
+/* Preloaded into the program: the n-th call of open (to write), write, rename, ftruncate, fsync or
+ * mkdir fails, with DSS_FAIL_AT=n and DSS_FAIL_ERRNO (default: ENOSPC). Pipes and terminals are left
+ * alone. Calls are counted in each process by itself. With DSS_FAIL_COUNT=FILE the process appends
+ * its number of calls there when it ends. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -52,10 +52,6 @@ int ftruncate(int descriptor, off_t length) {
 }
 
 int fsync(int descriptor) { return fails() ? -1 : NEXT(fsync)(descriptor); }
-
-int mkostemps(char* pattern, int suffix_length, int flags) {
-  return fails() ? -1 : NEXT(mkostemps)(pattern, suffix_length, flags);
-}
 
 int mkdir(const char* path, mode_t mode) { return fails() ? -1 : NEXT(mkdir)(path, mode); }
 

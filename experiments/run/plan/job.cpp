@@ -115,7 +115,8 @@ JobResult run_job(int ranks, int threads, const std::vector<std::string>& argume
   ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
   ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none",
            0); // Single-copy transfers fail in containers without ptrace.
-  const ChildResult job = run_child(mpirun_path(), line, std::numeric_limits<double>::infinity());
+  const ChildResult job =
+      run_child(mpirun_path(), line, std::numeric_limits<double>::infinity(), true);
   JobResult result{exit_success, job.output, job.error, ""};
   if (job.exit_code == exit_success && job.signal == 0) return result;
   const bool is_own = job.exit_code == exit_bad_input || job.exit_code == exit_unstable;

@@ -45,13 +45,19 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
     path.replace_filename(fmt::format("{}_{:04}.vtu", path.stem().string(), frames_.size()));
   try {
     write_vtu(path.string(), problem, state, finite_stress(problem, state, equations));
+    frames_.push_back({path.filename().string(), time});
+    if (is_series_) keep_index();
   } catch (...) {
     discard();
     throw;
   }
-  frames_.push_back({path.filename().string(), time});
-  if (!is_series_) return;
+}
+
+void FrameSeries::keep_index() {
+  constexpr double interval_s = 1; // an index of thousands of frames at each of them takes long
+  if (frames_.size() > 1 && seconds_since(indexed_) < interval_s) return;
   write_pvd(index(), frames_);
+  indexed_ = Clock::now();
   say_when_interrupted(fmt::format("{} lists the frames so far; give the command again", index()));
 }
 
@@ -68,6 +74,7 @@ std::string FrameSeries::index() const {
 
 std::string FrameSeries::finish() const {
   if (!is_series_ || output_.empty()) return output_;
+  write_pvd(index(), frames_);
   return fmt::format("{}, which lists {} files {} to {}", index(), frames_.size(),
                      frames_.front().file, frames_.back().file);
 }

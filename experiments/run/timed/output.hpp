@@ -1,5 +1,6 @@
 #pragma once
 /// Output files of a run. They include the stress of each element, recovered from the state.
+#include "experiments/base/clock.hpp"
 #include "solver/io/vtu.hpp"
 
 #include <string>
@@ -17,21 +18,23 @@ class FrameSeries {
 public:
   FrameSeries(std::string output, bool is_series)
       : output_(std::move(output)), is_series_(is_series) {}
-  /// Writes the state at a time [s], and the index of a series so far. Does nothing without an
-  /// output.
+  /// Writes the state at a time [s]. The index of a series so far is at most a second older. Does
+  /// nothing without an output.
   void add(const Problem& problem, const std::vector<double>& state, Rotation equations,
            double time);
-  /// The written files as text; empty without an output.
+  /// Writes the index of a series. @return the written files as text; empty without an output
   std::string finish() const;
   /// Removes the written files.
   void discard();
 
 private:
   std::string index() const;
+  void keep_index();
 
   std::string output_;
   bool is_series_;
   std::vector<Frame> frames_;
+  Clock::time_point indexed_;
 };
 
 } // namespace dss

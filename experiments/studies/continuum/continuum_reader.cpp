@@ -2,6 +2,8 @@
 #include "experiments/measure/study_names.hpp"
 #include "experiments/studies/continuum/continuum_study.hpp"
 
+#include <fmt/format.h>
+
 namespace dss {
 namespace {
 

@@ -4,6 +4,7 @@
 #include "solver/numerics/stability.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace dss {
 

@@ -5,6 +5,7 @@
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <regex>
 #include <set>
 
