@@ -52,8 +52,7 @@ mutants: dependencies
 	@mkdir -p build/mutants
 	@git ls-files -z | xargs -0 cp --parents -t build/mutants
 	@cmake --preset debug -S build/mutants -DDSS_UNITY=OFF -DDSS_VARIANTS=reference >/dev/null
-	@tests/mutants/mutate.py --tree build/mutants --build build/mutants/build/debug \
-	  --count $(MUTANTS) --json build/mutants.json
+	@tests/mutants/mutate.py --tree build/mutants --count $(MUTANTS) --json build/mutants.json
 
 # Kills and failing writes, KILLS and WRITES of them (tests/faults/campaign.py).
 KILLS ?= 1000

@@ -170,15 +170,9 @@ void RecordFile::append(const Record& record) {
   if (descriptor_ < 0) return start_with(record);
   const std::string line = csv_line(columns_, record);
   // One write per row: a reader, also after a crash, finds whole rows and at most one torn row.
-  std::size_t done = 0;
-  while (done < line.size()) {
-    const ssize_t count = ::write(descriptor_, line.data() + done, line.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0)
-      throw InputError(
-          fmt::format("{}: cannot append: {}; rows before stay", path_, std::strerror(errno)));
-    done += std::size_t(count);
-  }
+  if (const int reason = write_all(descriptor_, line); reason != 0)
+    throw InputError(
+        fmt::format("{}: cannot append: {}; rows before stay", path_, std::strerror(reason)));
   ::fdatasync(descriptor_); // some files cannot be synced; the row is written anyway
 }
 

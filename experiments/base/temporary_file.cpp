@@ -1,5 +1,6 @@
 #include "experiments/base/temporary_file.hpp"
 #include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
 #include "solver/io/temporaries.hpp"
 
 #include <cerrno>
@@ -11,20 +12,10 @@
 namespace dss {
 namespace {
 
-/// Writes all of it, and closes the file. @return 0, or the reason
-int write_all(int descriptor, const std::string& text) {
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      const int reason = errno;
-      ::close(descriptor);
-      return reason;
-    }
-    done += std::size_t(count);
-  }
-  return ::close(descriptor) == 0 ? 0 : errno;
+/// Writes the text, and closes the file. @return 0, or the reason
+int write_and_close(int descriptor, const std::string& text) {
+  const int reason = write_all(descriptor, text);
+  return ::close(descriptor) == 0 || reason != 0 ? reason : errno;
 }
 
 } // namespace
@@ -34,7 +25,7 @@ TemporaryFile::TemporaryFile(const std::string& text, const std::string& suffix)
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
   path_ = ((error ? "/tmp" : folder) / ("dssbench-XXXXXX" + suffix)).string();
   const int descriptor = make_temporary(path_, 0600);
-  const int reason = descriptor < 0 ? errno : write_all(descriptor, text);
+  const int reason = descriptor < 0 ? errno : write_and_close(descriptor, text);
   if (reason == 0) return;
   if (descriptor >= 0) {
     ::unlink(path_.c_str());

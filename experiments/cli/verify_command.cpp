@@ -9,6 +9,7 @@
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "solver/nearest_name.hpp"
+#include "solver/scene/scene_text.hpp"
 #include "variants/isa/denormals.hpp"
 #include "variants/loading/loader.hpp"
 
@@ -253,7 +254,10 @@ std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments,
 
 int verify(VerifyArguments arguments) {
   if (arguments.ranks.empty() && job_rank().is_started) arguments.ranks = {job_rank().ranks};
-  for (const std::string& scene : arguments.scenes) require_sound_output(scene, arguments.json);
+  CommandFiles files;
+  for (const std::string& scene : arguments.scenes) files.read("SCENE", scene_path(scene));
+  files.write("--json", arguments.json);
+  files.require_distinct();
   if (!arguments.json.empty() && arguments.json != "-") require_writable(arguments.json);
   if (job_rank().is_started && arguments.ranks != std::vector<int>{job_rank().ranks})
     throw InputError(fmt::format("--ranks: this job has {}; give that, or none", job_rank().ranks));

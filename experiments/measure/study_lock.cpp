@@ -1,13 +1,13 @@
 #include "experiments/measure/study_lock.hpp"
+#include "experiments/run/plan/context.hpp"
 #include "solver/error.hpp"
+#include "solver/io/atomic_file.hpp"
 #include "solver/io/temporaries.hpp"
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <fcntl.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -54,12 +54,9 @@ StudyLock::StudyLock(const std::string& path) : path_(path + ".lock") {
     return;
   }
   remember_temporary(path_);
-  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  const std::string text =
-      fmt::format("process {}, since {:%Y-%m-%d %H:%M:%S} UTC,\n", ::getpid(), fmt::gmtime(now));
+  const std::string text = fmt::format("process {}, since {},\n", ::getpid(), measurement_time());
   // Only for messages: the lock holds without it.
-  if (::ftruncate(descriptor_, 0) != 0 || ::write(descriptor_, text.data(), text.size()) < 0)
-    return;
+  if (::ftruncate(descriptor_, 0) == 0) write_all(descriptor_, text);
 }
 
 StudyLock::~StudyLock() {

@@ -52,13 +52,7 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::flush() {
-  std::size_t done = 0;
-  while (done < buffer_.size()) {
-    const ssize_t count = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail("write", errno);
-    done += std::size_t(count);
-  }
+  if (const int reason = write_all(descriptor_, buffer_); reason != 0) fail("write", reason);
   buffer_.clear();
 }
 
@@ -79,6 +73,16 @@ void AtomicFile::fail(const char* what, int reason) const {
   throw InputError(fmt::format(
       "{}: cannot {}: {}; give a path in a directory that exists, may be written and has space",
       target_, what, std::strerror(reason)));
+}
+
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    bytes.remove_prefix(std::size_t(count));
+  }
+  return 0;
 }
 
 void require_writable(const std::string& target) {

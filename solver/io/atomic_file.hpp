@@ -33,6 +33,9 @@ private:
   int descriptor_ = -1;
 };
 
+/// Writes all bytes to an open file. @return 0, or the errno of the write that failed
+int write_all(int descriptor, std::string_view bytes);
+
 /// Checks, before a long computation, that a file can be created at `target`. Leaves nothing
 /// behind.
 /// @throws InputError if it cannot

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t most_files = 64, most_characters = 4096;
 constexpr std::string_view random_place = "XXXXXX";
+constexpr std::size_t letters_of_name = 8;
 constexpr int most_tries = 100;
 
 enum place_state : int { is_free, is_changing, is_used };
@@ -37,7 +38,7 @@ std::string random_letters() {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
   std::random_device device;
   std::uniform_int_distribution<std::size_t> any(0, letters.size() - 1);
-  std::string text(random_place.size() + 2, ' ');
+  std::string text(letters_of_name, ' ');
   for (char& c : text) c = letters[any(device)];
   return text;
 }

@@ -2,7 +2,7 @@
 """Plants small mistakes into the sources one by one, and counts those that the tests find.
 
     make mutants                     # all areas of areas.json, a sample of each
-    tests/mutants/mutate.py --tree build/mutants/tree --area statistics --count 0   # all of one
+    tests/mutants/mutate.py --tree build/mutants --area statistics --count 0   # all of one
 
 It works on a copy of the tree, so that the sources never change. A mutant is killed if a test
 fails, crashes or takes ten times as long; one that does not compile does not count. Survivors that
@@ -14,6 +14,7 @@ import collections
 import json
 import pathlib
 import random
+import signal
 import subprocess
 import sys
 import time
@@ -94,15 +95,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tree", type=pathlib.Path, required=True, help="a copy of the sources")
-    parser.add_argument("--build", type=pathlib.Path, help="default: TREE/build/ci")
+    parser.add_argument("--build", type=pathlib.Path, help="default: TREE/build/debug")
     parser.add_argument("--area", action="append", help="areas of areas.json (default: all)")
     parser.add_argument("--count", type=int, default=60, help="mutants an area; 0: all")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--goal", type=float, default=0.95)
     parser.add_argument("--json", type=pathlib.Path, help="file for the result")
     arguments = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # a mutant is taken back first
     tree = arguments.tree.resolve()
-    build = (arguments.build or tree / "build" / "ci").resolve()
+    build = (arguments.build or tree / "build" / "debug").resolve()
     areas = json.loads((HERE / "areas.json").read_text())
     known = json.loads((HERE / "known.json").read_text())
     result, is_met = {}, True

@@ -36,16 +36,17 @@ class Mutant:
     old: str
     new: str
     code: str
+    column: int  # in `code`, from 1 on
 
     def applied_to(self, text):
         return text[:self.begin] + self.new + text[self.end:]
 
     def name(self):
-        return f"{self.path}:{self.line}: `{self.code}`: `{self.old}` becomes `{self.new}`"
+        return f"line {self.line}: {self.key()}"
 
     def key(self):
         """What a list of known mutants names; lines may move."""
-        return f"{self.path}: `{self.code}`: `{self.old}` becomes `{self.new}`"
+        return f"{self.path}: `{self.code}`: `{self.old}` at {self.column} becomes `{self.new}`"
 
 
 def without_texts(text):
@@ -71,5 +72,6 @@ def mutants_of(path, text):
                 old = match.group()
                 for new in replacements:
                     found.append(Mutant(path, number, begin + match.start(), begin + match.end(),
-                                        old, new.format(n=old), line.strip()))
+                                        old, new.format(n=old), line.strip(),
+                                        match.start() - len(line) + len(line.lstrip()) + 1))
     return sorted(found, key=lambda m: (m.begin, m.new))
