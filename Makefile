@@ -11,7 +11,7 @@ export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
-.PHONY: verify-cpu verify-devices test-aarch64 fuzz mutants faults
+.PHONY: verify-cpu verify-devices test-aarch64 fuzz mutants faults restarts
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -61,6 +61,12 @@ faults: TARGETS := --target dssbench failing_calls
 faults: build
 	@/usr/bin/python3 tests/faults/campaign.py $(BUILD)/dssbench \
 	  $$(find $(BUILD)/tests/faults -name '*failing_calls.so') --kills $(KILLS) --writes $(WRITES)
+
+# Random runs, RESTARTS of them, interrupted and continued elsewhere (tests/faults/restarts.py).
+RESTARTS ?= 1000
+restarts: TARGETS := --target dssbench
+restarts: build
+	@tests/faults/restarts.py $(BUILD)/dssbench --runs $(RESTARTS)
 
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.

@@ -68,8 +68,8 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
 constexpr double longest_wait_s = 1;
 
 /// Reads both pipes until they end or the limit is reached. Returns true if they ended.
-bool drain(const Pipes& pipes, const InterruptedChild& child, Clock::time_point start,
-           double limit_s, ChildResult& result) {
+bool drain(const Pipes& pipes, InterruptedChild& child, Clock::time_point start, double limit_s,
+           ChildResult& result) {
   std::array<pollfd, 2> ends = {{{pipes.output_[0], POLLIN, 0}, {pipes.error_[0], POLLIN, 0}}};
   const std::array<std::string*, 2> texts = {&result.output, &result.error};
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {

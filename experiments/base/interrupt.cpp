@@ -8,8 +8,11 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <fmt/format.h>
+#include <fstream>
 #include <mutex>
 #include <unistd.h>
+#include <utility>
 
 namespace dss {
 namespace {
@@ -24,6 +27,9 @@ std::array<std::atomic<pid_t>, 64> children{};
 std::atomic<int> pending = 0; ///< the first signal that came
 std::atomic<std::time_t> pending_since = 0;
 std::atomic<bool> prints = false;
+std::atomic<bool> is_deferred = false;
+std::atomic<bool> is_for_ranks = false;
+double time_to_save_s = 0; ///< of ranks
 std::array<char, 512> line = {
     "dssbench: interrupted: its files are old or whole; give the command again\n"};
 std::atomic<std::size_t> line_size = std::strlen(line.data());
@@ -43,7 +49,7 @@ bool pass_on() {
   for (const auto& child : children)
     if (const pid_t pid = child; pid > 0) {
       has_children = true;
-      ::kill(pid, SIGTERM);
+      if (!is_for_ranks) ::kill(pid, SIGTERM);
     }
   return has_children;
 }
@@ -54,11 +60,18 @@ void on_signal(int signal) {
   if (pending == 0) {
     pending_since = now;
     pending = signal;
-    if (!pass_on()) end_by(signal);
+    if (!is_deferred && !pass_on()) end_by(signal);
   } else if (now - pending_since > copies_s) {
     end_by(signal);
   }
   errno = error;
+}
+
+void handle(int signal) {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(signal, &action, nullptr);
 }
 
 } // namespace
@@ -68,11 +81,7 @@ void handle_interrupts(bool is_silent) {
   for (const int signal : signals) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
-    if (before.sa_handler == SIG_IGN) continue;
-    struct sigaction action {};
-    action.sa_handler = on_signal;
-    action.sa_flags = SA_RESTART;
-    ::sigaction(signal, &action, nullptr);
+    if (before.sa_handler != SIG_IGN) handle(signal);
   }
 }
 
@@ -82,6 +91,30 @@ void say_when_interrupted(const std::string& what) {
   line_size = 0; // a signal between here and the end prints nothing
   std::copy(text.begin(), text.end(), line.begin());
   line_size = text.size();
+}
+
+InterruptsDeferred::InterruptsDeferred() {
+  is_deferred = true;
+  handle(SIGUSR1);
+}
+
+InterruptsDeferred::~InterruptsDeferred() {
+  is_deferred = false;
+  if (pending != 0) end_by(pending);
+  std::signal(SIGUSR1, SIG_DFL);
+}
+
+bool InterruptsDeferred::is_asked() const { return pending != 0; }
+
+void InterruptsDeferred::end(const std::string& what) const {
+  say_when_interrupted(what);
+  end_by(pending);
+  ::_exit(128 + pending); // the signal was ignored
+}
+
+void let_ranks_save(double patience_s) {
+  time_to_save_s = patience_s;
+  is_for_ranks = true;
 }
 
 InterruptsBlocked::InterruptsBlocked() {
@@ -118,8 +151,15 @@ InterruptedChild::~InterruptedChild() {
   if (pending != 0) end_by(pending);
 }
 
-bool InterruptedChild::is_overdue() const {
-  return pending != 0 && double(::time(nullptr) - pending_since) > patience_s_;
+bool InterruptedChild::is_overdue() {
+  if (pending != 0 && is_for_ranks && !std::exchange(has_told_, true)) {
+    std::ifstream ranks(fmt::format("/proc/{0}/task/{0}/children", child_));
+    bool has_ranks = false;
+    for (pid_t rank = 0; ranks >> rank; has_ranks = true) ::kill(rank, SIGUSR1);
+    if (!has_ranks) ::kill(child_, SIGTERM);
+  }
+  return pending != 0 &&
+         double(::time(nullptr) - pending_since) > std::max(patience_s_, time_to_save_s);
 }
 
 } // namespace dss

@@ -14,6 +14,27 @@ void handle_interrupts(bool is_silent);
 /// What the line says after "interrupted: "; at most 400 characters.
 void say_when_interrupted(const std::string& what);
 
+/// As long as it lives, the first signal asks only: whoever sees that saves its work and calls
+/// end(). A second signal, after two seconds, ends the process at once. SIGUSR1 asks too: launchers
+/// and batch systems send it.
+class InterruptsDeferred {
+public:
+  InterruptsDeferred();
+  InterruptsDeferred(const InterruptsDeferred&) = delete;
+  InterruptsDeferred& operator=(const InterruptsDeferred&) = delete;
+  /// Ends the process if a signal came that nobody saw.
+  ~InterruptsDeferred();
+  bool is_asked() const;
+  /// Ends the process by the signal that came.
+  /// @param what  the line says it after "interrupted: "
+  [[noreturn]] void end(const std::string& what) const;
+};
+
+/// From now on a signal goes as SIGUSR1 to the children of this process's child, which have this
+/// time [s] to save their work: mpirun does not pass it on, and kills its ranks one second after a
+/// SIGTERM. Ranks of other machines hear of it from those of this one.
+void let_ranks_save(double patience_s);
+
 /// Blocks the signals in this thread as long as it lives, and gives a forked child the default
 /// handlers: a signal between fork and exec is the parent's.
 class InterruptsBlocked {
@@ -39,12 +60,14 @@ public:
   InterruptedChild(const InterruptedChild&) = delete;
   InterruptedChild& operator=(const InterruptedChild&) = delete;
   ~InterruptedChild();
-  /// True if the child was asked to end, and so long ago that it should be killed.
-  bool is_overdue() const;
+  /// Call it again and again while waiting for the child: it tells ranks of a signal that came.
+  /// @return true if the child was asked to end, and so long ago that it should be killed
+  bool is_overdue();
 
 private:
   pid_t child_;
   double patience_s_;
+  bool has_told_ = false;
 };
 
 } // namespace dss

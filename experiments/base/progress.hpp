@@ -15,6 +15,7 @@ public:
   ~Progress();
   /// Shows that `done` of `total` is done (in any unit), and the item done last.
   void show(double done, double total, const std::string& what);
+  bool is_terminal() const { return is_terminal_; }
   /// Prints a line that stays above the bar.
   void note(const std::string& line);
 

@@ -1,7 +1,9 @@
+#include "experiments/base/interrupt.hpp"
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/run_summary.hpp"
+#include "experiments/run/checkpoint/checkpoint.hpp"
 #include "experiments/run/ensemble/ensemble_plan.hpp"
 #include "experiments/run/ensemble/ensemble_run.hpp"
 #include "experiments/run/plan/job.hpp"
@@ -63,7 +65,13 @@ void require_distinct_files(const RunRequest& request, const std::string& analys
   if (is_file(request.decomposition)) files.read("--decomposition", request.decomposition);
   files.read("--check-state", request.check_state);
   files.read("--reference", request.reference);
+  // A run may go on saving itself where it was saved.
+  if (request.restart != request.checkpoint) files.read("--restart", request.restart);
   files.write("--json", request.json);
+  if (!request.checkpoint.empty()) {
+    files.write("--checkpoint", request.checkpoint);
+    files.write("--checkpoint", earlier_checkpoint(request.checkpoint));
+  }
   if (has_members) {
     files.write_members("--state", request.state_csv);
     files.write_members("--output", request.output);
@@ -100,6 +108,11 @@ int run(const CLI::App& command, const RunArguments& arguments) {
     throw InputError("--ensemble: give a file that ends in .json or .csv, or a number of members");
   if (analysis != "dynamic" && !request.ensemble.empty())
     throw InputError("--ensemble: members are computed in time; give --analysis dynamic");
+  if (!request.ensemble.empty() && !(request.checkpoint.empty() && request.restart.empty()))
+    throw InputError("--ensemble: ensembles have no checkpoints; leave --checkpoint and --restart "
+                     "out, or run members by themselves");
+  if (command.count("--checkpoint-every") > 0 && request.checkpoint.empty())
+    throw InputError("--checkpoint-every: give --checkpoint FILE, too");
   require_distinct_files(request, analysis);
   if (analysis != "dynamic") return run_analysis(analysis, request, arguments.analysis);
   // the user started mpirun
@@ -107,6 +120,13 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   require_no_tile_of_parts(request);
   if (request.ranks > 1 && !job_rank().is_started) {
     require_startable(request);
+    if (!request.checkpoint.empty()) {
+      constexpr double patience_s = 600; // a large state takes long to write
+      let_ranks_save(patience_s);
+      say_when_interrupted(fmt::format("{0} has the state if the run had begun; give the command "
+                                       "again with --restart {0}",
+                                       request.checkpoint));
+    }
     return run_on_ranks(request.ranks, request.threads);
   }
   request.is_root = job_rank().is_root();
@@ -247,6 +267,28 @@ void add_output_options(CLI::App& command, RunRequest& request) {
   command.add_option("--json", request.json, "File for the result, or - for standard output");
 }
 
+/// Options of saved runs.
+void add_checkpoint_options(CLI::App& command, RunRequest& request) {
+  command
+      .add_option("--checkpoint", request.checkpoint,
+                  "File that says where the run stands, at times, at its end, and when a signal "
+                  "ends it; the one before is kept as FILE.previous")
+      ->type_name("FILE")
+      ->group("Checkpoints");
+  command
+      .add_option("--checkpoint-every", request.checkpoint_every,
+                  "Time or number of steps between two checkpoints: 60s, 10000")
+      ->capture_default_str()
+      ->type_name("TIME|STEPS")
+      ->group("Checkpoints");
+  command
+      .add_option("--restart", request.restart,
+                  "Continue the run of a checkpoint. The bits are those of an uninterrupted run, "
+                  "with any --threads, --ranks and --variant that rounds alike")
+      ->type_name("FILE")
+      ->group("Checkpoints");
+}
+
 /// Options for studies.
 void add_check_options(CLI::App& command, RunRequest& request) {
   command
@@ -308,6 +350,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   add_model_options(*command, request);
   add_step_options(*command, request);
   add_output_options(*command, request);
+  add_checkpoint_options(*command, request);
   add_check_options(*command, request);
   command->footer("Example: dssbench run plate_paper --set n=100 --steps 500 --variant avx2 "
                   "--threads 2 --output plate.vtu");

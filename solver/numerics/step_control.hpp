@@ -56,6 +56,11 @@ public:
   double dt() const { return dt_; }
   /// Error over tolerance of the last judged step.
   double error() const { return error_; }
+  /// Visits what a continued run needs (solver/io/kept_numbers.hpp).
+  template <class Visit>
+  void each_kept(Visit&& visit) {
+    visit(dt_), visit(error_), visit(error_before_), visit(was_rejected_), visit(largest_);
+  }
 
 private:
   double error_of(const StepMaxima& maxima,

@@ -11,13 +11,13 @@
 namespace dss {
 namespace {
 
-VoxelGrid full(int nx, int ny, int nz) {
+VoxelGrid whole_grid(int nx, int ny, int nz) {
   return {nx, ny, nz,
           std::vector<std::uint8_t>(std::size_t(nx) * std::size_t(ny) * std::size_t(nz), 1)};
 }
 
 VoxelGrid scattered(int nx, int ny, int nz, unsigned seed) {
-  VoxelGrid grid = full(nx, ny, nz);
+  VoxelGrid grid = whole_grid(nx, ny, nz);
   std::mt19937 generator(seed);
   for (auto& cell : grid.occupied) cell = generator() % 3 != 0;
   return grid;
@@ -46,7 +46,7 @@ std::set<Link> links_by_search(const VoxelGrid& grid, std::size_t first_element)
 
 TEST(lattice, a_box_has_the_links_of_its_inner_faces) {
   Lattice lattice;
-  append_body(lattice, full(5, 4, 3), 0);
+  append_body(lattice, whole_grid(5, 4, 3), 0);
   EXPECT_EQ(lattice.element_count, 60U);
   EXPECT_EQ(lattice.rows.size(), 12U);
   EXPECT_EQ(lattice.link_count(), 4U * 4 * 3 + 5U * 3 * 3 + 5U * 4 * 2);
@@ -54,9 +54,9 @@ TEST(lattice, a_box_has_the_links_of_its_inner_faces) {
 
 TEST(lattice, rows_reach_one_row_in_a_plate_and_a_plane_in_a_block) {
   Lattice row, plate, block;
-  append_body(row, full(9, 1, 1), 0);
-  append_body(plate, full(9, 7, 1), 0);
-  append_body(block, full(9, 7, 2), 0);
+  append_body(row, whole_grid(9, 1, 1), 0);
+  append_body(plate, whole_grid(9, 7, 1), 0);
+  append_body(block, whole_grid(9, 7, 2), 0);
   EXPECT_EQ(row.row_reach(), 0);
   EXPECT_EQ(plate.row_reach(), 1);
   EXPECT_EQ(block.row_reach(), 7);
@@ -65,7 +65,7 @@ TEST(lattice, rows_reach_one_row_in_a_plate_and_a_plane_in_a_block) {
 TEST(lattice, links_of_any_mask_are_those_between_neighbouring_cells) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Lattice lattice;
-    append_body(lattice, full(2, 1, 1), 0); // so that numbers do not start at 0
+    append_body(lattice, whole_grid(2, 1, 1), 0); // so that numbers do not start at 0
     const VoxelGrid grid = scattered(7, 5, 4, seed);
     append_body(lattice, grid, 1);
     std::set<Link> expected = links_by_search(grid, 2), found;
@@ -92,7 +92,7 @@ TEST(lattice, elements_are_visited_in_order_of_z_then_y_then_x) {
 }
 
 TEST(lattice, rows_without_a_cell_do_not_exist_and_cut_the_neighbourhood) {
-  VoxelGrid grid = full(3, 3, 1);
+  VoxelGrid grid = whole_grid(3, 3, 1);
   for (std::size_t x = 0; x < 3; ++x) grid.occupied[3 + x] = 0;
   Lattice lattice;
   append_body(lattice, grid, 0);

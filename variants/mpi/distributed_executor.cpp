@@ -25,6 +25,8 @@ DistributedExecutor::DistributedExecutor(const Setup& asked)
   for (const double workers : world_.gather(part_->executor().workers())) workers_ += int(workers);
   for (const double bytes : world_.gather(double(part_->executor().bytes())))
     bytes_ += std::size_t(bytes);
+  const int kept = dss::kept_fields(part_->executor());
+  kept_fields_ = world_.least(kept) == world_.largest(kept) ? kept : 0;
 }
 
 template <class Visit>
@@ -62,6 +64,25 @@ void DistributedExecutor::read(std::size_t first, std::span<double> fields) {
                  local, fields.subspan((global - first) * field_count, count * field_count));
            });
   world_.join(fields);
+}
+
+void DistributedExecutor::save(std::size_t first, std::span<double> kept) {
+  const auto width = std::size_t(kept_fields_);
+  std::fill(kept.begin(), kept.end(), 0.0);
+  each_own(
+      first, kept.size() / width, [&](std::size_t local, std::size_t global, std::size_t count) {
+        dss::save(part_->executor(), local, kept.subspan((global - first) * width, count * width));
+      });
+  world_.join(kept);
+}
+
+void DistributedExecutor::restore(std::size_t first, std::span<const double> kept) {
+  const auto width = std::size_t(kept_fields_);
+  each_own(first, kept.size() / width,
+           [&](std::size_t local, std::size_t global, std::size_t count) {
+             dss::restore(part_->executor(), local,
+                          kept.subspan((global - first) * width, count * width));
+           });
 }
 
 void DistributedExecutor::derivative(std::span<const double> signals, std::span<double> rates) {

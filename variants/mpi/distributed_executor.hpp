@@ -9,7 +9,10 @@
 namespace dss {
 
 /// All calls are collective, except rank_info, traffic, workers, bytes, schedule and work_alone.
-class DistributedExecutor final : public Executor, public StepTrials, public RankGroup {
+class DistributedExecutor final : public Executor,
+                                  public StepTrials,
+                                  public StateTransfer,
+                                  public RankGroup {
 public:
   explicit DistributedExecutor(const Setup& setup);
   void write(std::size_t first, std::span<const double> fields) override;
@@ -19,9 +22,15 @@ public:
   /// all ranks agree on the first failure.
   Outcome advance(long steps, std::span<const double> signals) override;
   StepTrials* step_trials() override { return this; }
+  StateTransfer* state_transfer() override { return this; }
   RankGroup* rank_group() override { return this; }
   StepMaxima try_step(double dt, std::span<const double> signals) override;
   void accept_step() override { adaptive(part_->executor()).accept_step(); }
+  /// 0 if a rank's variant has none.
+  int kept_fields() const override { return kept_fields_; }
+  void save(std::size_t first, std::span<double> kept) override;
+  /// Every rank gets the same numbers, and takes those of its own elements.
+  void restore(std::size_t first, std::span<const double> kept) override;
   std::string schedule() const override;
   int workers() const override { return workers_; }
   std::size_t bytes() const override { return bytes_; }
@@ -41,7 +50,7 @@ private:
   const Fault fault_;
   RankInfo info_;
   std::optional<DistributedPart> part_;
-  int workers_ = 0;
+  int workers_ = 0, kept_fields_ = 0;
   std::size_t bytes_ = 0;
 };
 

@@ -66,6 +66,15 @@ public:
   const std::vector<double>& good_state() const { return good_state_; }
   const ModelReport& report() const { return report_; }
   void add(const Promotion& promotion) { report_.promotions.push_back(promotion); }
+  /// Visits what a continued run needs, apart from promotions (solver/io/kept_numbers.hpp). The
+  /// present model is the one that it was made with.
+  template <class Visit>
+  void each_kept(Visit&& visit) {
+    visit(interval_), visit(carried_), visit(largest_), visit(estimate_), visit(good_step_);
+    visit(good_state_), visit(good_errors_);
+    visit(report_.largest_rotation), visit(report_.estimate), visit(report_.looks);
+    bound_->each_kept(visit);
+  }
 
 private:
   double estimate_of(const ModelErrorBound& bound, double ahead) const;

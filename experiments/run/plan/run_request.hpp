@@ -38,6 +38,9 @@ struct RunRequest {
   std::string output;                    ///< .vtu file, or empty
   int frames = 0;                        ///< files of a series besides the final one
   std::string state_csv;                 ///< file, or empty
+  std::string checkpoint;                ///< file that says where the run stands, or empty
+  std::string checkpoint_every = "60s";  ///< see parse_checkpoint_interval
+  std::string restart;                   ///< checkpoint that the run continues from, or empty
   std::string json;                      ///< file, "-" for standard output, or empty
   std::string check_state;               ///< file of the oracle's state, or empty
   long check_step = 0;                   ///< step of that state

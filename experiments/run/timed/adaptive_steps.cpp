@@ -29,6 +29,7 @@ AdaptiveSteps::AdaptiveSteps(Executor& executor, const Problem& problem, const M
 
 std::optional<std::string> AdaptiveSteps::advance_to(double stop) {
   while (time_ < stop) {
+    if (visit_before_) visit_before_();
     const double dt = control_.step_within(stop - time_);
     const bool is_last = dt == stop - time_;
     if (step(dt)) {

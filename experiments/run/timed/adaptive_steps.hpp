@@ -33,7 +33,18 @@ public:
   std::optional<std::string> advance_to(double stop);
   /// Calls `visit` with the time [s] after each accepted step from now on.
   void visit_accepted(std::function<void(double)> visit) { visit_accepted_ = std::move(visit); }
+  /// Calls `visit` before each step is tried from now on.
+  void visit_before(std::function<void()> visit) { visit_before_ = std::move(visit); }
   const AdaptiveCounts& counts() const { return counts_; }
+  double time() const { return time_; } ///< that was reached [s]
+  /// Visits what a continued run needs (solver/io/kept_numbers.hpp). The times of the steps before
+  /// are not part of it.
+  template <class Visit>
+  void each_kept(Visit&& visit) {
+    visit(time_), visit(counts_.accepted), visit(counts_.rejected), visit(counts_.least_dt);
+    visit(counts_.largest_dt);
+    control_.each_kept(visit);
+  }
 
 private:
   bool step(double dt);
@@ -47,6 +58,7 @@ private:
   StepControl control_;
   double time_ = 0;
   AdaptiveCounts counts_;
+  std::function<void()> visit_before_;
   std::function<void(double)> visit_accepted_;
 };
 

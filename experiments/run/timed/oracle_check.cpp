@@ -37,12 +37,17 @@ void OracleCheck::look(long step, std::span<const double> state, Rotation equati
   }
   if (!has_tail()) return;
   if (step == tail_start()) tail_state_.assign(state.begin(), state.end());
-  if (step != plan_.steps) return;
+  if (step != plan_.steps || tail_state_.empty()) return;
+  if (!check.is_done) { // a continued run began after the checked state
+    check.is_done = true;
+    check.how = "oracle";
+    check.tolerance = plan_.tolerance().run;
+  }
   const long steps = plan_.steps - tail_start();
   const auto expected = continue_by_oracle(problem, *plan_.method, equations, plan_.dt,
                                            tail_start(), steps, tail_state_);
   check.tail_error = state_error(problem, expected, state);
-  check.how += fmt::format(", and over the last {}", steps);
+  check.how += fmt::format("{} over the last {}", check.how == "oracle" ? "" : ", and", steps);
 }
 
 void judge_check(RunResult& result) {

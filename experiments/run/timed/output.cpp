@@ -40,9 +40,7 @@ void write_state(const std::string& path, const Problem& problem, const std::vec
 void FrameSeries::add(const Problem& problem, const std::vector<double>& state, Rotation equations,
                       double time) {
   if (output_.empty()) return;
-  std::filesystem::path path(output_);
-  if (is_series_)
-    path.replace_filename(fmt::format("{}_{:04}.vtu", path.stem().string(), frames_.size()));
+  const std::filesystem::path path = next_file();
   try {
     write_vtu(path.string(), problem, state, finite_stress(problem, state, equations));
     frames_.push_back({path.filename().string(), time});
@@ -50,6 +48,25 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
   } catch (...) {
     discard();
     throw;
+  }
+}
+
+std::string FrameSeries::next_file() const {
+  std::filesystem::path path(output_);
+  if (is_series_)
+    path.replace_filename(fmt::format("{}_{:04}.vtu", path.stem().string(), frames_.size()));
+  return path.string();
+}
+
+void FrameSeries::go_on(const std::vector<double>& times) {
+  for (const double time : times) {
+    const std::filesystem::path path = next_file();
+    if (!std::filesystem::is_regular_file(path))
+      throw InputError(fmt::format("{}: the frame at t = {:g} s, before the checkpoint, is not "
+                                   "there; give --output and --frames of the interrupted run, or "
+                                   "leave them out",
+                                   path.string(), time));
+    frames_.push_back({path.filename().string(), time});
   }
 }
 

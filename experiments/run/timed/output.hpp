@@ -22,6 +22,9 @@ public:
   /// nothing without an output.
   void add(const Problem& problem, const std::vector<double>& state, Rotation equations,
            double time);
+  /// Goes on with a series whose frames at these times [s] were written before.
+  /// @throws InputError if one of them is missing
+  void go_on(const std::vector<double>& times);
   /// Writes the index of a series. @return the written files as text; empty without an output
   std::string finish() const;
   /// Removes the written files.
@@ -29,6 +32,7 @@ public:
 
 private:
   std::string index() const;
+  std::string next_file() const;
   void keep_index();
 
   std::string output_;

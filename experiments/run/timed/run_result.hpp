@@ -49,6 +49,7 @@ struct RunResult {
   double communication_share = 0;                   ///< share of the wall time, mean over the ranks
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
+  long resumed_step = 0; ///< from which the run continued; 0: it began at the start
   int stages = 0; ///< force evaluations per step
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
   long samples = 1; ///< number of samples, of which the fastest counts

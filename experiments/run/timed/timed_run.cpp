@@ -37,13 +37,16 @@ void TimedRun::run() {
   write_initial_state(*executor_, problem_);
   begin_balance(0);
   if (plan_.adaptive) adaptive_.emplace(adaptive_steps());
+  begin_saving();
   const Traffic before = traffic(*executor_);
   const DeviceUse used_before = device_use(*executor_);
   while (!pass_all_stops())
     if (result_.status != "ok") return;
+  end_saving();
   if (meter_)
     result_.reference = {plan_.reference->times, plan_.reference->error, meter_->result()};
-  put_traffic(*executor_, since(before, traffic(*executor_)), double(result_.steps), result_);
+  put_traffic(*executor_, since(before, traffic(*executor_)),
+              double(result_.steps - result_.resumed_step), result_);
   result_.usage = of_all_ranks(*executor_, result_.usage);
   result_.hybrid = hybrid_info(*executor_);
   result_.device_use = since(used_by_looks_, since(used_before, device_use(*executor_)));
@@ -122,14 +125,15 @@ std::unique_ptr<Executor> TimedRun::created(Model model) {
 }
 
 bool TimedRun::pass_all_stops() {
-  long step = 0;
-  look(step);
+  long step = step_;
+  if (steps_done() == 0) look(step);
   for (const long stop : stops()) {
+    if (is_passed(stop)) continue;
     const bool has_arrived = adaptive_  ? adapt_to(stop)
                              : monitor_ ? advance_watched(step, stop)
                                         : advance_to(step, stop, result_);
     if (!has_arrived || !is_finite_after(stop)) return false;
-    step = stop;
+    step = step_ = stop;
     if (step == plan_.steps && !holds_at_end()) {
       if (!monitor_ || promote(step, 0, Model::spatial, "of what the end has itself")) begin_anew();
       return false;
@@ -159,8 +163,9 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
   // also counts the signals' rows and the wait for the start of other ranks.
   const UsageMeter usage;
   while (step < stop && is_finite) {
+    if (saved_) step_ = step, save_or_end();
     const bool is_very_first = !std::exchange(has_begun_, true);
-    const long count = std::min(is_very_first ? 1 : signal_steps, stop - step);
+    const long count = is_very_first ? 1 : chunk(stop - step);
     const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
     // Lets all ranks start together, so that work of rank 0 alone is not timed.
     if (plan_.plugin->is_distributed) gather(*executor_, 0);
@@ -172,6 +177,7 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
     is_finite = outcome.is_finite;
     if (!is_finite) report_breakdown(step + outcome.step, outcome, result);
     step += count;
+    show_progress(step);
   }
   result.usage += usage.read();
   return is_finite;
@@ -231,7 +237,12 @@ void TimedRun::look(long step) {
   }
   if (const long between = balance_interval(); between > 0 && step > 0 && step % between == 0) {
     const DeviceUse before = device_use(*executor_);
-    look_at_energy(*balance_, double(step) * plan_.dt);
+    if (balance_) {
+      look_at_energy(*balance_, double(step) * plan_.dt);
+    } else { // a continued run begins here
+      const std::vector<double> state = whole_state(*executor_, count);
+      begin_balance(step, &state);
+    }
     used_by_looks_ += since(before, device_use(*executor_));
   }
   if (meter_ && step > 0 && step % plan_.steps_between == 0)

@@ -1,6 +1,10 @@
 #pragma once
 /// A run on an executor, from the initial state to the end. It pauses at the steps where the state
 /// is inspected. Only advance() is timed.
+#include "experiments/base/interrupt.hpp"
+#include "experiments/base/progress.hpp"
+#include "experiments/run/checkpoint/checkpoint.hpp"
+#include "experiments/run/checkpoint/checkpoint_plan.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/timed/adaptive_steps.hpp"
 #include "experiments/run/timed/oracle_check.hpp"
@@ -86,6 +90,25 @@ private:
 
   void look(long step);
 
+  // The following functions save the run and continue it (timed_run_checkpoint.cpp).
+
+  /// Begins to save the run, and continues from the checkpoint that was asked for.
+  void begin_saving();
+  void end_saving();
+  void resume(SavedRun& saved);
+  /// Before each chunk of steps: saves the run if that is due, and ends it if a signal asked.
+  void save_or_end();
+  void save();
+  /// Steps that were done; with adaptive steps, those that were accepted.
+  long steps_done() const { return adaptive_ ? adaptive_->counts().accepted : step_; }
+  /// True if the run that this one continues has looked at the state there.
+  bool is_passed(long stop) const;
+  /// Steps of a chunk, of which `most` may be computed.
+  long chunk(long most) const;
+  std::vector<double> watch_kept();
+  void take_watch(std::span<const double> kept);
+  void show_progress(long step);
+
   // The following functions follow the energy (timed_run_energy.cpp).
 
   /// Follows the energy from the state that was written to the executor, after `step` steps.
@@ -145,11 +168,21 @@ private:
   };
   std::optional<BalanceStart> balance_start_;
   std::optional<EnergyBalance> balance_; ///< if it is followed on the way
+  bool has_looks_at_energy_ = false;     ///< on the way
   DeviceUse used_by_looks_;
   OracleCheck oracle_check_;
   std::optional<AccuracyMeter> meter_;
   /// set if --model auto chose a model of small rotations
   std::optional<ModelMonitor> monitor_;
+  long step_ = 0; ///< steps done, unless steps are adaptive
+  std::optional<RunIdentity> identity_;
+  bool is_watched_ = false; ///< of a run that is saved: the error of a small model
+  /// Set while the run is saved: not during its warm-up and its samples.
+  std::optional<CheckpointClock> saved_;
+  std::optional<InterruptsDeferred> interrupts_;
+  std::optional<Progress> progress_;
+  Clock::time_point shown_; ///< when the progress was shown last, or began
+  bool is_progress_shown_ = false;
 };
 
 } // namespace dss

@@ -15,14 +15,16 @@ bool TimedRun::is_balanced_by_steps() const {
 }
 
 long TimedRun::balance_interval() const {
-  if (!balance_ || plan_.adaptive) return 0;
+  if (!has_looks_at_energy_) return 0;
   return energy_look_interval(problem_.lattice.element_count, plan_.steps);
 }
 
 void TimedRun::begin_balance(long step, const std::vector<double>* state) {
   balance_.reset();
   balance_start_.reset();
+  has_looks_at_energy_ = false;
   if (!has_energy_balance(plan_, request_, equations())) return;
+  has_looks_at_energy_ = !plan_.adaptive && !is_balanced_by_steps();
   balance_start_ = {state != nullptr ? *state : initial_state(problem_), step};
   if (plan_.adaptive || !is_balanced_by_steps())
     balance_.emplace(problem_, equations(), balance_start_->state, double(step) * plan_.dt, false);

@@ -11,7 +11,8 @@ namespace dss {
 bool TimedRun::advance_watched(long step, long stop) {
   while (step < stop) {
     if (!monitor_) return advance_to(step, stop, result_);
-    const long next = monitor_->next_look(step, stop);
+    // A continued run may begin between two looks.
+    const long next = monitor_->next_look(monitor_->good_step(), stop);
     RunResult tried = result_;
     const bool is_finite = advance_to(step, next, tried);
     result_.wall_s = tried.wall_s, result_.usage = tried.usage;
@@ -73,6 +74,7 @@ bool TimedRun::holds_at_end() {
 }
 
 void TimedRun::begin_anew() {
+  step_ = 0;
   left_out_.reset();
   write_initial_state(*executor_, problem_);
   begin_balance(0);

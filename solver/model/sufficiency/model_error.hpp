@@ -33,6 +33,13 @@ public:
     return force_;
   } ///< of a link [N]; 0 if the bound does not need it
   const BoundStructure& structure() const { return structure_; }
+  /// Visits what a continued run needs (solver/io/kept_numbers.hpp).
+  template <class Visit>
+  void each_kept(Visit&& visit) {
+    visit(largest_), visit(rotation_), visit(spin_), visit(force_), visit(gap_), visit(rate_);
+    visit(strain_energy_), visit(arms_energy_), visit(cycles_), visit(start_), visit(time_);
+    visit(has_begun_);
+  }
 
 private:
   void look_at_links(std::span<const double> state);

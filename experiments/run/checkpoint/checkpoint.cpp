@@ -1,0 +1,169 @@
+#include "experiments/run/checkpoint/checkpoint.hpp"
+
+#include "solver/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <optional>
+
+namespace dss {
+namespace {
+
+constexpr std::size_t piece = 4096; ///< elements of a block
+constexpr int layout = 1;           ///< of what this file writes into a file of blocks
+
+/// What a fact is called in an error, and the option that sets it.
+struct Fact {
+  const char *name, *what, *advice;
+};
+constexpr Fact facts[] = {
+    {"layout", "layout", "write it anew by this version of the program"},
+    {"problem", "scene", "give the scene and --set of the interrupted run"},
+    {"elements", "number of elements", "give the scene and --set of the interrupted run"},
+    {"model_asked", "--model", "give that --model"},
+    {"model_tolerance", "--model-tolerance",
+     "give that --model-tolerance; a watched model (not 0) computes in one process without "
+     "--hybrid"},
+    {"precision", "--precision", "give that --precision"},
+    {"integrator", "--integrator", "give that --integrator"},
+    {"rotation", "--rotation", "give that --rotation"},
+    {"dt_s", "--dt", "give that --dt"},
+    {"rtol", "--rtol", "give that --rtol"},
+    {"atol", "--atol", "give that --atol"},
+    {"pauses", "pauses of the run",
+     "with adaptive steps and watched models, give the --steps, --frames and --output of the "
+     "interrupted run"},
+    {"has_fma", "rounding (fused multiply-add)", "give a --variant that rounds as that run did"},
+    {"kept_fields", "numbers an element", "give the --integrator and --precision of that run"},
+};
+
+std::string digest_text(const std::string& text) {
+  return fmt::format("{:016x}", text_digest(text));
+}
+
+/// Digest of all that a scene says of the problem: its text with overrides, and its voxels, which
+/// may come from other files.
+std::string problem_digest(const RunRequest& request, const RunPlan& plan) {
+  nlohmann::json text = read_scene_text(plan.scene.path, request.overrides).root;
+  // Names, defaults of a run and what checks need are not part of the problem.
+  for (const char* key : {"$schema", "scene", "title", "description", "run", "verify", "tolerance"})
+    text.erase(key);
+  const Lattice& lattice = plan.scene.problem.lattice;
+  std::string shape(lattice.present.begin(), lattice.present.end());
+  for (const Row& row : lattice.rows)
+    shape += fmt::format("{} {} {} {},", row.body, row.x_begin, row.y, row.z);
+  return digest_text(text.dump() + shape);
+}
+
+} // namespace
+
+std::string earlier_checkpoint(const std::string& path) { return path + ".previous"; }
+
+RunIdentity::RunIdentity(const RunRequest& request, const RunPlan& plan, bool is_watched,
+                         bool has_fma, int kept_fields, std::span<const long> stops) {
+  const ModelChoice& choice = plan.model_choice;
+  facts["layout"] = layout;
+  facts["problem"] = problem_digest(request, plan);
+  facts["elements"] = plan.scene.problem.lattice.element_count;
+  facts["model_asked"] = choice.asked;
+  facts["model_tolerance"] = is_watched ? choice.tolerance : 0;
+  facts["precision"] = name(plan.precision);
+  facts["integrator"] = plan.method->name;
+  facts["rotation"] = name(plan.rotation);
+  facts["dt_s"] = plan.dt;
+  facts["rtol"] = plan.adaptive ? plan.adaptive->rtol : 0;
+  facts["atol"] = plan.adaptive ? plan.adaptive->atol : 0;
+  // Adaptive steps end at pauses, and a watched model is looked at there. Other runs may be
+  // continued beyond their end.
+  const bool has_pauses = plan.adaptive || is_watched;
+  facts["pauses"] = has_pauses ? digest_text(fmt::format("{}", fmt::join(stops, " "))) : "";
+  facts["has_fma"] = has_fma;
+  facts["kept_fields"] = kept_fields;
+}
+
+std::string write_checkpoint(const std::string& path, const RunIdentity& identity,
+                             const Standing& standing, Executor& executor, std::size_t elements,
+                             bool is_root) {
+  nlohmann::ordered_json head = identity.facts;
+  head["step"] = standing.step;
+  head["model"] = name(standing.model);
+  head["steps_kept"] = standing.steps_kept.size();
+  head["watch_kept"] = standing.watch_kept.size();
+  std::optional<BlockWriter> file;
+  std::string failure;
+  // The root goes on after a failure, because saving elements is collective.
+  const auto try_to = [&](auto&& act) {
+    if (!is_root || !failure.empty()) return;
+    try {
+      act();
+    } catch (const InputError& error) {
+      failure = error.what();
+    }
+  };
+  try_to([&] { file.emplace(path, head); });
+  for (const auto* list : {&standing.steps_kept, &standing.watch_kept})
+    if (!list->empty()) try_to([&] { file->write(*list); });
+  const std::size_t width = std::size_t(kept_fields(executor));
+  std::vector<double> kept(std::min(elements, piece) * width);
+  bool is_finite = true;
+  for (std::size_t first = 0; first < elements; first += piece) {
+    const std::span<double> part(kept.data(), std::min(piece, elements - first) * width);
+    save(executor, first, part);
+    is_finite &= std::ranges::all_of(part, [](double value) { return std::isfinite(value); });
+    try_to([&] { file->write(part); });
+  }
+  if (is_root) work_alone(executor, true);
+  if (is_finite) try_to([&] { file->commit(earlier_checkpoint(path)); });
+  if (is_root) work_alone(executor, false);
+  return failure;
+}
+
+SavedRun::SavedRun(std::string path) : path_(std::move(path)), reader_(path_) {
+  const nlohmann::json& head = reader_.head();
+  const auto whole = [&](const char* key) {
+    const auto found = head.find(key);
+    return found != head.end() && found->is_number_unsigned() ? found->get<long>() : -1;
+  };
+  const auto model = head.find("model");
+  standing_.step = whole("step");
+  const std::optional<Model> found = model != head.end() && model->is_string()
+                                         ? find_model(model->get<std::string>())
+                                         : std::nullopt;
+  if (standing_.step < 0 || !found || whole("steps_kept") < 0 || whole("watch_kept") < 0)
+    throw InputError(fmt::format("{}: its head lacks a key; take an earlier file", path_));
+  standing_.model = *found;
+  if (whole("steps_kept") > 0) standing_.steps_kept = reader_.next();
+  if (whole("watch_kept") > 0) standing_.watch_kept = reader_.next();
+}
+
+void SavedRun::require_same(const RunIdentity& identity) const {
+  const nlohmann::json& head = reader_.head();
+  for (const Fact& fact : facts) {
+    const nlohmann::json here = identity.facts.at(fact.name),
+                         there = head.value(fact.name, nlohmann::json());
+    if (here == there) continue;
+    // Digests tell nobody anything.
+    const bool is_digest =
+        fact.name == std::string("problem") || fact.name == std::string("pauses");
+    const std::string values =
+        is_digest ? "" : fmt::format(": {} there, {} here", there.dump(), here.dump());
+    throw InputError(fmt::format("{}: the checkpoint is of another run, {} differs{}; {}", path_,
+                                 fact.what, values, fact.advice));
+  }
+}
+
+void SavedRun::restore(Executor& executor, std::size_t elements) {
+  const std::size_t width = std::size_t(kept_fields(executor));
+  for (std::size_t first = 0; first < elements; first += piece) {
+    const std::vector<double> kept = reader_.next();
+    if (kept.size() != std::min(piece, elements - first) * width)
+      throw InputError(
+          fmt::format("{}: elements from {} on are missing; take an earlier file", path_, first));
+    dss::restore(executor, first, kept);
+  }
+  reader_.require_end();
+}
+
+} // namespace dss

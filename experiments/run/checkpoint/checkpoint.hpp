@@ -1,0 +1,59 @@
+#pragma once
+/// Checkpoints: where a run stands. A run that continues from one computes the bits of a run that
+/// was never interrupted, with any number of threads and ranks, any decomposition and any variant
+/// that rounds alike. README.md beside this file has the format.
+#include "experiments/run/plan/run_plan.hpp"
+#include "solver/io/block_file.hpp"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dss {
+
+/// Where the checkpoint before the last is kept: `run.ckpt.previous`.
+std::string earlier_checkpoint(const std::string& path);
+
+/// What a checkpoint has beside the numbers of elements.
+struct Standing {
+  long step = 0;                  ///< steps done; with adaptive steps, those that were accepted
+  Model model = Model::spatial;   ///< that computes
+  std::vector<double> steps_kept; ///< of adaptive steps (AdaptiveSteps::each_kept), else empty
+  std::vector<double> watch_kept; ///< of the watch over a model, or empty
+};
+
+/// The run that a checkpoint belongs to: what must agree so that bits do.
+struct RunIdentity {
+  /// @param is_watched  the error of a small model is watched (ModelMonitor)
+  RunIdentity(const RunRequest& request, const RunPlan& plan, bool is_watched, bool has_fma,
+              int kept_fields, std::span<const long> stops);
+  nlohmann::ordered_json facts; ///< name -> value
+};
+
+/// Writes a checkpoint. Collective: all ranks give their elements, the root writes. Nothing is
+/// written if a number of the state is not finite: the run is about to fail.
+/// @return one line if the root could not write it; an earlier checkpoint then stands. Else empty
+std::string write_checkpoint(const std::string& path, const RunIdentity& identity,
+                             const Standing& standing, Executor& executor, std::size_t elements,
+                             bool is_root);
+
+/// Reads a checkpoint.
+class SavedRun {
+public:
+  /// Reads all but the elements. @throws InputError if the file is none or is damaged
+  explicit SavedRun(std::string path);
+  const Standing& standing() const { return standing_; }
+  /// @throws InputError if it belongs to another run; the line names what differs and what to give
+  void require_same(const RunIdentity& identity) const;
+  /// Gives each executor its elements. Collective.
+  /// @throws InputError if a block is damaged
+  void restore(Executor& executor, std::size_t elements);
+
+private:
+  std::string path_;
+  BlockReader reader_;
+  Standing standing_;
+};
+
+} // namespace dss

@@ -1,0 +1,45 @@
+#include "experiments/run/checkpoint/checkpoint_plan.hpp"
+
+#include "solver/error.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace dss {
+
+CheckpointInterval parse_checkpoint_interval(const std::string& text) {
+  const bool is_time = text.ends_with('s');
+  const char *begin = text.data(), *end = text.data() + text.size() - (is_time ? 1 : 0);
+  CheckpointInterval interval;
+  const auto read = [&](auto& value) {
+    const auto [rest, error] = std::from_chars(begin, end, value);
+    return error == std::errc() && rest == end && value > 0;
+  };
+  const bool is_read =
+      is_time ? read(interval.seconds) && std::isfinite(interval.seconds) : read(interval.steps);
+  if (!is_read)
+    throw InputError(fmt::format("--checkpoint-every {}: not a time such as 60s, nor a positive "
+                                 "number of steps",
+                                 text));
+  return interval;
+}
+
+void require_sound_checkpoints(const RunRequest& request, const RunPlan& plan) {
+  parse_checkpoint_interval(request.checkpoint_every);
+  const bool is_restarted = !request.restart.empty();
+  if (request.checkpoint.empty() && !is_restarted) return;
+  const char* option = is_restarted ? "--restart" : "--checkpoint";
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: {}", option, why));
+  };
+  if (request.samples > 1 || request.repeat_for > 0)
+    refuse("a run that is repeated for its time has none; leave --samples and --repeat-for out");
+  if (is_restarted && !request.reference.empty())
+    refuse("errors against a solution are of the whole run; leave --reference out");
+  if (plan.plugin->has_all)
+    refuse(fmt::format("variant {} cannot save what its methods keep; give another --variant",
+                       plan.plugin->name));
+}
+
+} // namespace dss

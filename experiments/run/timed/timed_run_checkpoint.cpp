@@ -1,0 +1,188 @@
+/// Saves a run while it computes, and continues a saved one.
+#include "experiments/run/state/state_access.hpp"
+#include "experiments/run/timed/timed_run.hpp"
+#include "solver/error.hpp"
+#include "solver/io/kept_numbers.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+#include <utility>
+
+namespace dss {
+namespace {
+
+/// Element-steps of a chunk while a run is saved: less than a second, so that a signal is seen.
+constexpr double chunk_element_steps = 2e7;
+/// With adaptive steps, ranks ask one another every so many steps.
+constexpr long adaptive_chunk = 32;
+constexpr double quiet_s = 2;     ///< Shorter runs show no progress.
+constexpr double between_s = 0.2; ///< between two lines of progress
+
+enum Wish { none = 0, is_due = 1, is_ended = 2 };
+
+} // namespace
+
+void TimedRun::begin_saving() {
+  progress_.emplace();
+  shown_ = Clock::now();
+  if (request_.checkpoint.empty() && request_.restart.empty()) return;
+  const int width = kept_fields(*executor_);
+  if (width == 0)
+    throw InputError(fmt::format("{}: variant {} cannot save what its methods keep; give another "
+                                 "--variant",
+                                 request_.restart.empty() ? "--checkpoint" : "--restart",
+                                 result_.variant));
+  is_watched_ = plan_.model_choice.is_bounded;
+  const auto identify = [&] {
+    identity_.emplace(request_, plan_, is_watched_, result_.has_fma, width, stops());
+  };
+  if (!request_.restart.empty()) {
+    SavedRun saved(request_.restart);
+    // Runs of ranks and hybrids are not watched, and their model is not left in mid-run.
+    is_watched_ = is_watched_ && !saved.standing().watch_kept.empty();
+    identify();
+    saved.require_same(*identity_);
+    resume(saved);
+  } else {
+    identify();
+  }
+  if (request_.checkpoint.empty()) return;
+  saved_.emplace(parse_checkpoint_interval(request_.checkpoint_every), steps_done());
+  interrupts_.emplace();
+  if (adaptive_)
+    adaptive_->visit_before([this] {
+      if (steps_done() % adaptive_chunk == 0 || saved_->is_due_by_steps(steps_done()))
+        save_or_end();
+    });
+}
+
+void TimedRun::end_saving() {
+  if (saved_) save(); // a longer run may go on from here
+  saved_.reset();
+  interrupts_.reset();
+  progress_.reset();
+}
+
+void TimedRun::resume(SavedRun& saved) {
+  const Standing& standing = saved.standing();
+  if (!adaptive_ && standing.step >= plan_.steps)
+    throw InputError(fmt::format("{}: the run has done all of its {} steps; give more --steps to "
+                                 "go on",
+                                 request_.restart, standing.step));
+  if (standing.model != model_) {
+    executor_.reset();
+    executor_ = created(standing.model);
+  }
+  take_watch(standing.watch_kept);
+  saved.restore(*executor_, problem_.lattice.element_count);
+  if (adaptive_) {
+    TakeNumbers take(standing.steps_kept);
+    adaptive_->each_kept(take);
+  }
+  step_ = adaptive_ ? 0 : standing.step;
+  result_.resumed_step = standing.step;
+  // The energy is followed from the first look on.
+  balance_.reset();
+  balance_start_.reset();
+  std::vector<double> times;
+  for (const long frame : plan_.frame_steps)
+    if (is_passed(frame)) times.push_back(double(frame) * plan_.dt);
+  if (is_root_ && !request_.output.empty()) series_.go_on(times);
+}
+
+bool TimedRun::is_passed(long stop) const {
+  if (result_.resumed_step == 0) return false;
+  return adaptive_ ? double(stop) * plan_.dt <= adaptive_->time() : stop <= step_;
+}
+
+long TimedRun::chunk(long most) const {
+  if (!saved_) return std::min(signal_steps, most);
+  const double elements = double(problem_.lattice.element_count);
+  const long steps = std::clamp(long(chunk_element_steps / elements), 1L, signal_steps);
+  return saved_->steps_left(step_, std::min(steps, most));
+}
+
+void TimedRun::save_or_end() {
+  if (steps_done() == result_.resumed_step) return; // nothing new
+  int wish = none;
+  if (saved_->is_due(steps_done())) wish |= is_due;
+  if (interrupts_->is_asked()) wish |= is_ended;
+  const std::vector<double> wishes = gather(*executor_, wish);
+  const bool ends = std::ranges::any_of(wishes, [](double of) { return int(of) & is_ended; });
+  if (!ends && !(int(wishes.front()) & is_due)) return; // the root's clock decides
+  save();
+  if (!ends) return;
+  gather(*executor_, 0); // until the root has written
+  progress_.reset();
+  interrupts_->end(fmt::format("after step {}; {} has the state, so give the command again with "
+                               "--restart {}",
+                               steps_done(), request_.checkpoint, request_.checkpoint));
+}
+
+void TimedRun::save() {
+  Standing standing{steps_done(), model_, {}, watch_kept()};
+  PutNumbers put(standing.steps_kept);
+  if (adaptive_) adaptive_->each_kept(put);
+  const std::string failure =
+      write_checkpoint(request_.checkpoint, *identity_, standing, *executor_,
+                       problem_.lattice.element_count, is_root_);
+  if (!failure.empty()) progress_->note("dssbench: " + failure + "; the run goes on");
+  saved_->take(steps_done());
+}
+
+std::vector<double> TimedRun::watch_kept() {
+  std::vector<double> kept;
+  if (!is_watched_) return kept;
+  PutNumbers put(kept);
+  put(bool(monitor_)), put(bool(left_out_));
+  if (monitor_) monitor_->each_kept(put);
+  if (left_out_) put(left_out_->errors), put(left_out_->tolerance);
+  const ModelReport& report = result_.model_report;
+  put(report.largest_rotation), put(report.estimate), put(report.looks);
+  for (const Promotion& one : report.promotions)
+    put(one.step), put(one.resumed_step), put(int(one.from)), put(int(one.to)), put(one.estimate);
+  return kept;
+}
+
+void TimedRun::take_watch(std::span<const double> kept) {
+  monitor_.reset();
+  if (!is_watched_) {
+    result_.model_choice.chosen = model_;
+    if (std::exchange(result_.model_choice.is_bounded, false))
+      result_.model_choice.why = "the model of the run that was interrupted, which nothing watched";
+    return;
+  }
+  TakeNumbers take(kept);
+  bool has_monitor = false, has_left_out = false;
+  take(has_monitor), take(has_left_out);
+  if (has_monitor) {
+    monitor_.emplace(problem_, model_, plan_.model_choice.tolerance, plan_.steps, plan_.dt);
+    monitor_->each_kept(take);
+  }
+  if (has_left_out) {
+    left_out_.emplace();
+    take(left_out_->errors), take(left_out_->tolerance);
+  }
+  ModelReport& report = result_.model_report;
+  take(report.largest_rotation), take(report.estimate), take(report.looks);
+  while (!take.is_empty()) {
+    Promotion one;
+    int from = 0, to = 0;
+    take(one.step), take(one.resumed_step), take(from), take(to), take(one.estimate);
+    one.from = Model(from), one.to = Model(to);
+    report.promotions.push_back(one);
+    if (monitor_) monitor_->add(one);
+  }
+}
+
+void TimedRun::show_progress(long step) {
+  if (!progress_ || !progress_->is_terminal() || !is_root_) return;
+  const double wait_s = is_progress_shown_ ? between_s : quiet_s;
+  if (seconds_since(shown_) < wait_s) return;
+  progress_->show(double(step), double(plan_.steps), problem_.name);
+  shown_ = Clock::now();
+  is_progress_shown_ = true;
+}
+
+} // namespace dss
