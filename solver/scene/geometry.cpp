@@ -1,5 +1,7 @@
 #include "solver/scene/geometry.hpp"
 
+#include "solver/memory.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,11 +26,22 @@ GridPoint read_point(const Node& node, long least) {
           parts[2].whole(least, max_elements)};
 }
 
-VoxelGrid empty_grid(const Node& node, const GridPoint& size) {
-  // In double, because the product of three such sizes overflows 64 bits.
-  if (double(size[0]) * double(size[1]) * double(size[2]) > double(max_elements))
+/// Cells of a grid, at most max_elements. In double, because the product of three such sizes
+/// overflows 64 bits.
+double cells_of(const Node& node, const GridPoint& size) {
+  const double cells = double(size[0]) * double(size[1]) * double(size[2]);
+  if (cells > double(max_elements))
     node.fail(fmt::format("{} x {} x {} cells are too many; at most {} are allowed", size[0],
                           size[1], size[2], max_elements));
+  return cells;
+}
+
+VoxelGrid empty_grid(const Node& node, const GridPoint& size) {
+  // The grid and the lattice that is made from it take a byte each.
+  const double needed = 2 * cells_of(node, size), free = available_memory();
+  if (needed > free)
+    node.fail(fmt::format("{} x {} x {} cells need {:.3g} GB; this machine has {:.3g} GB free",
+                          size[0], size[1], size[2], 1e-9 * needed, 1e-9 * free));
   VoxelGrid grid{int(size[0]), int(size[1]), int(size[2]), {}};
   grid.occupied.assign(std::size_t(size[0] * size[1] * size[2]), 0);
   return grid;
@@ -42,20 +55,31 @@ void fill(VoxelGrid& grid, const GridPoint& from, const GridPoint& size) {
     }
 }
 
-VoxelGrid read_boxes(const Node& node) {
-  std::vector<std::pair<GridPoint, GridPoint>> boxes;
+/// Boxes: where each begins, and its size.
+struct Boxes {
+  std::vector<std::pair<GridPoint, GridPoint>> all;
   GridPoint extent{};
+};
+
+Boxes read_box_list(const Node& node) {
+  Boxes boxes;
   for (const Node& item : node.items()) {
     ObjectNode box(item);
     const GridPoint from = read_point(box.require("from"), 0),
                     size = read_point(box.require("size"), 1);
     box.finish();
-    for (std::size_t a = 0; a < 3; ++a) extent[a] = std::max(extent[a], from[a] + size[a]);
-    boxes.emplace_back(from, size);
+    for (std::size_t a = 0; a < 3; ++a)
+      boxes.extent[a] = std::max(boxes.extent[a], from[a] + size[a]);
+    boxes.all.emplace_back(from, size);
   }
-  if (boxes.empty()) node.fail("no boxes; a body has at least one element");
-  VoxelGrid grid = empty_grid(node, extent);
-  for (const auto& [from, size] : boxes) fill(grid, from, size);
+  if (boxes.all.empty()) node.fail("no boxes; a body has at least one element");
+  return boxes;
+}
+
+VoxelGrid read_boxes(const Node& node) {
+  const Boxes boxes = read_box_list(node);
+  VoxelGrid grid = empty_grid(node, boxes.extent);
+  for (const auto& [from, size] : boxes.all) fill(grid, from, size);
   return grid;
 }
 
@@ -181,6 +205,26 @@ VoxelGrid read_geometry(const Node& node) {
   VoxelGrid grid = read_voxels(what);
   require_element(what, grid, "the voxel mask");
   return grid;
+}
+
+ShapeSize shape_size(const Node& node) {
+  ObjectNode shape(node);
+  const std::string key = shape.require_one({"box", "boxes", "voxels", "porous", "struts"});
+  const Node what = shape.require(key);
+  if (key == "voxels") {
+    const VoxelGrid grid = read_voxels(what);
+    return {double(grid.occupied.size()), double(std::ranges::count(grid.occupied, 1))};
+  }
+  if (key == "box") {
+    const double cells = cells_of(what, read_point(what, 1));
+    return {cells, cells};
+  }
+  if (key != "boxes") return {cells_of(what, read_point(ObjectNode(what).require("size"), 1)), 0};
+  const Boxes boxes = read_box_list(what);
+  ShapeSize size{cells_of(what, boxes.extent), 0};
+  for (const auto& [from, extent] : boxes.all)
+    size.least_elements = std::max(size.least_elements, cells_of(what, extent));
+  return size;
 }
 
 } // namespace dss

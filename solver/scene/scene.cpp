@@ -5,7 +5,6 @@
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
 #include "solver/scene/constants.hpp"
-#include "solver/scene/geometry.hpp"
 #include "solver/scene/terms.hpp"
 
 #include <fmt/format.h>
@@ -162,6 +161,17 @@ Scene load_scene(const std::string& name_or_path, const std::vector<Override>& o
     throw InputError(fmt::format(
         "{}: the scene does not fit into this machine's memory; give it fewer elements", path));
   }
+}
+
+ShapeSize scene_size(const std::string& name_or_path, const std::vector<Override>& overrides) {
+  const SceneText text = read_scene_text(scene_path(name_or_path), overrides);
+  const Node whole(text);
+  ShapeSize size;
+  for (const Node& body : ObjectNode(whole).require("bodies").items()) {
+    const ShapeSize own = shape_size(ObjectNode(body).require("geometry"));
+    size.cells += own.cells, size.least_elements += own.least_elements;
+  }
+  return size;
 }
 
 std::string scene_analysis(const std::string& name_or_path,

@@ -2,6 +2,7 @@
 /// Scenes: JSON files that say what to compute. README.md and scene.schema.json beside this file
 /// describe the format.
 #include "solver/model/problem.hpp"
+#include "solver/scene/geometry.hpp"
 #include "solver/scene/scene_text.hpp"
 
 #include <nlohmann/json.hpp>
@@ -40,6 +41,11 @@ struct SceneListing {
 /// @throws InputError for any fault, one line "file: /json/pointer: what is wrong and what would be
 ///     right"
 Scene load_scene(const std::string& name_or_path, const std::vector<Override>& overrides = {});
+
+/// Finds bounds of the number of elements without building the scene, which takes seconds if it is
+/// large.
+/// @throws InputError as load_scene, for what it reads
+ShapeSize scene_size(const std::string& name_or_path, const std::vector<Override>& overrides = {});
 
 /// Reads only the analysis of a scene.
 /// @throws InputError for a file that cannot be read

@@ -3,6 +3,7 @@ import json
 import math
 import os
 import resource
+import time
 import unittest
 
 from program import ProgramTest, dssbench
@@ -12,6 +13,10 @@ SMALL = ("run", "plate_paper", "--set", "n=10", "--steps", "10")
 
 def limit_files_to_one_block():
     resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
+
+
+def limit_memory():
+    resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
 
 
 class Errors(ProgramTest):
@@ -96,6 +101,23 @@ class Errors(ProgramTest):
                               ("--dt", "0"), ("--dt", "nan"), ("--ranks", "0")):
             self.assert_refused(2, [option], "run", "plate_paper", "--set", "n=10",
                                 f"{option}={value}")
+
+    def test_numbers_beyond_a_lifetime_are_refused(self):
+        for option in ("--steps", "--warmup", "--samples"):
+            for value in ("9223372036854775807", "9223372036854775808", "2000000000000000"):
+                self.assert_refused(2, [option, "at most 1000000000000000"], *SMALL[:4], option,
+                                    value)
+        self.assert_refused(2, ["--frames", "at most"], *SMALL, "--output", self.path("f.vtu"),
+                            "--frames", "2147483647")
+        self.assert_refused(2, ["--frames"], *SMALL, "--output", self.path("f.vtu"), "--frames",
+                            "2147483648")
+
+    def test_scenes_that_do_not_fit_into_memory_are_refused_at_once(self):
+        begin = time.monotonic()
+        for scene in (("chain", "--set", "n=2147483647"), ("plate_paper", "--set", "n=46000")):
+            self.assert_refused(2, [scene[0], "GB", "fewer elements"], "run", *scene,
+                                preexec_fn=limit_memory)
+        self.assertLess(time.monotonic() - begin, 10)
 
     def test_threads_on_a_variant_of_one_thread_are_refused(self):
         self.assert_refused(2, ["reference", "--threads 1"], *SMALL, "--variant", "reference",

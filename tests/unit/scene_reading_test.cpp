@@ -148,6 +148,24 @@ TEST_F(scene_file, with_more_cells_than_any_run_could_hold_is_refused) {
   expect_part(refusal(scene_with(R"({"box": [2147483648, 1, 1]})")), "out of range");
 }
 
+TEST_F(scene_file, tells_bounds_of_its_size_without_being_built) {
+  const auto bounds = [&](const std::string& geometry) {
+    const std::string path = scene_with(geometry);
+    const ShapeSize size = scene_size(path);
+    const double elements = double(load_scene(path).problem.lattice.element_count);
+    EXPECT_LE(size.least_elements, elements) << geometry;
+    EXPECT_GE(size.cells, elements) << geometry;
+    return std::pair(size.least_elements, size.cells);
+  };
+  EXPECT_EQ(bounds(R"({"box": [3, 4, 5]})"), std::pair(60.0, 60.0));
+  EXPECT_EQ(bounds(R"({"boxes": [{"from": [0, 0, 0], "size": [3, 2, 1]},
+                                 {"from": [2, 0, 0], "size": [2, 4, 1]}]})"),
+            std::pair(8.0, 16.0));
+  EXPECT_EQ(bounds(R"({"voxels": {"layers": [["#.", "##"]]}})"), std::pair(3.0, 4.0));
+  EXPECT_EQ(bounds(R"({"porous": {"size": [5, 5, 5], "filling": 0.5}})").second, 125);
+  EXPECT_EQ(bounds(R"({"struts": {"size": [9, 9, 9], "cell": 6, "thickness": 3}})").second, 729);
+}
+
 TEST(scene_overrides, change_parameters_and_any_scalar) {
   const Scene scene = load_scene(
       "plate_paper", {{"n", "12"}, {"run.dt", "2e-7"}, {"bodies/0/constants/k", "=1e9*n"}});

@@ -4,11 +4,11 @@
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/memory.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace dss {
 namespace {
@@ -54,12 +54,11 @@ void require_memory(const RunRequest& request, std::size_t members, std::size_t 
   constexpr double states = 6;
   const double needed = states * double(members) * double(elements) *
                         double(field_count * sizeof(double)),
-               machine = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE));
-  if (needed > machine)
-    refuse(request,
-           fmt::format("{} members of {} elements need {:.3g} GB or more; this machine has "
-                       "{:.3g}; give fewer",
-                       members, elements, 1e-9 * needed, 1e-9 * machine));
+               free = available_memory();
+  if (needed > free)
+    refuse(request, fmt::format("{} members of {} elements need {:.3g} GB or more; this machine "
+                                "has {:.3g} GB free; give fewer",
+                                members, elements, 1e-9 * needed, 1e-9 * free));
 }
 
 /// The plan of a member. Equal members share what was planned for the first.

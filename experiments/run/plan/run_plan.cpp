@@ -4,6 +4,7 @@
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/memory.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/numerics/stability.hpp"
@@ -68,8 +69,19 @@ void require_devices(const RunRequest& request, const RunPlan& plan) {
   }
 }
 
+/// More is beyond a lifetime. Options read larger numbers as the largest of their type.
+constexpr long most_steps_of_run = 1'000'000'000'000'000;
+constexpr int most_frames_of_run = 1'000'000;
+
 void require_sensible(const RunRequest& request, const RunPlan& plan) {
   const auto refuse = [](const std::string& what) { throw InputError(what); };
+  const auto require_at_most = [&](const char* option, long value, long most) {
+    if (value > most) refuse(fmt::format("{} {}: give at most {}", option, value, most));
+  };
+  require_at_most("--steps", plan.steps, most_steps_of_run);
+  require_at_most("--warmup", request.warmup_steps, most_steps_of_run);
+  require_at_most("--samples", request.samples, most_steps_of_run);
+  require_at_most("--frames", request.frames, most_frames_of_run);
   if (request.threads < 1 || request.threads > 1024)
     refuse(fmt::format("--threads {}: give 1 to 1024", request.threads));
   if (request.threads > 1 && !plan.plugin->is_threaded)
@@ -221,9 +233,8 @@ ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
 } // namespace
 
 void require_outputs_writable(const RunRequest& request) {
-  for (const std::string& path :
-       {request.output, request.state_csv, request.checkpoint,
-        request.json == "-" ? std::string() : request.json})
+  for (const std::string& path : {request.output, request.state_csv, request.checkpoint,
+                                  request.json == "-" ? std::string() : request.json})
     if (!path.empty()) require_writable(path);
 }
 
@@ -279,15 +290,28 @@ double require_stable(const Problem& problem, const Method& method, double dt, b
   return limit.dt;
 }
 
+/// @param fields  numbers of an element that the state has at least
+void require_memory(const RunRequest& request, double elements, int fields, Precision precision) {
+  const double number = precision == Precision::f64 ? sizeof(double) : sizeof(float),
+               needed = elements * fields * number, free = available_memory();
+  if (needed > free)
+    throw InputError(fmt::format("{}: the state of {:.0f} elements needs {:.3g} GB or more; this "
+                                 "machine has {:.3g} GB free; give the scene fewer elements",
+                                 request.scene, elements, 1e-9 * needed, 1e-9 * free));
+}
+
 RunPlan plan_run(const RunRequest& request) {
   RunPlan plan;
+  plan.precision = require_precision_name(request.precision.value_or("f64"));
+  // Before it is built. Each model has a displacement and a velocity at least.
+  const ShapeSize size = scene_size(request.scene, request.overrides);
+  require_memory(request, size.least_elements, 2, plan.precision);
   plan.scene = load_scene(request.scene, request.overrides);
   const Problem& problem = plan.scene.problem;
   const VariantName variant = asked_variant(request);
   plan.plugin = &load_variant(variant.name);
   plan.distribution = {request.ranks, variant.part, request.decomposition, request.halo,
                        request.shares == "measured"};
-  plan.precision = require_precision_name(request.precision.value_or("f64"));
   plan.method = &require_method(request.integrator.value_or(problem.integrator));
   plan.rotation =
       chosen_rotation(request.rotation.value_or(std::string(name(plan.plugin->rotation))));
@@ -309,6 +333,8 @@ RunPlan plan_run(const RunRequest& request) {
   plan.adaptive = chosen_tolerance(request, *plan.method, plan.precision);
   plan.model_choice = chosen_model(request, plan);
   plan.model = plan.model_choice.chosen;
+  require_memory(request, double(problem.lattice.element_count),
+                 int(descriptor(plan.model).fields.size()), plan.precision);
   plan.stability_limit = require_stable(
       problem, *plan.method, plan.dt, request.is_forced || plan.adaptive, request.stability_limit);
   if (plan.adaptive) plan.method = &dopri5_adaptive();

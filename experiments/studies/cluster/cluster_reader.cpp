@@ -84,15 +84,21 @@ SimulationBlock read_block(const Node& node) {
   return block;
 }
 
-/// Reads all blocks. Loads no scene of a block that a scale leaves out, because loading a large
-/// scene takes seconds.
+/// Finds mistakes in a scene. A large scene is read in full only when it is simulated, because that
+/// takes seconds.
+void require_sound(const std::string& scene, const std::vector<Override>& set) {
+  constexpr double large = 1e6;
+  if (scene_size(scene, set).cells < large) load_scene(scene, set);
+}
+
+/// Reads all blocks that the scale does not leave out.
 std::vector<SimulationBlock> read_blocks(const Node& simulation, ObjectNode& scale) {
   LeftOut left_out(scale);
   std::vector<SimulationBlock> blocks;
   for (const Node& item : simulation.list()) {
     SimulationBlock block = read_block(item);
     if (left_out.has(block.label)) continue;
-    for (const auto& set : block.sets) item.placed([&] { load_scene(block.scene, set); });
+    for (const auto& set : block.sets) item.placed([&] { require_sound(block.scene, set); });
     blocks.push_back(std::move(block));
   }
   left_out.require_all_known("block of \"simulation\"");
@@ -108,8 +114,7 @@ void limit(ObjectNode& scale, std::vector<SimulationBlock>& blocks) {
     std::erase_if(block.ranks, [&](int ranks) { return ranks > most_ranks_here; });
     if (!is_limited) continue;
     const auto is_large = [&](const std::vector<Override>& set) {
-      return load_scene(block.scene, set).problem.lattice.element_count >
-             std::size_t(most_elements);
+      return scene_size(block.scene, set).cells > double(most_elements);
     };
     std::erase_if(block.sets, is_large);
     std::erase_if(block.ranks, [&](int ranks) {
