@@ -1,6 +1,7 @@
 #pragma once
 /// Ctrl-C and other requests to end (SIGINT, SIGTERM, SIGHUP). They end the process as before, but
-/// first its child ends, temporary files are removed, and one line says how to go on.
+/// first its child ends, temporary files are removed, and one line says how to go on. A run that
+/// saves itself ends later (InterruptsDeferred).
 #include <csignal>
 #include <string>
 #include <sys/types.h>
@@ -31,8 +32,9 @@ public:
 };
 
 /// From now on a signal goes as SIGUSR1 to the children of this process's child, which have this
-/// time [s] to save their work: mpirun does not pass it on, and kills its ranks one second after a
-/// SIGTERM. Ranks of other machines hear of it from those of this one.
+/// time [s] to save their work. mpirun kills its ranks one second after a SIGTERM, and that of Open
+/// MPI 4.1.4 did not pass SIGUSR1 on in a trial, although its manual says so. Ranks of other
+/// machines hear of it from those of this one.
 void let_ranks_save(double patience_s);
 
 /// Blocks the signals in this thread as long as it lives, and gives a forked child the default

@@ -66,7 +66,9 @@ void require_distinct_files(const RunRequest& request, const std::string& analys
   files.read("--check-state", request.check_state);
   files.read("--reference", request.reference);
   // A run may go on saving itself where it was saved.
-  if (request.restart != request.checkpoint) files.read("--restart", request.restart);
+  if (request.restart != request.checkpoint &&
+      request.restart != earlier_checkpoint(request.checkpoint))
+    files.read("--restart", request.restart);
   files.write("--json", request.json);
   if (!request.checkpoint.empty()) {
     files.write("--checkpoint", request.checkpoint);
@@ -111,6 +113,10 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   if (!request.ensemble.empty() && !(request.checkpoint.empty() && request.restart.empty()))
     throw InputError("--ensemble: ensembles have no checkpoints; leave --checkpoint and --restart "
                      "out, or run members by themselves");
+  for (const auto& [option, file] :
+       {std::pair("--checkpoint", request.checkpoint), std::pair("--restart", request.restart)})
+    if (command.count(option) > 0 && file.empty())
+      throw InputError(fmt::format("{}: its name is empty; give a file", option));
   if (command.count("--checkpoint-every") > 0 && request.checkpoint.empty())
     throw InputError("--checkpoint-every: give --checkpoint FILE, too");
   require_distinct_files(request, analysis);
@@ -123,7 +129,7 @@ int run(const CLI::App& command, const RunArguments& arguments) {
     if (!request.checkpoint.empty()) {
       constexpr double patience_s = 600; // a large state takes long to write
       let_ranks_save(patience_s);
-      say_when_interrupted(fmt::format("{0} has the state if the run had begun; give the command "
+      say_when_interrupted(fmt::format("{0} has what was saved last; give the command "
                                        "again with --restart {0}",
                                        request.checkpoint));
     }
@@ -273,19 +279,16 @@ void add_checkpoint_options(CLI::App& command, RunRequest& request) {
       .add_option("--checkpoint", request.checkpoint,
                   "File that says where the run stands, at times, at its end, and when a signal "
                   "ends it; the one before is kept as FILE.previous")
-      ->type_name("FILE")
       ->group("Checkpoints");
   command
       .add_option("--checkpoint-every", request.checkpoint_every,
                   "Time or number of steps between two checkpoints: 60s, 10000")
       ->capture_default_str()
-      ->type_name("TIME|STEPS")
       ->group("Checkpoints");
   command
       .add_option("--restart", request.restart,
                   "Continue the run of a checkpoint. The bits are those of an uninterrupted run, "
                   "with any --threads, --ranks and --variant that rounds alike")
-      ->type_name("FILE")
       ->group("Checkpoints");
 }
 

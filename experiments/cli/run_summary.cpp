@@ -11,7 +11,7 @@ namespace {
 
 void print_device(const RunResult& result) {
   const DeviceUse& use = result.device_use;
-  const double steps = double(result.steps);
+  const double steps = double(result.advanced_steps());
   if (!use.device.id.empty())
     fmt::print("device {} ({}): built in {:.3g} s{}, a step {:.4g} launches of {:.3g} us, {:.4g} "
                "bytes to and {:.4g} "

@@ -56,13 +56,18 @@ void AtomicFile::flush() {
   buffer_.clear();
 }
 
-void AtomicFile::commit() {
+void AtomicFile::finish() {
+  if (descriptor_ < 0) return;
   flush();
   // After a loss of power the file is then old or new. Pipes and devices cannot be synced.
   if (!temporary_.empty() && ::fsync(descriptor_) != 0 && errno != EINVAL) fail("write", errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0) fail("write", errno);
+}
+
+void AtomicFile::commit() {
+  finish();
   if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0)
     fail("replace", errno);
   forget_temporary(temporary_);

@@ -20,7 +20,10 @@ public:
   /// Appends bytes.
   /// @throws InputError if they cannot be written (disk full, limit on file size, ...)
   void write(std::string_view bytes);
-  /// Flushes, checks, and moves the file to its target.
+  /// Flushes, checks and closes the file, which is then safe on the disk under its temporary name.
+  /// @throws InputError as write
+  void finish();
+  /// Finishes the file and moves it to its target.
   /// @throws InputError as write
   void commit();
 

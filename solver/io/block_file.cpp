@@ -51,10 +51,11 @@ void BlockWriter::write(std::span<const double> numbers) {
 
 void BlockWriter::commit(const std::string& earlier) {
   write({});
+  file_.finish();
   std::error_code error;
-  if (!earlier.empty() && std::filesystem::is_regular_file(target_)) {
+  if (!earlier.empty() && std::filesystem::is_regular_file(target_, error)) {
     // A second name first, so that the target never lacks a file.
-    std::filesystem::remove(earlier, error);
+    if (std::filesystem::is_regular_file(earlier, error)) std::filesystem::remove(earlier, error);
     std::filesystem::create_hard_link(target_, earlier, error);
     if (error) std::filesystem::rename(target_, earlier, error); // no hard links here
     if (error)

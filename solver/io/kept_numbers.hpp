@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -37,26 +39,33 @@ private:
 class TakeNumbers {
 public:
   explicit TakeNumbers(std::span<const double> from) : from_(from) {}
-  /// @throws InputError if too few numbers are left; so do the others
+  /// @throws InputError if no number is left, or if it is not one of the member's type
   template <class Number>
   requires std::is_arithmetic_v<Number>
-  void operator()(Number& value) { value = Number(take(1).front()); }
+  void operator()(Number& value) {
+    const double given = take(1).front();
+    if constexpr (std::is_integral_v<Number>) {
+      constexpr double exact = 0x1p53,
+                       largest = std::min(exact, double(std::numeric_limits<Number>::max()));
+      if (!(given >= 0 && given <= largest && given == std::floor(given)))
+        throw InputError("a whole number is out of range");
+    }
+    value = Number(given);
+  }
   template <std::size_t N>
   void operator()(std::array<double, N>& values) {
     std::ranges::copy(take(N), values.begin());
   }
+  /// @throws InputError if the list has another size than the member
   void operator()(std::vector<double>& values) {
-    const double size = take(1).front();
-    if (!(size >= 0 && size <= double(from_.size()))) fail();
-    const std::span<const double> taken = take(std::size_t(size));
-    values.assign(taken.begin(), taken.end());
+    if (take(1).front() != double(values.size())) throw InputError("a list has another size");
+    std::ranges::copy(take(values.size()), values.begin());
   }
   bool is_empty() const { return from_.empty(); }
 
 private:
-  [[noreturn]] static void fail() { throw InputError("a list of numbers is too short"); }
   std::span<const double> take(std::size_t count) {
-    if (count > from_.size()) fail();
+    if (count > from_.size()) throw InputError("a list of numbers is too short");
     const std::span<const double> taken = from_.first(count);
     from_ = from_.subspan(count);
     return taken;

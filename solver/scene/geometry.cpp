@@ -38,10 +38,9 @@ double cells_of(const Node& node, const GridPoint& size) {
 
 VoxelGrid empty_grid(const Node& node, const GridPoint& size) {
   // The grid and the lattice that is made from it take a byte each.
-  const double needed = 2 * cells_of(node, size), free = available_memory();
-  if (needed > free)
-    node.fail(fmt::format("{} x {} x {} cells need {:.3g} GB; this machine has {:.3g} GB free",
-                          size[0], size[1], size[2], 1e-9 * needed, 1e-9 * free));
+  require_memory(2 * cells_of(node, size),
+                 fmt::format("{}: {} x {} x {} cells", node.where(), size[0], size[1], size[2]),
+                 "give the scene fewer");
   VoxelGrid grid{int(size[0]), int(size[1]), int(size[2]), {}};
   grid.occupied.assign(std::size_t(size[0] * size[1] * size[2]), 0);
   return grid;

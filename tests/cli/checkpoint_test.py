@@ -14,6 +14,7 @@ import unittest
 from program import PROGRAM, ProgramTest, dssbench, why_no_variant
 
 PLATE = ("plate_paper", "--set", "n=12", "--steps", "600", "--model", "spatial")
+PAPER_LAW = {"law": "paper", "k": 1e6, "d": 1, "kt": 0, "dt": 1, "mass": 1, "inertia": 1}
 LADDER = pathlib.Path(__file__).parents[2] / "experiments" / "scenes" / "ladder"
 LONG = ("plate_paper", "--set", "n=40", "--steps", "50000000", "--model", "spatial")
 
@@ -90,8 +91,37 @@ class Checkpoints(ProgramTest):
         again = self.run_json(*longer, "--restart", "c.ckpt")
         self.assertEqual(again["state_digest"], whole["state_digest"])
         self.assertEqual(again["resumed_step"], 600)
-        self.assert_refused(2, ["600 steps", "--steps"], "run", *PLATE, "--restart",
+        self.assert_refused(2, ["600 steps", "--steps", "c.ckpt.previous"], "run", *PLATE, "--restart",
                             self.path("c.ckpt"))
+
+    def test_rates_are_of_the_steps_after_the_restart(self):
+        of_run = ("plate_paper", "--set", "n=40", "--steps", "1200", "--model", "spatial")
+        whole = self.save(*of_run, every=500)
+        again = self.run_json(*of_run, "--restart", "c.ckpt.previous")
+        computed = 1600 * (1200 - again["resumed_step"])
+        self.assertEqual(again["resumed_step"], 1000)
+        self.assertAlmostEqual(again["element_steps_per_s"] * again["wall_s"] / computed, 1)
+        # The energy is followed from the first look on.
+        self.assertIsNotNone(whole["energy_error"])
+        self.assertIsNotNone(again["energy_error"])
+        self.assertEqual(again["state_digest"], whole["state_digest"])
+
+    def test_a_run_goes_on_from_the_earlier_one_and_saves_itself_again(self):
+        whole = self.save(*PLATE)
+        again = self.run_json(*PLATE, "--restart", "c.ckpt.previous", "--checkpoint", "c.ckpt")
+        self.assertEqual(again["state_digest"], whole["state_digest"])
+        self.assertEqual(self.head("c.ckpt")["step"], 600)
+
+    def test_other_voxels_of_a_file_are_another_scene(self):
+        scene = {"scene": "shape", "title": "a shape", "run": {"dt": 1e-7, "steps": 40},
+                 "bodies": [{"name": "b", "element": 1, "constants": PAPER_LAW,
+                             "geometry": {"voxels": {"file": "mask.txt"}}}]}
+        path = self.write("shape.json", json.dumps(scene))
+        self.write("mask.txt", "###.....\n#####...\n")
+        self.save(path, every=20)
+        self.write("mask.txt", "####....\n####....\n")
+        self.assert_refused(2, ["scene differs"], "run", path, "--restart",
+                            self.path("c.ckpt.previous"))
 
     def test_a_series_of_frames_goes_on(self):
         frames = ("--output", "f.vtu", "--frames", "6")
@@ -135,6 +165,8 @@ class Checkpoints(ProgramTest):
             self.assert_refused(2, ["--checkpoint-every"], "run", *PLATE, "--checkpoint",
                                 self.path("c"), "--checkpoint-every", every)
         self.assert_refused(2, ["--checkpoint"], "run", *PLATE, "--checkpoint-every", "9")
+        for option in ("--checkpoint", "--restart"):
+            self.assert_refused(2, [option, "empty"], "run", *PLATE, option, "")
         self.assert_refused(2, ["--ensemble"], "run", *PLATE, "--ensemble", "3", "--checkpoint",
                             self.path("c"))
         self.assert_refused(2, ["--checkpoint", "--json"], "run", *PLATE, "--checkpoint",

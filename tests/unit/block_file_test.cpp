@@ -125,6 +125,7 @@ struct Members {
 
 TEST(KeptNumbers, AreTheMembersThatWerePut) {
   Members members{0.1, 1L << 53, true, {1, 2}, {3, 4, 5}}, found;
+  found.state.resize(3);
   std::vector<double> list;
   PutNumbers put(list);
   members.each_kept(put);
@@ -132,6 +133,27 @@ TEST(KeptNumbers, AreTheMembersThatWerePut) {
   found.each_kept(take);
   EXPECT_EQ(found, members);
   EXPECT_TRUE(take.is_empty());
+}
+
+TEST(KeptNumbers, AreRefusedIfTheyAreNotOfTheirType) {
+  const auto is_refused = [](auto member, std::vector<double> list) {
+    TakeNumbers take(list);
+    try {
+      take(member);
+    } catch (const InputError&) {
+      return true;
+    }
+    return false;
+  };
+  for (const double wrong : {-1.0, 0.5, 1e300, std::nan("")}) {
+    EXPECT_TRUE(is_refused(0, {wrong}));
+    EXPECT_TRUE(is_refused(0L, {wrong}));
+  }
+  EXPECT_TRUE(is_refused(false, {2}));
+  EXPECT_TRUE(is_refused(0, {3e9}));
+  EXPECT_FALSE(is_refused(0L, {3e9}));
+  EXPECT_TRUE(is_refused(std::vector<double>(2), {3, 1, 2, 3}));
+  EXPECT_FALSE(is_refused(std::vector<double>(3), {3, 1, 2, 3}));
 }
 
 TEST(KeptNumbers, AreRefusedIfTooFew) {

@@ -1,8 +1,10 @@
 #include "experiments/run/checkpoint/checkpoint.hpp"
 
+#include "experiments/base/build_info.hpp"
 #include "solver/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,14 +14,13 @@ namespace dss {
 namespace {
 
 constexpr std::size_t piece = 4096; ///< elements of a block
-constexpr int layout = 1;           ///< of what this file writes into a file of blocks
 
 /// What a fact is called in an error, and the option that sets it.
 struct Fact {
   const char *name, *what, *advice;
 };
-constexpr Fact facts[] = {
-    {"layout", "layout", "write it anew by this version of the program"},
+constexpr Fact known_facts[] = {
+    {"program", "version of the program", "go on with the program that wrote it"},
     {"problem", "scene", "give the scene and --set of the interrupted run"},
     {"elements", "number of elements", "give the scene and --set of the interrupted run"},
     {"model_asked", "--model", "give that --model"},
@@ -33,8 +34,8 @@ constexpr Fact facts[] = {
     {"rtol", "--rtol", "give that --rtol"},
     {"atol", "--atol", "give that --atol"},
     {"pauses", "pauses of the run",
-     "with adaptive steps and watched models, give the --steps, --frames and --output of the "
-     "interrupted run"},
+     "with adaptive steps and watched models, give the --steps, --frames, --output, --check-state, "
+     "--check-tail and --no-balance of the interrupted run"},
     {"has_fma", "rounding (fused multiply-add)", "give a --variant that rounds as that run did"},
     {"kept_fields", "numbers an element", "give the --integrator and --precision of that run"},
 };
@@ -53,7 +54,7 @@ std::string problem_digest(const RunRequest& request, const RunPlan& plan) {
   const Lattice& lattice = plan.scene.problem.lattice;
   std::string shape(lattice.present.begin(), lattice.present.end());
   for (const Row& row : lattice.rows)
-    shape += fmt::format("{} {} {} {},", row.body, row.x_begin, row.y, row.z);
+    shape += fmt::format("{} {} {} {} {},", row.body, row.x_begin, row.x_end, row.y, row.z);
   return digest_text(text.dump() + shape);
 }
 
@@ -64,7 +65,7 @@ std::string earlier_checkpoint(const std::string& path) { return path + ".previo
 RunIdentity::RunIdentity(const RunRequest& request, const RunPlan& plan, bool is_watched,
                          bool has_fma, int kept_fields, std::span<const long> stops) {
   const ModelChoice& choice = plan.model_choice;
-  facts["layout"] = layout;
+  facts["program"] = build_info().sources.at("core");
   facts["problem"] = problem_digest(request, plan);
   facts["elements"] = plan.scene.problem.lattice.element_count;
   facts["model_asked"] = choice.asked;
@@ -93,14 +94,16 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
   head["watch_kept"] = standing.watch_kept.size();
   std::optional<BlockWriter> file;
   std::string failure;
-  // The root goes on after a failure, because saving elements is collective.
+  // The root goes on after a failure, because saving elements is collective. Others wait for it.
   const auto try_to = [&](auto&& act) {
     if (!is_root || !failure.empty()) return;
+    work_alone(executor, true);
     try {
       act();
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
       failure = error.what();
     }
+    work_alone(executor, false);
   };
   try_to([&] { file.emplace(path, head); });
   for (const auto* list : {&standing.steps_kept, &standing.watch_kept})
@@ -114,9 +117,8 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
     is_finite &= std::ranges::all_of(part, [](double value) { return std::isfinite(value); });
     try_to([&] { file->write(part); });
   }
-  if (is_root) work_alone(executor, true);
-  if (is_finite) try_to([&] { file->commit(earlier_checkpoint(path)); });
-  if (is_root) work_alone(executor, false);
+  if (!is_finite) return fmt::format("{}: the state is not finite, so it was not saved", path);
+  try_to([&] { file->commit(earlier_checkpoint(path)); });
   return failure;
 }
 
@@ -140,15 +142,16 @@ SavedRun::SavedRun(std::string path) : path_(std::move(path)), reader_(path_) {
 
 void SavedRun::require_same(const RunIdentity& identity) const {
   const nlohmann::json& head = reader_.head();
-  for (const Fact& fact : facts) {
+  for (const Fact& fact : known_facts) {
     const nlohmann::json here = identity.facts.at(fact.name),
                          there = head.value(fact.name, nlohmann::json());
     if (here == there) continue;
     // Digests tell nobody anything.
-    const bool is_digest =
-        fact.name == std::string("problem") || fact.name == std::string("pauses");
-    const std::string values =
-        is_digest ? "" : fmt::format(": {} there, {} here", there.dump(), here.dump());
+    constexpr std::array<std::string_view, 3> digests = {"program", "problem", "pauses"};
+    const bool is_digest = std::ranges::count(digests, fact.name) > 0;
+    const std::string values = is_digest || !there.is_primitive()
+                                   ? ""
+                                   : fmt::format(": {} there, {} here", there.dump(), here.dump());
     throw InputError(fmt::format("{}: the checkpoint is of another run, {} differs{}; {}", path_,
                                  fact.what, values, fact.advice));
   }

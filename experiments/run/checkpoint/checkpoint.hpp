@@ -5,7 +5,6 @@
 #include "experiments/run/plan/run_plan.hpp"
 #include "solver/io/block_file.hpp"
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,9 +30,9 @@ struct RunIdentity {
   nlohmann::ordered_json facts; ///< name -> value
 };
 
-/// Writes a checkpoint. Collective: all ranks give their elements, the root writes. Nothing is
-/// written if a number of the state is not finite: the run is about to fail.
-/// @return one line if the root could not write it; an earlier checkpoint then stands. Else empty
+/// Writes a checkpoint. Collective: all ranks give their elements, the root writes.
+/// @return one line if the root could not write it, or if a number is not finite, so that the run
+/// is about to fail; an earlier checkpoint then stands. Else empty
 std::string write_checkpoint(const std::string& path, const RunIdentity& identity,
                              const Standing& standing, Executor& executor, std::size_t elements,
                              bool is_root);

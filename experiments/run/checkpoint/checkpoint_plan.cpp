@@ -3,7 +3,6 @@
 #include "solver/error.hpp"
 
 #include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace dss {
@@ -16,8 +15,9 @@ CheckpointInterval parse_checkpoint_interval(const std::string& text) {
     const auto [rest, error] = std::from_chars(begin, end, value);
     return error == std::errc() && rest == end && value > 0;
   };
-  const bool is_read =
-      is_time ? read(interval.seconds) && std::isfinite(interval.seconds) : read(interval.steps);
+  constexpr double most = 1e15;
+  const bool is_read = is_time ? read(interval.seconds) && interval.seconds <= most
+                               : read(interval.steps) && double(interval.steps) <= most;
   if (!is_read)
     throw InputError(fmt::format("--checkpoint-every {}: not a time such as 60s, nor a positive "
                                  "number of steps",
@@ -35,7 +35,7 @@ void require_sound_checkpoints(const RunRequest& request, const RunPlan& plan) {
   };
   if (request.samples > 1 || request.repeat_for > 0)
     refuse("a run that is repeated for its time has none; leave --samples and --repeat-for out");
-  if (is_restarted && !request.reference.empty())
+  if (!request.reference.empty())
     refuse("errors against a solution are of the whole run; leave --reference out");
   if (plan.plugin->has_all)
     refuse(fmt::format("variant {} cannot save what its methods keep; give another --variant",

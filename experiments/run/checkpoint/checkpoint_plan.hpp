@@ -35,7 +35,7 @@ public:
   void take(long step) { last_step_ = step, last_ = Clock::now(); }
   /// Steps from a step to where the next checkpoint is due; by time: `most`.
   long steps_left(long step, long most) const {
-    return interval_.steps > 0 ? std::min(most, std::max(1L, last_step_ + interval_.steps - step))
+    return interval_.steps > 0 ? std::min(most, std::max(1L, interval_.steps - (step - last_step_)))
                                : most;
   }
 

@@ -50,15 +50,12 @@ RunRequest request_of(const RunRequest& request, const MemberSet& member) {
 }
 
 /// Each member keeps its state in its batch, as it was read, and in its balance of the energy.
-void require_memory(const RunRequest& request, std::size_t members, std::size_t elements) {
+void require_room(const RunRequest& request, std::size_t members, std::size_t elements) {
   constexpr double states = 6;
-  const double needed = states * double(members) * double(elements) *
-                        double(field_count * sizeof(double)),
-               free = available_memory();
-  if (needed > free)
-    refuse(request, fmt::format("{} members of {} elements need {:.3g} GB or more; this machine "
-                                "has {:.3g} GB free; give fewer",
-                                members, elements, 1e-9 * needed, 1e-9 * free));
+  require_memory(
+      states * double(members) * double(elements) * double(field_count * sizeof(double)),
+      fmt::format("--ensemble {}: {} members of {} elements", request.ensemble, members, elements),
+      "give fewer");
 }
 
 /// The plan of a member. Equal members share what was planned for the first.
@@ -104,8 +101,8 @@ EnsemblePlan plan_ensemble(const RunRequest& request) {
       throw UnstableError(place(error.what()));
     }
     if (plan.plans.size() == 1)
-      require_memory(request, plan.members.size(),
-                     plan.plans.front().scene.problem.lattice.element_count);
+      require_room(request, plan.members.size(),
+                   plan.plans.front().scene.problem.lattice.element_count);
   }
   const Plugin& plugin = *plan.plans.front().plugin;
   if (plugin.ensemble_lanes != nullptr && request.hybrid.empty())

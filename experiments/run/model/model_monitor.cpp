@@ -71,7 +71,7 @@ void ModelMonitor::begin() {
 
 long ModelMonitor::next_look(long step, long stop) const {
   const auto after = std::ranges::upper_bound(breaks_, step);
-  return std::min({step + interval_, stop, after == breaks_.end() ? stop : *after});
+  return std::min({step + std::max(1L, interval_), stop, after == breaks_.end() ? stop : *after});
 }
 
 KindBounds ModelMonitor::left_out() const {

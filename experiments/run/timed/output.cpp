@@ -46,7 +46,7 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
     frames_.push_back({path.filename().string(), time});
     if (is_series_) keep_index();
   } catch (...) {
-    discard();
+    if (!keeps_finished_) discard();
     throw;
   }
 }

@@ -27,6 +27,8 @@ public:
   void go_on(const std::vector<double>& times);
   /// Writes the index of a series. @return the written files as text; empty without an output
   std::string finish() const;
+  /// From now on, a frame that cannot be written does not remove those before: the run can go on.
+  void keep_finished() { keeps_finished_ = true; }
   /// Removes the written files.
   void discard();
 
@@ -37,6 +39,7 @@ private:
 
   std::string output_;
   bool is_series_;
+  bool keeps_finished_ = false;
   std::vector<Frame> frames_;
   Clock::time_point indexed_;
 };

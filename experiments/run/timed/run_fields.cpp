@@ -20,7 +20,7 @@ template <class T>
 Json on_device(R r, const T& value) {
   return r.device_use.device.id.empty() ? Json() : Json(value);
 }
-Json per_step(R r, double value) { return on_device(r, value / double(r.steps)); }
+Json per_step(R r, double value) { return on_device(r, value / double(r.advanced_steps())); }
 template <class T>
 Json of_hybrid(R r, const T& value) {
   return r.hybrid.members.empty() ? Json() : Json(value);

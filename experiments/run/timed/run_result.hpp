@@ -50,7 +50,7 @@ struct RunResult {
   std::size_t elements = 0, links = 0, bytes = 0;
   long steps = 0, warmup_steps = 0;
   long resumed_step = 0; ///< from which the run continued; 0: it began at the start
-  int stages = 0; ///< force evaluations per step
+  int stages = 0;        ///< force evaluations per step
   double dt_s = 0, stability_limit_s = 0, wall_s = 0;
   long samples = 1; ///< number of samples, of which the fastest counts
   long runs = 1;    ///< runs of that sample: wall_s is their mean, usage their sum
@@ -79,9 +79,11 @@ struct RunResult {
   std::string status = "ok", reason;
   /// Elements x steps, if not all elements took all steps: of an ensemble.
   std::optional<double> element_steps;
-  double sample_s() const { return wall_s * double(runs); } ///< time of that sample [s]
+  long advanced_steps() const { return steps - resumed_step; } ///< that this run computed
+  double sample_s() const { return wall_s * double(runs); }    ///< time of that sample [s]
   double element_steps_per_s() const {
-    return wall_s > 0 ? element_steps.value_or(double(elements) * double(steps)) / wall_s : 0;
+    const double computed = double(elements) * double(advanced_steps());
+    return wall_s > 0 ? element_steps.value_or(computed) / wall_s : 0;
   }
 };
 

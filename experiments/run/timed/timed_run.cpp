@@ -45,8 +45,8 @@ void TimedRun::run() {
   end_saving();
   if (meter_)
     result_.reference = {plan_.reference->times, plan_.reference->error, meter_->result()};
-  put_traffic(*executor_, since(before, traffic(*executor_)),
-              double(result_.steps - result_.resumed_step), result_);
+  put_traffic(*executor_, since(before, traffic(*executor_)), double(result_.advanced_steps()),
+              result_);
   result_.usage = of_all_ranks(*executor_, result_.usage);
   result_.hybrid = hybrid_info(*executor_);
   result_.device_use = since(used_by_looks_, since(used_before, device_use(*executor_)));

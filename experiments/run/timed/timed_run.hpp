@@ -98,13 +98,15 @@ private:
   void resume(SavedRun& saved);
   /// Before each chunk of steps: saves the run if that is due, and ends it if a signal asked.
   void save_or_end();
-  void save();
+  /// @return one line if it could not be saved, else empty
+  std::string save();
   /// Steps that were done; with adaptive steps, those that were accepted.
   long steps_done() const { return adaptive_ ? adaptive_->counts().accepted : step_; }
   /// True if the run that this one continues has looked at the state there.
   bool is_passed(long stop) const;
-  /// Steps of a chunk, of which `most` may be computed.
+  /// Steps of the next chunk, at most `most`.
   long chunk(long most) const;
+  long chunk_steps() const; ///< of a chunk while the run is saved
   std::vector<double> watch_kept();
   void take_watch(std::span<const double> kept);
   void show_progress(long step);
@@ -177,7 +179,7 @@ private:
   long step_ = 0; ///< steps done, unless steps are adaptive
   std::optional<RunIdentity> identity_;
   bool is_watched_ = false; ///< of a run that is saved: the error of a small model
-  /// Set while the run is saved: not during its warm-up and its samples.
+  /// Set while the run is saved: not during its warm-up.
   std::optional<CheckpointClock> saved_;
   std::optional<InterruptsDeferred> interrupts_;
   std::optional<Progress> progress_;

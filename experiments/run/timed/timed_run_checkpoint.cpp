@@ -3,9 +3,9 @@
 #include "experiments/run/timed/timed_run.hpp"
 #include "solver/error.hpp"
 #include "solver/io/kept_numbers.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <fmt/format.h>
 #include <utility>
 
@@ -18,6 +18,12 @@ constexpr double chunk_element_steps = 2e7;
 constexpr long adaptive_chunk = 32;
 constexpr double quiet_s = 2;     ///< Shorter runs show no progress.
 constexpr double between_s = 0.2; ///< between two lines of progress
+
+Model model_of(int number) {
+  const auto* found = std::ranges::find(models, Model(number));
+  if (found == models.end()) throw InputError(fmt::format("there is no model {}", number));
+  return *found;
+}
 
 enum Wish { none = 0, is_due = 1, is_ended = 2 };
 
@@ -37,6 +43,7 @@ void TimedRun::begin_saving() {
   const auto identify = [&] {
     identity_.emplace(request_, plan_, is_watched_, result_.has_fma, width, stops());
   };
+  series_.keep_finished();
   if (!request_.restart.empty()) {
     SavedRun saved(request_.restart);
     // Runs of ranks and hybrids are not watched, and their model is not left in mid-run.
@@ -51,14 +58,15 @@ void TimedRun::begin_saving() {
   saved_.emplace(parse_checkpoint_interval(request_.checkpoint_every), steps_done());
   interrupts_.emplace();
   if (adaptive_)
-    adaptive_->visit_before([this] {
-      if (steps_done() % adaptive_chunk == 0 || saved_->is_due_by_steps(steps_done()))
-        save_or_end();
+    adaptive_->visit_before([this, between = std::min(adaptive_chunk, chunk_steps())] {
+      if (steps_done() % between == 0 || saved_->is_due_by_steps(steps_done())) save_or_end();
     });
 }
 
 void TimedRun::end_saving() {
-  if (saved_) save(); // a longer run may go on from here
+  if (saved_) // a longer run may go on from here
+    if (const std::string failure = save(); !failure.empty())
+      progress_->note(failure + "; the run goes on");
   saved_.reset();
   interrupts_.reset();
   progress_.reset();
@@ -66,20 +74,35 @@ void TimedRun::end_saving() {
 
 void TimedRun::resume(SavedRun& saved) {
   const Standing& standing = saved.standing();
-  if (!adaptive_ && standing.step >= plan_.steps)
-    throw InputError(fmt::format("{}: the run has done all of its {} steps; give more --steps to "
-                                 "go on",
-                                 request_.restart, standing.step));
-  if (standing.model != model_) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: {}", request_.restart, what));
+  };
+  const bool has_other_model = standing.model != model_;
+  if (has_other_model && (adaptive_ || plan_.model_choice.asked != "auto" ||
+                          !why_not(standing.model, problem_).empty()))
+    refuse(fmt::format("its model {} is none of this run; take an earlier file",
+                       name(standing.model)));
+  if (plan_.expected && plan_.expected->steps <= standing.step)
+    refuse(fmt::format("the state of --check-state, at step {}, was passed; leave it out",
+                       plan_.expected->steps));
+  if (has_other_model) {
     executor_.reset();
     executor_ = created(standing.model);
   }
-  take_watch(standing.watch_kept);
-  saved.restore(*executor_, problem_.lattice.element_count);
-  if (adaptive_) {
+  try {
+    take_watch(standing.watch_kept);
     TakeNumbers take(standing.steps_kept);
-    adaptive_->each_kept(take);
+    if (adaptive_) adaptive_->each_kept(take);
+    if (!take.is_empty()) throw InputError("it has more numbers than this run keeps");
+  } catch (const InputError& error) {
+    refuse(fmt::format("{}; take an earlier file", error.what()));
   }
+  const double end = double(plan_.steps) * plan_.dt;
+  if (adaptive_ ? adaptive_->time() >= end : standing.step >= plan_.steps)
+    refuse(fmt::format("the run has done all of its {} steps; give more --steps, or {} to do the "
+                       "last ones again",
+                       standing.step, earlier_checkpoint(request_.restart)));
+  saved.restore(*executor_, problem_.lattice.element_count);
   step_ = adaptive_ ? 0 : standing.step;
   result_.resumed_step = standing.step;
   // The energy is followed from the first look on.
@@ -98,9 +121,12 @@ bool TimedRun::is_passed(long stop) const {
 
 long TimedRun::chunk(long most) const {
   if (!saved_) return std::min(signal_steps, most);
+  return saved_->steps_left(step_, std::min(chunk_steps(), most));
+}
+
+long TimedRun::chunk_steps() const {
   const double elements = double(problem_.lattice.element_count);
-  const long steps = std::clamp(long(chunk_element_steps / elements), 1L, signal_steps);
-  return saved_->steps_left(step_, std::min(steps, most));
+  return std::clamp(long(chunk_element_steps / elements), 1L, signal_steps);
 }
 
 void TimedRun::save_or_end() {
@@ -111,24 +137,27 @@ void TimedRun::save_or_end() {
   const std::vector<double> wishes = gather(*executor_, wish);
   const bool ends = std::ranges::any_of(wishes, [](double of) { return int(of) & is_ended; });
   if (!ends && !(int(wishes.front()) & is_due)) return; // the root's clock decides
-  save();
-  if (!ends) return;
+  const std::string failure = save();
+  if (!ends) {
+    if (!failure.empty()) progress_->note(failure + "; the run goes on");
+    return;
+  }
   gather(*executor_, 0); // until the root has written
   progress_.reset();
-  interrupts_->end(fmt::format("after step {}; {} has the state, so give the command again with "
-                               "--restart {}",
-                               steps_done(), request_.checkpoint, request_.checkpoint));
+  interrupts_->end(failure.empty()
+                       ? fmt::format("after step {0}; {1} has the state, so give the command again "
+                                     "with --restart {1}",
+                                     steps_done(), request_.checkpoint)
+                       : failure + "; an earlier checkpoint, if there is one, is whole");
 }
 
-void TimedRun::save() {
+std::string TimedRun::save() {
   Standing standing{steps_done(), model_, {}, watch_kept()};
   PutNumbers put(standing.steps_kept);
   if (adaptive_) adaptive_->each_kept(put);
-  const std::string failure =
-      write_checkpoint(request_.checkpoint, *identity_, standing, *executor_,
-                       problem_.lattice.element_count, is_root_);
-  if (!failure.empty()) progress_->note("dssbench: " + failure + "; the run goes on");
   saved_->take(steps_done());
+  return write_checkpoint(request_.checkpoint, *identity_, standing, *executor_,
+                          problem_.lattice.element_count, is_root_);
 }
 
 std::vector<double> TimedRun::watch_kept() {
@@ -170,7 +199,7 @@ void TimedRun::take_watch(std::span<const double> kept) {
     Promotion one;
     int from = 0, to = 0;
     take(one.step), take(one.resumed_step), take(from), take(to), take(one.estimate);
-    one.from = Model(from), one.to = Model(to);
+    one.from = model_of(from), one.to = model_of(to);
     report.promotions.push_back(one);
     if (monitor_) monitor_->add(one);
   }

@@ -74,7 +74,8 @@ bool TimedRun::holds_at_end() {
 }
 
 void TimedRun::begin_anew() {
-  step_ = 0;
+  step_ = result_.resumed_step = 0;
+  if (saved_) saved_->take(0);
   left_out_.reset();
   write_initial_state(*executor_, problem_);
   begin_balance(0);

@@ -114,7 +114,10 @@ void limit(ObjectNode& scale, std::vector<SimulationBlock>& blocks) {
     std::erase_if(block.ranks, [&](int ranks) { return ranks > most_ranks_here; });
     if (!is_limited) continue;
     const auto is_large = [&](const std::vector<Override>& set) {
-      return scene_size(block.scene, set).cells > double(most_elements);
+      const ShapeSize size = scene_size(block.scene, set);
+      const auto most = double(most_elements);
+      if (size.cells <= most || size.least_elements > most) return size.cells > most;
+      return double(load_scene(block.scene, set).problem.lattice.element_count) > most;
     };
     std::erase_if(block.sets, is_large);
     std::erase_if(block.ranks, [&](int ranks) {
