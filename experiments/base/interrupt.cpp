@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <mutex>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 namespace dss {
 namespace {
@@ -67,6 +69,21 @@ void on_signal(int signal) {
   errno = error;
 }
 
+/// Children of a process, without those that have ended and that it has not noticed.
+std::vector<pid_t> living_children(pid_t parent) {
+  std::ifstream list(fmt::format("/proc/{0}/task/{0}/children", parent));
+  std::vector<pid_t> living;
+  for (pid_t child = 0; list >> child;) {
+    std::ifstream file(fmt::format("/proc/{}/stat", child));
+    std::string stat;
+    std::getline(file, stat);
+    const std::size_t name_end = stat.rfind(')'); // the state follows
+    if (name_end != std::string::npos && stat.compare(name_end, 3, ") Z") != 0)
+      living.push_back(child);
+  }
+  return living;
+}
+
 void handle(int signal) {
   struct sigaction action {};
   action.sa_handler = on_signal;
@@ -108,6 +125,10 @@ bool InterruptsDeferred::is_asked() const { return pending != 0; }
 
 void InterruptsDeferred::end(const std::string& what) const {
   say_when_interrupted(what);
+  if (!prints) { // a rank
+    remove_temporaries();
+    ::_exit(EXIT_SUCCESS);
+  }
   end_by(pending);
   ::_exit(128 + pending); // the signal was ignored
 }
@@ -152,14 +173,18 @@ InterruptedChild::~InterruptedChild() {
 }
 
 bool InterruptedChild::is_overdue() {
-  if (pending != 0 && is_for_ranks && !std::exchange(has_told_, true)) {
-    std::ifstream ranks(fmt::format("/proc/{0}/task/{0}/children", child_));
-    bool has_ranks = false;
-    for (pid_t rank = 0; ranks >> rank; has_ranks = true) ::kill(rank, SIGUSR1);
-    if (!has_ranks) ::kill(child_, SIGTERM);
+  if (pending == 0) return false;
+  const std::time_t now = ::time(nullptr);
+  if (is_for_ranks) {
+    const std::vector<pid_t> ranks = living_children(child_);
+    if (!std::exchange(has_told_, true)) {
+      for (const pid_t rank : ranks) ::kill(rank, SIGUSR1);
+      if (ranks.empty()) ::kill(child_, SIGTERM);
+    }
+    if (!ranks.empty()) ranks_lived_ = now;
+    if (double(now - pending_since) <= time_to_save_s && !ranks.empty()) return false;
   }
-  return pending != 0 &&
-         double(::time(nullptr) - pending_since) > std::max(patience_s_, time_to_save_s);
+  return double(now - std::max<std::time_t>(pending_since, ranks_lived_)) > patience_s_;
 }
 
 } // namespace dss

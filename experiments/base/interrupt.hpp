@@ -3,6 +3,7 @@
 /// first its child ends, temporary files are removed, and one line says how to go on. A run that
 /// saves itself ends later (InterruptsDeferred).
 #include <csignal>
+#include <ctime>
 #include <string>
 #include <sys/types.h>
 
@@ -26,7 +27,8 @@ public:
   /// Ends the process if a signal came that nobody saw.
   ~InterruptsDeferred();
   bool is_asked() const;
-  /// Ends the process by the signal that came.
+  /// Ends the process by the signal that came; a rank by exit code 0, since mpirun may hang after a
+  /// rank that a signal ended, and its launcher ends by the signal.
   /// @param what  the line says it after "interrupted: "
   [[noreturn]] void end(const std::string& what) const;
 };
@@ -70,6 +72,7 @@ private:
   pid_t child_;
   double patience_s_;
   bool has_told_ = false;
+  std::time_t ranks_lived_ = 0; ///< when a rank lived last
 };
 
 } // namespace dss

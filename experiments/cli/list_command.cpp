@@ -25,18 +25,19 @@ struct ListArguments {
 
 Listing variant_listing() {
   Listing list = Listing::array();
-  const bool has_outside = std::ranges::any_of(asked_variants(), &VariantStatus::is_outside);
-  for (const VariantStatus& status : asked_variants()) {
+  const std::vector<VariantStatus> all = listed_variants();
+  const bool has_outside = std::ranges::any_of(all, &VariantStatus::is_outside);
+  for (const VariantStatus& status : all) {
     Listing item = {{"variant", status.name},
                     {"isa", status.isa},
                     {"fma", ""},
                     {"threads", ""},
                     {"status", "usable"}};
-    if (status.is_usable()) {
+    if (status.is_usable() && !status.is_outside()) {
       const Plugin& plugin = load_variant(status.name);
       item["fma"] = plugin.has_fma ? "yes" : "no";
       item["threads"] = plugin.is_threaded ? "any" : "1";
-    } else {
+    } else if (!status.is_usable()) {
       item["status"] = "unusable: " + status.unusable;
     }
     if (has_outside) item["from"] = status.is_outside() ? status.path : "this program";

@@ -91,8 +91,8 @@ class Checkpoints(ProgramTest):
         again = self.run_json(*longer, "--restart", "c.ckpt")
         self.assertEqual(again["state_digest"], whole["state_digest"])
         self.assertEqual(again["resumed_step"], 600)
-        self.assert_refused(2, ["600 steps", "--steps", "c.ckpt.previous"], "run", *PLATE, "--restart",
-                            self.path("c.ckpt"))
+        self.assert_refused(2, ["600 steps", "--steps", "c.ckpt.previous"], "run", *PLATE,
+                            "--restart", self.path("c.ckpt"))
 
     def test_rates_are_of_the_steps_after_the_restart(self):
         of_run = ("plate_paper", "--set", "n=40", "--steps", "1200", "--model", "spatial")

@@ -223,11 +223,11 @@ class Install(unittest.TestCase):
         self.assert_only_its_choice_is_refused('did you mean "avx512f"',
                                                self.altered("odd", needs=["avx512g"]))
 
-    def assert_only_its_choice_is_refused(self, words, directory):
-        """The outside variant is listed as unusable, and the others run."""
+    def assert_only_its_choice_is_refused(self, words, directory, is_described=False):
+        """The outside variant is listed as unusable, unless only its module tells; others run."""
         path = ("--variant-path", directory)
         listed = {item["variant"]: item for item in self.listed("variants", *path)}
-        self.assertIn(words, listed["wider"]["status"])
+        self.assertIn("usable" if is_described else words, listed["wider"]["status"])
         self.assertEqual(listed["reference"]["status"], "usable")
         self.assertEqual(
             self.dssbench("run", "two_elements", "--steps", "10", "--variant", "reference",
@@ -317,17 +317,35 @@ class Install(unittest.TestCase):
             ("abi", "dss::plugin_abi + 1", "dss::plugin_layout", "speaks interface"),
             ("layout", "dss::plugin_abi", "1", "was compiled with other headers"),
         ):
-            self.assert_only_its_choice_is_refused(words, self.with_plugin(name, abi, layout))
+            self.assert_only_its_choice_is_refused(words, self.with_plugin(name, abi, layout),
+                                                   is_described=True)
 
     def test_a_module_that_gives_null_is_refused(self):
         right = ("dss::plugin_abi", "dss::plugin_layout")
-        self.assert_only_its_choice_is_refused("gives no name, isa or create",
-                                               self.with_plugin("no_create", *right))
-        self.assert_only_its_choice_is_refused(
-            "gives no name, isa or create", self.with_plugin("no_name", *right, own_name="nullptr"))
-        self.assert_only_its_choice_is_refused(
-            "gives no Plugin",
-            self.with_plugin("no_plugin", *right, result="plugin.abi == 0 ? &plugin : nullptr"))
+        for words, directory in (
+            ("gives no name, isa or create", self.with_plugin("no_create", *right)),
+            ("gives no name, isa or create",
+             self.with_plugin("no_name", *right, own_name="nullptr")),
+            ("gives no Plugin",
+             self.with_plugin("no_plugin", *right, result="plugin.abi == 0 ? &plugin : nullptr")),
+        ):
+            self.assert_only_its_choice_is_refused(words, directory, is_described=True)
+
+    def test_a_list_runs_no_code_of_a_module(self):
+        directory = self.with_plugin("loud", "dss::plugin_abi", "dss::plugin_layout")
+        trace = directory + "/it_ran"
+        with open(directory + "/plugin.cpp", "a", encoding="utf-8") as file:
+            file.write('#include <fstream>\n'
+                       f'static const bool ran = (std::ofstream("{trace}") << 1, true);\n')
+        must(os.environ["CXX"], "-std=c++20", "-shared", "-fPIC",
+             f"-I{self.prefix}/include/dssbench", directory + "/plugin.cpp", "-o",
+             directory + "/wider.so")
+        path = ("--variant-path", directory)
+        self.assertIn("wider", [item["variant"] for item in self.listed("variants", *path)])
+        self.dssbench("run", "two_elements", "--variant", "reference", "--steps", "1", *path)
+        self.assertFalse(os.path.exists(trace))
+        self.refused("run", "two_elements", "--variant", "wider", *path)
+        self.assertTrue(os.path.exists(trace))
 
 
 if __name__ == "__main__":

@@ -109,6 +109,21 @@ TEST_F(OpenClPrograms, ignore_a_damaged_binary) {
   EXPECT_FALSE(opencl::load_binary(key));
 }
 
+TEST_F(OpenClPrograms, ignore_a_binary_that_others_may_have_written) {
+  opencl::build_program(device, doubling_source());
+  const std::filesystem::path path = only_file(), folder = path.parent_path();
+  const std::string key = key_in(path);
+  using std::filesystem::perms;
+  for (const auto& place : {path, folder})
+    for (const perms right : {perms::group_write, perms::others_write}) {
+      const perms before = std::filesystem::status(place).permissions();
+      std::filesystem::permissions(place, before | right);
+      EXPECT_FALSE(opencl::load_binary(key)) << place;
+      std::filesystem::permissions(place, before);
+      EXPECT_TRUE(opencl::load_binary(key)) << place;
+    }
+}
+
 TEST_F(OpenClPrograms, work_where_nothing_can_be_cached) {
   ::setenv("DSSBENCH_CACHE_DIR", "/proc/nowhere", 1);
   const opencl::Program program = opencl::build_program(device, doubling_source());

@@ -106,11 +106,19 @@ const std::vector<VariantStatus>& variants() {
   return all;
 }
 
+std::vector<VariantStatus> listed_variants() {
+  std::vector<VariantStatus> list = variants();
+  for (VariantStatus& variant : list)
+    if (variant.is_by_name && variant.is_usable() && !variant.is_outside())
+      variant.unusable = why_unusable(variant);
+  return list;
+}
+
 const std::vector<VariantStatus>& asked_variants() {
   static const std::vector<VariantStatus> all = [] {
-    std::vector<VariantStatus> list = variants();
+    std::vector<VariantStatus> list = listed_variants();
     for (VariantStatus& variant : list)
-      if (variant.is_by_name && variant.is_usable()) variant.unusable = why_unusable(variant);
+      if (variant.is_outside() && variant.is_usable()) variant.unusable = why_unusable(variant);
     return list;
   }();
   return all;

@@ -29,6 +29,8 @@ const std::vector<VariantStatus>& variants();
 /// The same list, after opening the modules that need a library or a device and asking them whether
 /// they can run here.
 const std::vector<VariantStatus>& asked_variants();
+/// The same, but no module from outside is opened: a mere list runs no foreign code.
+std::vector<VariantStatus> listed_variants();
 /// Path of a variant's module, whether or not the file exists: beside the program if that is
 /// installed, else in the build tree. An outside variant has its own path.
 std::string module_path(const VariantStatus& variant);

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace dss::opencl {
 namespace {
@@ -31,6 +33,13 @@ std::string environment(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+/// True if nobody else can have written there. Drivers run what a binary says.
+bool is_own(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && status.st_uid == ::geteuid() &&
+         (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
 constexpr const char* own_directory = "DSSBENCH_CACHE_DIR";
 
 } // namespace
@@ -47,7 +56,7 @@ std::string cache_directory() {
 
 std::optional<std::string> load_binary(std::string_view key) {
   const std::string file = file_of(key);
-  if (file.empty()) return std::nullopt;
+  if (file.empty() || !is_own(cache_directory()) || !is_own(file)) return std::nullopt;
   try {
     const std::string text = read_text(file), head = head_of(key);
     constexpr std::size_t hash_size = 16;
@@ -65,13 +74,16 @@ void store_binary(std::string_view key, std::string_view binary) {
   const std::string path = file_of(key);
   if (path.empty() || binary.empty()) return;
   std::error_code error;
-  std::filesystem::create_directories(cache_directory(), error);
+  if (std::filesystem::create_directories(cache_directory(), error))
+    std::filesystem::permissions(cache_directory(), std::filesystem::perms::owner_all, error);
   try {
     AtomicFile file(path);
     file.write(head_of(key));
     file.write(hash(binary));
     file.write(binary);
     file.commit();
+    using std::filesystem::perms;
+    std::filesystem::permissions(path, perms::owner_read | perms::owner_write, error);
   } catch (const InputError&) { // the program works without it
   }
 }

@@ -1,4 +1,5 @@
 /// Saves a run while it computes, and continues a saved one.
+#include "experiments/base/exit_code.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/timed_run.hpp"
 #include "solver/error.hpp"
@@ -142,8 +143,8 @@ void TimedRun::save_or_end() {
     if (!failure.empty()) progress_->note(failure + "; the run goes on");
     return;
   }
-  gather(*executor_, 0); // until the root has written
   progress_.reset();
+  end_variants(exit_success, true); // ranks meet there, after the root has written
   interrupts_->end(failure.empty()
                        ? fmt::format("after step {0}; {1} has the state, so give the command again "
                                      "with --restart {1}",
