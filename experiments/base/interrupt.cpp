@@ -32,15 +32,15 @@ std::atomic<bool> prints = false;
 std::atomic<bool> is_deferred = false;
 std::atomic<bool> is_for_ranks = false;
 double time_to_save_s = 0; ///< of ranks
-std::array<char, 512> line = {
+std::array<char, 512> parting_line = {
     "dssbench: interrupted: its files are old or whole; give the command again\n"};
-std::atomic<std::size_t> line_size = std::strlen(line.data());
+std::atomic<std::size_t> parting_size = std::strlen(parting_line.data());
 std::mutex of_line; ///< between threads; the handler does without
 
 /// Ends the process by the signal, so that its parent sees why it ended.
 void end_by(int signal) {
   remove_temporaries();
-  if (prints && ::write(STDERR_FILENO, line.data(), line_size) < 0) prints = false;
+  if (prints && ::write(STDERR_FILENO, parting_line.data(), parting_size) < 0) prints = false;
   std::signal(signal, SIG_DFL);
   ::raise(signal);
 }
@@ -105,9 +105,9 @@ void handle_interrupts(bool is_silent) {
 void say_when_interrupted(const std::string& what) {
   const std::string text = "dssbench: interrupted: " + what.substr(0, 400) + '\n';
   const std::lock_guard lock(of_line);
-  line_size = 0; // a signal between here and the end prints nothing
-  std::copy(text.begin(), text.end(), line.begin());
-  line_size = text.size();
+  parting_size = 0; // a signal between here and the end prints nothing
+  std::copy(text.begin(), text.end(), parting_line.begin());
+  parting_size = text.size();
 }
 
 InterruptsDeferred::InterruptsDeferred() {

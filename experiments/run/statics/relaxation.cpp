@@ -59,9 +59,9 @@ class KineticDamping {
 public:
   KineticDamping(Executor& executor, const Problem& problem, const Method& method, double load_norm,
                  const RelaxationSettings& settings)
-      : executor_(executor), problem_(problem), method_(method), load_norm_(load_norm),
-        settings_(settings), edge_(shortest_edge(problem)),
-        state_(problem.lattice.element_count * field_count, 0.0), rates_(state_.size()) {
+      : executor_(executor), method_(method), load_norm_(load_norm), settings_(settings),
+        edge_(shortest_edge(problem)), state_(problem.lattice.element_count * field_count, 0.0),
+        rates_(state_.size()) {
     problem.lattice.for_each_element([&](std::size_t, const Row& row, int) {
       body_.push_back(&problem.bodies[std::size_t(row.body)]);
     });
@@ -176,7 +176,6 @@ private:
   }
 
   Executor& executor_;
-  const Problem& problem_;
   const Method& method_;
   double load_norm_;
   const RelaxationSettings& settings_;
