@@ -24,11 +24,28 @@
 namespace dss {
 namespace {
 
+/// An error as one line that a terminal can show: users' texts may have line breaks, escape
+/// sequences and thousands of characters. Only the log of a compiler has more lines.
+std::string shown(const std::string& what) {
+  constexpr std::size_t most = 1200, at_end = 300;
+  const std::size_t log = what.find("its log:\n");
+  std::string line;
+  for (const char c : what.substr(0, log))
+    if (c == '\n')
+      line += "\\n";
+    else
+      line += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? '?' : c;
+  if (line.size() > most)
+    line = fmt::format("{} ... ({} characters) ... {}", line.substr(0, most - at_end),
+                       line.size() - most, line.substr(line.size() - at_end));
+  return log == std::string::npos ? line : line + what.substr(log);
+}
+
 /// Prints an error and ends. Rank 0 prints at once, and its end stops the other ranks. The other
 /// ranks wait 1 s, so that they print only errors that rank 0 does not have.
 int fail(int exit_code, const std::string& what) {
   if (!job_rank().is_root()) std::this_thread::sleep_for(std::chrono::seconds(1));
-  fmt::print(stderr, "dssbench: {}\n", what);
+  fmt::print(stderr, "dssbench: {}\n", shown(what));
   end_variants(exit_code, false);
   return exit_code;
 }

@@ -102,6 +102,16 @@ class Errors(ProgramTest):
             self.assert_refused(2, [option], "run", "plate_paper", "--set", "n=10",
                                 f"{option}={value}")
 
+    def test_errors_are_one_line_whatever_the_user_wrote(self):
+        for text in ("a\nb", "\x1b[31mred", "tab\there", "long" * 1000):
+            for command in (("run", text), ("run", "two_elements", "--set", f"d={text}"),
+                            ("run", "two_elements", "--integrator", text), ("run", f"--{text}")):
+                result = dssbench(*command)
+                self.assertEqual(result.returncode, 2)
+                self.assertEqual(result.stderr.count("\n"), 1, command)
+                self.assertLess(len(result.stderr), 1500)
+                self.assertNotIn("\x1b", result.stderr)
+
     def test_numbers_beyond_a_lifetime_are_refused(self):
         for option in ("--steps", "--warmup", "--samples"):
             for value in ("9223372036854775807", "9223372036854775808", "2000000000000000"):

@@ -1,6 +1,7 @@
 """Simulated clusters: what SimGrid is given and returns. Skipped without SimGrid."""
 import csv
 import json
+import pathlib
 import unittest
 
 from program import ProgramTest, dssbench
@@ -22,6 +23,19 @@ class Simulation(ProgramTest):
         result = simulate("--set", "n=300", "--ranks", 1, *NODE)
         self.assertAlmostEqual(result["simulated_step_s"], 90000 / 1.211e6, delta=1e-9)
         self.assertEqual(result["messages_per_step"], 0)
+
+    def test_numbers_that_no_machine_has_are_refused(self):
+        shipped = pathlib.Path(__file__).parents[2] / "experiments/platforms/ten_gigabit.xml"
+        text = shipped.read_text(encoding="utf-8")
+        for name, right in (("bw", "1150MBps"), ("lat", "6us"), ("speed", "1Gf")):
+            for wrong in ("nan", "-1", "inf", "1e999", "", "MBps"):
+                bad = self.write("bad.xml", text.replace(f'{name}="{right}"', f'{name}="{wrong}"'))
+                self.assert_refused(2, [name, "bad.xml", "positive number"], "simulate",
+                                    "plate_paper", "--set", "n=20", "--ranks", 2, "--platform",
+                                    bad)
+        comment = self.write("good.xml", text.replace("<platform ", "<!-- lat='nan' --><platform "))
+        self.assertEqual(dssbench("simulate", "plate_paper", "--set", "n=20", "--ranks", 2, *NODE,
+                                  "--platform", comment).returncode, 0)
 
     def test_is_the_same_each_time(self):
         line = [
