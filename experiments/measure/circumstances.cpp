@@ -1,6 +1,7 @@
 #include "experiments/measure/circumstances.hpp"
 #include "experiments/base/build_info.hpp"
 #include "experiments/run/plan/context.hpp"
+#include "solver/digest.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 
@@ -20,18 +21,12 @@ nlohmann::json scene_digests(const Circumstances& of) {
   return digests;
 }
 
-/// FNV-1a, 64 bits: the report computes it as well.
-std::string fnv1a(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) hash = (hash ^ std::uint8_t(c)) * 0x100000001b3;
-  return fmt::format("{:016x}", hash);
-}
-
 /// Digests of what the records depend on besides their scenes: the code that measures, the code of
-/// the kind of study, whose folder has the study's JSON, and this file.
+/// the kind of study, whose folder has the study's JSON, and this file. The report computes the
+/// last as well.
 nlohmann::json source_digests(const std::string& study_path) {
   const std::map<std::string, std::string>& built = build_info().sources;
-  nlohmann::json sources{{"core", built.at("core")}, {"json", fnv1a(read_text(study_path))}};
+  nlohmann::json sources{{"core", built.at("core")}, {"json", text_digest(read_text(study_path))}};
   const std::string kind =
       "studies/" + std::filesystem::path(study_path).parent_path().filename().string();
   if (const auto digest = built.find(kind); digest != built.end()) sources[kind] = digest->second;

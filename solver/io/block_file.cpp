@@ -1,5 +1,6 @@
 #include "solver/io/block_file.hpp"
 
+#include "solver/digest.hpp"
 #include "solver/error.hpp"
 
 #include <bit>
@@ -12,16 +13,14 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "block files are little-endian");
 
 constexpr const char* first_line = "dssbench blocks 1";
-constexpr std::uint64_t fnv_start = 0xcbf29ce484222325u, fnv_prime = 0x100000001b3u;
 constexpr std::uint64_t word_bytes = 8;
 
 std::uint64_t block_digest(std::uint64_t number, std::span<const double> numbers) {
-  std::uint64_t hash = fnv_start;
-  const auto add = [&hash](std::uint64_t word) { hash = (hash ^ word) * fnv_prime; };
-  add(number);
-  add(numbers.size());
-  for (const double value : numbers) add(std::bit_cast<std::uint64_t>(value));
-  return hash;
+  Digest digest;
+  digest.add(number);
+  digest.add(numbers.size());
+  for (const double value : numbers) digest.add(std::bit_cast<std::uint64_t>(value));
+  return digest.value();
 }
 
 std::string_view bytes_of(const std::uint64_t& word) {
@@ -30,16 +29,10 @@ std::string_view bytes_of(const std::uint64_t& word) {
 
 } // namespace
 
-std::uint64_t text_digest(std::string_view text) {
-  std::uint64_t hash = fnv_start;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * fnv_prime;
-  return hash;
-}
-
 BlockWriter::BlockWriter(std::string target, const nlohmann::ordered_json& head)
     : target_(std::move(target)), file_(target_) {
   const std::string text = head.dump();
-  file_.write(fmt::format("{}\n{}\n{:016x}\n", first_line, text, text_digest(text)));
+  file_.write(fmt::format("{}\n{}\n{}\n", first_line, text, text_digest(text)));
 }
 
 void BlockWriter::write(std::span<const double> numbers) {
@@ -75,8 +68,7 @@ BlockReader::BlockReader(std::string path) : path_(std::move(path)) {
     throw InputError(fmt::format("{}: not a checkpoint of this program: its first line is not "
                                  "\"{}\"",
                                  path_, first_line));
-  if (!std::getline(stream_, text) || !std::getline(stream_, digest) ||
-      digest != fmt::format("{:016x}", text_digest(text)))
+  if (!std::getline(stream_, text) || !std::getline(stream_, digest) || digest != text_digest(text))
     fail("its head is damaged");
   head_ = nlohmann::json::parse(text, nullptr, false);
   if (!head_.is_object()) fail("its head is no JSON object");

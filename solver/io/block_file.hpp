@@ -17,13 +17,9 @@
 #include <fstream>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace dss {
-
-/// 64-bit FNV-1a over bytes.
-std::uint64_t text_digest(std::string_view text);
 
 /// Writes a file of blocks. It appears whole or not at all.
 class BlockWriter {

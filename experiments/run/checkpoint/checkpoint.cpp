@@ -1,6 +1,7 @@
 #include "experiments/run/checkpoint/checkpoint.hpp"
 
 #include "experiments/base/build_info.hpp"
+#include "solver/digest.hpp"
 #include "solver/error.hpp"
 
 #include <algorithm>
@@ -40,10 +41,6 @@ constexpr Fact known_facts[] = {
     {"kept_fields", "numbers an element", "give the --integrator and --precision of that run"},
 };
 
-std::string digest_text(const std::string& text) {
-  return fmt::format("{:016x}", text_digest(text));
-}
-
 /// Digest of all that a scene says of the problem: its text with overrides, and its voxels, which
 /// may come from other files.
 std::string problem_digest(const RunRequest& request, const RunPlan& plan) {
@@ -55,7 +52,7 @@ std::string problem_digest(const RunRequest& request, const RunPlan& plan) {
   std::string shape(lattice.present.begin(), lattice.present.end());
   for (const Row& row : lattice.rows)
     shape += fmt::format("{} {} {} {} {},", row.body, row.x_begin, row.x_end, row.y, row.z);
-  return digest_text(text.dump() + shape);
+  return text_digest(text.dump() + shape);
 }
 
 } // namespace
@@ -79,7 +76,7 @@ RunIdentity::RunIdentity(const RunRequest& request, const RunPlan& plan, bool is
   // Adaptive steps end at pauses, and a watched model is looked at there. Other runs may be
   // continued beyond their end.
   const bool has_pauses = plan.adaptive || is_watched;
-  facts["pauses"] = has_pauses ? digest_text(fmt::format("{}", fmt::join(stops, " "))) : "";
+  facts["pauses"] = has_pauses ? text_digest(fmt::format("{}", fmt::join(stops, " "))) : "";
   facts["has_fma"] = has_fma;
   facts["kept_fields"] = kept_fields;
 }
