@@ -173,8 +173,10 @@ void add_where_options(CLI::App& command, RunRequest& request, std::vector<std::
       "best members here, or the fastest one alone; with --ranks one member per rank");
   command.add_option("--threads", request.threads, "Threads of the variant")->capture_default_str();
   command
-      .add_option("--tile", request.tile,
-                  "Width of a tile [rows across the sweep] (default: as many as suit the caches)")
+      .add_option(
+          "--tile", request.tile,
+          "Width of a tile [rows across the sweep; of a plate, elements of a row] (default: "
+          "as many as suit the caches)")
       ->check(CLI::Range(1, 1 << 30));
   command
       .add_option("--ranks", request.ranks,

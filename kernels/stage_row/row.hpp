@@ -101,9 +101,14 @@ struct RowTask {
   const simd::LaneMask* live_lanes = nullptr; ///< of an ensemble: lanes whose results are checked
   /// A row of a later task, brought into L2 in parts along with the packs of this one; null: none.
   const char* fetch = nullptr;
-  const T* in = nullptr; ///< input of the stage; one readable pack follows the row
+  const T* in = nullptr;    ///< input of the stage
+  const T* ahead = nullptr; ///< the pack behind the row; must be readable if the row ends there
   const T *upper_y = nullptr, *upper_z = nullptr;
   T *carry_y = nullptr, *carry_z = nullptr; ///< link forces and couples for the upper rows
+  /// Of a piece of a cut row: the links to the next piece, and those that the piece before left.
+  /// Null if there is none.
+  T* carry_x = nullptr;
+  const T* from_x = nullptr;
   /// What the lower rows left; may be the same buffers as carry_y and carry_z unless there are
   /// maps.
   const T *from_y = nullptr, *from_z = nullptr;

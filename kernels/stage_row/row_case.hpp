@@ -78,7 +78,7 @@ void run_row_case(const RowCase& row_case, const T* in, T* out, std::size_t elem
   }
   T* const carry = out + array_size;
   for (std::size_t r = 0; r < rows; ++r) {
-    task.in = in + r * row_size;
+    task.in = in + r * row_size, task.ahead = task.in + row_size;
     task.upper_y = in + (r + 1) % rows * row_size;
     task.base = in + array_size + r * row_size;
     task.out = out + r * row_size;

@@ -247,6 +247,18 @@ struct StageRow {
       return check;
   }
 
+  carried link_before() const {
+    if (kind == LaneKind::neighbours && task.from_x != nullptr) return load_carry(task.from_x);
+    return {zero<vec>(), zero<spin>()};
+  }
+  /// Computes only the link from a piece of a cut row to the next one, into its carry buffer.
+  void prime_x() const {
+    const int last = task.packs - 1;
+    carried previous{zero<vec>(), zero<spin>()};
+    links_x<false>(prepare(task.in + std::ptrdiff_t(last) * task.stride), prepare(task.ahead),
+                   task.masks[last].link_x, previous);
+    store_carry(task.carry_x, previous);
+  }
   /// Computes only the links across `axis` from this row to the upper one, into the carry buffer.
   void prime(const int axis) const {
     for (int pack = 0; pack < task.packs; ++pack) {
@@ -288,7 +300,8 @@ struct StageRow {
     prepared next = prepare(in);
     alignas(64) T places[2][std::size_t(parked_size)];
     if constexpr (is_parked) park(places[0], next);
-    carried previous{zero<vec>(), zero<spin>()};
+    carried previous = link_before();
+    const T* const ahead = task.ahead;
     const char* fetch = task.fetch;
     const int fetch_lines = task.fetch_lines;
     const auto one_pack = [&]<path taken>(const int pack, const bool is_applied,
@@ -302,7 +315,7 @@ struct StageRow {
         for (int line = fetch_lines; line > 0; --line, fetch += 64) simd::fetch(fetch);
       prepared i = next;
       i.e = load_at<element>(in + place);
-      next = prepare(in + place + stride);
+      next = prepare(pack + 1 < packs ? in + place + stride : ahead);
       const auto read_again = [&] {
         if constexpr (is_parked) {
           // Fence for the compiler, which would otherwise keep earlier loads and spill them.
@@ -343,6 +356,8 @@ struct StageRow {
         one_pack(pack, is_applied, std::integral_constant<path, general_path>{});
       }
     }
+    if (kind == LaneKind::neighbours && task.carry_x != nullptr)
+      store_carry(task.carry_x, previous);
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Geometry as rows. Every body is a set of cells of a regular grid, stored as rows of fixed (y, z)
 /// (DESIGN.md section 4).
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,12 +16,13 @@ struct Row {
   int x_begin = 0, x_end = 0;     ///< first present cell, one past the last present cell
   std::size_t first_element = 0;  ///< global number of the first present cell of the row
   std::size_t first_cell = 0;     ///< index of cell x_begin in Lattice::present
+  int lower_x = -1, upper_x = -1; ///< of a cut row: linked pieces before and behind it, or -1
   int lower_y = -1, upper_y = -1; ///< row at y - 1, y + 1 of the same body and z, or -1
   int lower_z = -1, upper_z = -1; ///< row at z - 1, z + 1 of the same body and y, or -1
 
-  /// The neighbour rows across axis 1 (y) or 2 (z).
-  int lower(int axis) const { return axis == 1 ? lower_y : lower_z; }
-  int upper(int axis) const { return axis == 1 ? upper_y : upper_z; }
+  /// The neighbour rows across axis 0 (x), 1 (y) or 2 (z).
+  int lower(int axis) const { return axis == 0 ? lower_x : axis == 1 ? lower_y : lower_z; }
+  int upper(int axis) const { return axis == 0 ? upper_x : axis == 1 ? upper_y : upper_z; }
 };
 
 /// The rows of all bodies, body by body, in each body by z, then y. Every row has a present cell.
@@ -33,10 +35,20 @@ struct Lattice {
   /// Cells from an element to its neighbour along x. More than 1: so many bodies alternate along x
   /// (solver/model/ensemble.hpp).
   int x_stride = 1;
+  /// Where rows are cut into pieces (cut_into_pieces): the first x of each piece but the first one.
+  std::vector<int> cuts;
 
   bool is_present(const Row& row, int x) const {
     return x >= row.x_begin && x < row.x_end &&
            present[row.first_cell + std::size_t(x - row.x_begin)] != 0;
+  }
+  /// The number of the piece that a cell lies in, if rows are cut.
+  int piece_of(int x) const {
+    return int(std::upper_bound(cuts.begin(), cuts.end(), x) - cuts.begin());
+  }
+  /// Whether the cell at x, an element, has a link to the cell behind it.
+  bool has_link_x(const Row& row, int x) const {
+    return is_present(row, x + x_stride) || (row.upper_x >= 0 && x + 1 == row.x_end);
   }
   /// Largest distance in rows between linked elements; 0 if no link leaves a row. It is the depth
   /// of the halo of one stage, in rows.
@@ -60,6 +72,12 @@ struct VoxelGrid {
 
 /// Appends the rows and elements of a body to the lattice; `body` is its index.
 void append_body(Lattice& lattice, const VoxelGrid& grid, int body);
+
+/// The same elements with the same numbers, in rows that are cut. Each piece is a row of its own;
+/// pieces side by side are neighbours across y and z.
+/// @param whole  its elements follow one another along x (x_stride is 1)
+/// @param cuts   as Lattice::cuts, ascending
+Lattice cut_into_pieces(const Lattice& whole, std::vector<int> cuts);
 
 template <class Visit>
 void Lattice::for_each_element(Visit&& visit) const {
@@ -88,7 +106,7 @@ void Lattice::for_each_link(Visit&& visit) const {
     std::size_t i = row.first_element;
     for (int x = row.x_begin; x < row.x_end; ++x) {
       if (!is_present(row, x)) continue;
-      if (is_present(row, x + x_stride)) visit(i, i + std::size_t(x_stride), 0);
+      if (has_link_x(row, x)) visit(i, i + std::size_t(x_stride), 0);
       ++i;
     }
     across(row, row.upper_y, 1);

@@ -65,7 +65,7 @@ int stage_flops(row_action action) {
   for (auto& increment : task.increment) increment = rows[1];
   task.action = action, task.is_last = action == combined_stage, task.stride = P::fields;
   const auto count = [&](int packs) {
-    task.packs = packs;
+    task.packs = packs, task.ahead = task.in + packs * task.stride;
     Counted::flops = 0;
     const StageRow<P, Counted, terms> row{task};
     RowUpdate<P, Counted> update(task, row.update_scales());

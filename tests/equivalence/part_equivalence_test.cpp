@@ -39,6 +39,8 @@ struct PartsRun {
   bool is_every_stage = false, is_overlapped = false;
   int threads = 1;
   bool has_wrong_bit = false;
+  int tile = 0;
+  bool has_tiles = false; ///< expected of all parts
 
   template <class Act>
   State run(const Decomposition& decomposition, const State& state, Act&& act) const {
@@ -52,8 +54,12 @@ struct PartsRun {
       team.emplace_back([&] {
         LocalHalo halo(part, mailboxes, has_wrong_bit);
         const PartSetup setup{part, halo, is_every_stage, is_overlapped};
-        const auto executor = plugin.create(
-            {part.problem, method, Model::spatial, precision, problem.dt, threads, &setup});
+        Setup whole{part.problem, method, Model::spatial, precision, problem.dt, threads, &setup};
+        whole.tile = tile;
+        const auto executor = plugin.create(whole);
+        if (has_tiles) {
+          EXPECT_NE(executor->schedule().find("tiles of"), std::string::npos);
+        }
         halo.attach(*executor, precision);
         for (const Run& run : part.runs)
           executor->write(run.local, std::span(state).subspan(run.global * field_count,
@@ -161,6 +167,28 @@ TEST_P(Parts, of_several_threads_make_up_the_whole) {
               << c.name << ' ' << method.name << ' ' << how
               << (is_every_stage ? ", every stage" : "");
         }
+}
+
+TEST_P(Parts, of_a_plate_with_cut_rows_make_up_the_whole) {
+  if (!plugin.has_tiles || is_composed(plugin)) GTEST_SKIP() << "has no rows of its own";
+  const Problem plate = fixture::make_block(300, 60, 1, LinkLaw::paper);
+  for (const auto& [method, precision] : brief_schemes()) {
+    const State start = rounded(fixture::random_state(plate, 7, 1e-4, 0.02, 0.01), precision);
+    const State whole =
+        VariantRun{plugin, plate, method, Model::spatial, precision}.after(start, 9);
+    for (const auto& [how, parts] : {std::pair("strips", 3), std::pair("blocks", 4)})
+      for (const bool is_overlapped : {false, true})
+        for (const int threads : {1, 2}) {
+          PartsRun run{plugin, plate, method, precision, false, is_overlapped, threads};
+          run.tile = 50;
+          run.has_tiles = how == std::string_view("strips"); // parts of blocks may be filled
+          EXPECT_EQ(
+              differing_bits(whole, run.after(decompose(plate, how, parts), start, 9), precision),
+              0u)
+              << name(precision) << ' ' << method.name << ' ' << how << ", " << threads
+              << " threads" << (is_overlapped ? ", overlapped" : "");
+        }
+  }
 }
 
 /// Halos then have images. Edges and rest of a part have queues of their own, if no halo element

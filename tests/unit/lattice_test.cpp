@@ -77,6 +77,33 @@ TEST(lattice, links_of_any_mask_are_those_between_neighbouring_cells) {
   }
 }
 
+TEST(lattice, cut_rows_have_the_same_elements_and_links) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Lattice whole;
+    append_body(whole, scattered(9, 5, 3, seed), 0);
+    append_body(whole, whole_grid(7, 2, 1), 1);
+    const Lattice cut =
+        cut_into_pieces(whole, seed % 2 == 0 ? std::vector{4} : std::vector{1, 2, 6});
+    const auto links_of = [](const Lattice& lattice) {
+      std::set<Link> links;
+      lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
+        EXPECT_TRUE(links.insert({i, j, axis}).second) << "link visited twice";
+      });
+      return links;
+    };
+    EXPECT_EQ(links_of(cut), links_of(whole)) << "seed " << seed;
+    std::vector<std::array<int, 4>> cells[2];
+    for (const bool is_cut : {false, true})
+      (is_cut ? cut : whole).for_each_element([&](std::size_t element, const Row& row, int x) {
+        EXPECT_EQ(element, cells[is_cut].size());
+        cells[is_cut].push_back({row.body, row.z, row.y, x});
+      });
+    EXPECT_EQ(cells[0], cells[1]);
+    for (const Row& row : cut.rows)
+      EXPECT_EQ(cut.piece_of(row.x_begin), cut.piece_of(row.x_end - 1));
+  }
+}
+
 TEST(lattice, elements_are_visited_in_order_of_z_then_y_then_x) {
   Lattice lattice;
   append_body(lattice, scattered(6, 5, 3, 1), 0);

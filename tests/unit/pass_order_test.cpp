@@ -37,6 +37,15 @@ Lattice merged(const Lattice& cells) {
   return FilledRows(cells, 8, std::array{of_rows, of_rows}, RowForm::merged).lattice();
 }
 
+/// How rows are held.
+enum class Held { cells, merged, cut };
+
+Lattice held(const Lattice& cells, Held how) {
+  return how == Held::cells    ? cells
+         : how == Held::merged ? merged(cells)
+                               : cut_into_pieces(cells, {2, 3, 4, 7});
+}
+
 /// Sweeps over a block of rows and the halo that later sweeps read.
 std::vector<SweepRows> sweeps_of(const Lattice& lattice, int begin, int end, int count,
                                  std::span<const LinkedRows> extra = {}) {
@@ -64,7 +73,7 @@ std::vector<std::vector<LinkedRows>> sets_of_links(const Lattice& lattice) {
 /// Calls check(case) for blocks that hand over rows where they meet, in the order of sweeps.
 template <class Check>
 void each_handed_over(const Lattice& lattice, const std::vector<LinkedRows>& extra, int count,
-                      int tile, Check&& check) {
+                      SweepForm form, Check&& check) {
   const int rows = int(lattice.rows.size());
   RowDivision division;
   division.order = RowOrder(lattice, extra);
@@ -72,7 +81,7 @@ void each_handed_over(const Lattice& lattice, const std::vector<LinkedRows>& ext
   division.seams = SeamKind::handed_over;
   division.cuts = {0, rows / 3, rows / 3 + 1, rows / 2, rows};
   for (const std::vector<SweepRows>& sweeps : block_sweeps(division, rows, count))
-    check(Case{lattice, division.order, sweeps, {tile, false}, extra});
+    check(Case{lattice, division.order, sweeps, form, extra});
 }
 
 /// Calls check(case) for blocks, sweeps and tiles of awkward sizes.
@@ -81,21 +90,22 @@ void each_case(Check&& check) {
   for (const auto& [ny, nz] : {std::pair{7, 5}, {3, 9}, {11, 1}})
     for (const int count : {1, 2, 4, 8})
       for (const int tile : {no_tiles, 1, 2, 3, 5, 50})
-        for (const auto& [is_in_row_order, is_merged] :
-             {std::pair{false, false}, {true, false}, {false, true}}) {
-          const Lattice cells = scattered_bodies(9, ny, nz, unsigned(ny));
-          const Lattice lattice = is_merged ? merged(cells) : cells;
+        for (const auto& [is_in_row_order, how] : {std::pair{false, Held::cells},
+                                                   {true, Held::cells},
+                                                   {false, Held::merged},
+                                                   {false, Held::cut},
+                                                   {true, Held::cut}}) {
+          if (how == Held::cut && nz > 1) continue; // only rows of plates are cut
+          const SweepForm form{tile, is_in_row_order, how == Held::cut};
+          const Lattice lattice = held(scattered_bodies(9, ny, nz, unsigned(ny)), how);
           const int rows = int(lattice.rows.size());
-          for (const std::vector<LinkedRows>& extra : sets_of_links(lattice))
+          for (const std::vector<LinkedRows>& extra : sets_of_links(lattice)) {
+            if (how == Held::cut && !extra.empty()) continue;
             for (const auto& [begin, end] :
                  {std::pair{0, rows}, {rows / 3, rows}, {0, rows / 2}, {rows / 3, rows / 2}})
-              check(Case{lattice,
-                         {},
-                         sweeps_of(lattice, begin, end, count, extra),
-                         {tile, is_in_row_order},
-                         extra});
-          for (const std::vector<LinkedRows>& extra : sets_of_links(lattice))
-            each_handed_over(lattice, extra, count, tile, check);
+              check(Case{lattice, {}, sweeps_of(lattice, begin, end, count, extra), form, extra});
+            if (!is_in_row_order) each_handed_over(lattice, extra, count, form, check);
+          }
         }
 }
 
@@ -123,6 +133,14 @@ bool computes(const Case& c, int sweep, int row) {
   return c.sweeps[std::size_t(sweep)].has(c.order.place(row));
 }
 
+/// Whether a task of a row leaves links across an axis.
+bool leaves(const PassTask& task, int axis) {
+  const std::map<RowWork, int> alone{
+      {RowWork::upper_link_x, 0}, {RowWork::upper_link_y, 1}, {RowWork::upper_link_z, 2}};
+  const auto found = alone.find(task.work);
+  return found == alone.end() || found->second == axis;
+}
+
 /// The rows whose output of the sweep before a task reads.
 std::vector<int> rows_read(const Case& c, const PassTask& task) {
   if (task.work == RowWork::extra_sum) return {};
@@ -132,8 +150,8 @@ std::vector<int> rows_read(const Case& c, const PassTask& task) {
   }
   const Row& row = c.lattice.rows[std::size_t(task.row)];
   std::vector<int> rows{task.row};
-  if (row.upper_y >= 0 && task.work != RowWork::upper_link_z) rows.push_back(row.upper_y);
-  if (row.upper_z >= 0 && task.work != RowWork::upper_link_y) rows.push_back(row.upper_z);
+  for (const int axis : {0, 1, 2})
+    if (row.upper(axis) >= 0 && leaves(task, axis)) rows.push_back(row.upper(axis));
   return rows;
 }
 
@@ -153,11 +171,12 @@ TEST(PassOrder, ComesToARowAfterAllThatItReads) {
       const Row& row = c.lattice.rows[std::size_t(task.row)];
       if (task.work == RowWork::stage) {
         done[{task.sweep, task.row}] = 1;
-        EXPECT_TRUE((row.lower_y < 0 || is_left[{1, task.sweep, row.lower_y}]));
-        EXPECT_TRUE((row.lower_z < 0 || is_left[{2, task.sweep, row.lower_z}]));
+        for (const int axis : {0, 1, 2}) {
+          EXPECT_TRUE((row.lower(axis) < 0 || is_left[{axis, task.sweep, row.lower(axis)}]));
+        }
       }
-      if (task.work != RowWork::upper_link_z) is_left[{1, task.sweep, task.row}] = true;
-      if (task.work != RowWork::upper_link_y) is_left[{2, task.sweep, task.row}] = true;
+      for (const int axis : {0, 1, 2})
+        if (leaves(task, axis)) is_left[{axis, task.sweep, task.row}] = true;
     }
   });
 }
@@ -226,6 +245,37 @@ TEST(BodyGroups, ThatAreLinkedHaveNoRowsForTiles) {
   EXPECT_EQ(most_rows_across(lattice, division, false, in_first), 7);
 }
 
+TEST(RowCuts, LeaveAPackForEachSweepBetweenTiles) {
+  constexpr int lanes = 8;
+  for (const int sweeps : {1, 4, 8})
+    for (const int first : {0, 3})
+      for (const int packs : {1, 7, 8, 40, 125, 250})
+        for (const int width : {0, 1, 20, 60, 250}) {
+          const auto [at, pieces] = cut_for_tiles(first, first + packs, width, sweeps, lanes);
+          std::vector<int> sizes; // of each piece
+          for (int from = first * lanes; const int to : at) {
+            EXPECT_EQ(to % lanes, 0);
+            sizes.push_back((to - from) / lanes), from = to;
+          }
+          if (at.empty()) {
+            EXPECT_TRUE(width >= packs || packs < 1 + sweeps);
+            continue;
+          }
+          sizes.push_back(first + packs - at.back() / lanes);
+          EXPECT_EQ(pieces, sweeps);
+          const int tiles = (int(sizes.size()) + sweeps - 1) / sweeps;
+          EXPECT_EQ(int(sizes.size()), tiles * sweeps - (sweeps - 1));
+          for (int n = 0; n < int(sizes.size()); ++n) {
+            if (n % sweeps != 0) {
+              EXPECT_EQ(sizes[std::size_t(n)], 1);
+            } else {
+              EXPECT_GE(sizes[std::size_t(n)], 1);
+              EXPECT_LE(sizes[std::size_t(n)], std::max(width, 2));
+            }
+          }
+        }
+}
+
 TEST(BodyGroups, TakeTheDirectionOfTheirLinks) {
   // Planes along the longer side of each body would put one row of links beside many planes.
   const Lattice lattice = plates({{20, 4}, {6, 20}});
@@ -246,7 +296,7 @@ TEST(PassPlaces, KeepWhatIsStillRead) {
     for (const bool is_filled : {false, true}) {
       const PassPlaces places(c.lattice, c.order, order, sweeps, stages, increments, c.extra,
                               is_filled);
-      std::map<int, std::pair<int, int>> stage_rows, links[2];
+      std::map<int, std::pair<int, int>> stage_rows, links[3];
       for (const PassTask& task : order) {
         const int stage = task.sweep % stages;
         const auto expect_kept = [&](int read, int r) {
@@ -260,20 +310,19 @@ TEST(PassPlaces, KeepWhatIsStillRead) {
         if (task.work == RowWork::stage)
           for (const int m : increments[std::size_t(stage)])
             if (computes(c, m, task.row)) expect_kept(m, task.row);
-        for (const int axis : {1, 2}) {
-          auto& of_axis = links[axis - 1];
+        for (const int axis : {0, 1, 2}) {
+          auto& of_axis = links[axis];
           const int lower = row.lower(axis), upper = row.upper(axis);
           if (task.work == RowWork::stage && lower >= 0) {
             EXPECT_EQ(of_axis[places.links(axis, task.sweep, lower)],
                       std::pair(int(task.sweep), lower));
           }
-          const RowWork other = axis == 1 ? RowWork::upper_link_z : RowWork::upper_link_y;
-          if (upper >= 0 && task.work != other)
+          if (upper >= 0 && leaves(task, axis))
             of_axis[places.links(axis, task.sweep, task.row)] = {task.sweep, task.row};
         }
         if (task.work == RowWork::stage && stage + 1 < stages) {
           const int place = places.stage_row(stage, task.row);
-          EXPECT_LT(place, places.stage_row_count());
+          EXPECT_LT(place, places.stage_rows_size());
           stage_rows[place] = {stage, task.row};
         }
       }
@@ -288,9 +337,33 @@ TEST(PassPlaces, OfOneTileAreThoseOfAFewPlanes) {
   const RowOrder by_number;
   const PassPlaces places(block, by_number, order_pass(block, by_number, sweeps, {}), 4, 4,
                           {{}, {}, {}, {0, 1, 2}}, {}, false);
-  EXPECT_LE(places.stage_row_count(), 6 * 20 + 10); // 3 + 2 + 1 planes
-  EXPECT_LE(places.links_count(2), 4 * 20 + 4);
-  EXPECT_LE(places.links_count(1), 4 + 4);
+  EXPECT_LE(places.stage_rows_size(), 6 * 20 + 10); // 3 + 2 + 1 planes
+  EXPECT_LE(places.links_size(2), 4 * 20 + 4);
+  EXPECT_LE(places.links_size(1), 4 + 4);
+}
+
+/// What a row leaves may not reach into what another one left.
+TEST(PassPlaces, OfRowsOfUnequalSizesLieApart) {
+  const Lattice lattice = held(scattered_bodies(9, 11, 1, 5), Held::cut);
+  std::vector<int> sizes;
+  for (const Row& row : lattice.rows) sizes.push_back(row.x_end - row.x_begin);
+  const std::vector<SweepRows> sweeps = sweeps_of(lattice, 0, int(lattice.rows.size()), 4);
+  const RowOrder by_number;
+  const std::vector<PassTask> order = order_pass(lattice, by_number, sweeps, {2, false, true});
+  const PassPlaces places(lattice, by_number, order, 4, 4, {{}, {}, {}, {0, 1, 2}}, {}, false,
+                          {sizes, sizes});
+  std::map<int, int> end_of; // of each place
+  for (int stage = 0; stage < 3; ++stage)
+    for (int r = 0; r < int(lattice.rows.size()); ++r) {
+      int& end = end_of[places.stage_row(stage, r)];
+      end = std::max(end, places.stage_row(stage, r) + sizes[std::size_t(r)]);
+    }
+  int end = 0;
+  for (const auto& [begin, place_end] : end_of) {
+    EXPECT_LE(end, begin);
+    end = place_end;
+  }
+  EXPECT_LE(end, places.stage_rows_size());
 }
 
 TEST(PassPlaces, OfAFilledRowAreNotThoseThatItReads) {
@@ -311,27 +384,42 @@ TEST(PassPlaces, OfAFilledRowAreNotThoseThatItReads) {
   });
 }
 
-TEST(FetchPlan, FetchesEarlyEnoughAlongWithOneTaskEach) {
-  const std::vector<FetchPlan::Task> tasks(100, {8, 0});
-  FetchPlan plan(tasks);
-  std::vector<char> rows(100 * 64);
-  for (std::size_t n = 0; n < 100; n += 2) plan.first_read(n, &rows[n * 64], 8 * 2 * 64);
-  std::map<const char*, std::size_t> by;
-  for (std::size_t n = 0; n < 100; ++n)
-    if (const FetchPlan::Fetch& fetch = plan.fetches()[n]; fetch.row != nullptr) {
-      EXPECT_TRUE(by.emplace(fetch.row, n).second);
-      EXPECT_EQ(fetch.lines, 2);
-      EXPECT_LE(long(n * 8) + FetchPlan::lead, (fetch.row - rows.data()) / 64 * 8);
+TEST(FetchPlan, DividesARowAmongTasksThatAreEarlyEnough) {
+  constexpr int count = 100, packs = 8, lines = 16;
+  for (const int shares : {1, 2, 3}) {
+    FetchPlan plan(std::vector<long>(count, packs), shares);
+    std::vector<char> rows(std::size_t(count) * lines * 64);
+    const auto row = [&](int n) { return rows.data() + std::size_t(n) * lines * 64; };
+    for (int n = 0; n < count; n += 4) plan.first_read(std::size_t(n), row(n), lines * 64);
+    std::vector<int> fetched(std::size_t(count) * lines);
+    for (int n = 0; n < count; ++n) {
+      const auto& [from, of_pack] = plan.fetches()[std::size_t(n)];
+      if (from == nullptr) continue;
+      const auto line = std::size_t(from - rows.data()) / 64;
+      for (std::size_t k = 0; k < std::size_t(packs * of_pack) && line + k < fetched.size(); ++k)
+        ++fetched[line + k];
+      EXPECT_LE(n * packs + FetchPlan::lead, long(line / lines) * packs);
     }
-  EXPECT_GE(by.size(), 47U);
+    for (int n = 4; n < count; n += 4)
+      for (std::size_t k = 0; k < lines; ++k)
+        EXPECT_GE(fetched[std::size_t(n) * lines + k], 1) << "line " << k << " of row " << n;
+  }
 }
 
-TEST(FetchPlan, ReadersOfLongRowsFetchThemThemselves) {
-  FetchPlan plan({{100, 0}, {100, 1}});
+TEST(FetchPlan, LetsNoShortTaskFetchALongRow) {
+  FetchPlan plan({100, 1, 100, 1, 100}, 1);
   const std::vector<char> row(100 * 64);
-  plan.first_read(1, row.data(), row.size());
-  EXPECT_EQ(plan.fetches()[1].row, row.data() + FetchPlan::lead * 64);
-  EXPECT_EQ(plan.fetches()[0].row, nullptr);
+  plan.first_read(4, row.data(), row.size());
+  EXPECT_EQ(plan.fetches()[2].row, row.data());
+  for (const std::size_t n : {0, 1, 3, 4}) EXPECT_EQ(plan.fetches()[n].row, nullptr);
+}
+
+TEST(FetchPlan, LetsAReaderWithoutTasksBeforeItFetchItsRow) {
+  FetchPlan plan({100, 100}, 2);
+  const std::vector<char> row(100 * 64);
+  plan.first_read(0, row.data(), row.size());
+  EXPECT_EQ(plan.fetches()[0].row, row.data() + FetchPlan::lead * 64);
+  EXPECT_EQ(plan.fetches()[1].row, nullptr);
 }
 
 } // namespace

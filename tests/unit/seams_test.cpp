@@ -26,12 +26,14 @@ Lattice porous_bodies(int ny, int nz) {
 /// a row is the number of sweeps that have written it.
 class Passes {
 public:
-  /// @param is_part  the middle half of the rows belong to the blocks, the others to other parts
+  /// @param form  in row order: the middle half of the rows belong to the blocks, the others to
+  ///   other parts
   Passes(const Lattice& lattice, const std::vector<LinkedRows>& extra, int stages, int sweeps,
-         int blocks, int tile, bool is_part)
+         int blocks, SweepForm form)
       : lattice_(lattice), extra_(extra), stages_(stages), sweeps_(sweeps),
         state_(lattice.rows.size()), pass_(std::size_t(blocks)), task_(pass_.size()),
         events_(pass_.size()) {
+    const bool is_part = form.is_in_row_order;
     if (!is_part) division_.order = RowOrder(lattice, extra);
     division_.halo = division_.order.halo(lattice, extra);
     division_.seams = SeamKind::handed_over;
@@ -40,7 +42,7 @@ public:
     for (int b = 0; b <= blocks; ++b) division_.cuts.push_back(begin + (end - begin) * b / blocks);
     const auto all = block_sweeps(division_, rows, sweeps);
     for (const auto& of_block : all)
-      orders_.push_back(order_pass(lattice, division_.order, of_block, {tile, is_part}, extra));
+      orders_.push_back(order_pass(lattice, division_.order, of_block, form, extra));
     reads_.stages = stages;
     reads_.increments.resize(std::size_t(stages));
     if (stages == 4) reads_.increments.back() = {0, 1, 2};
@@ -127,8 +129,10 @@ private:
 /// Calls check(passes) for methods, blocks and tiles of awkward sizes.
 template <class Check>
 void each_team(Check&& check) {
-  for (const auto& [ny, nz] : {std::pair{9, 6}, {4, 12}, {24, 1}}) {
-    const Lattice lattice = porous_bodies(ny, nz);
+  for (const auto& [ny, nz, is_cut] :
+       {std::tuple{9, 6, false}, {4, 12, false}, {24, 1, false}, {24, 1, true}}) {
+    const Lattice whole = porous_bodies(ny, nz),
+                  lattice = is_cut ? cut_into_pieces(whole, {1, 3}) : whole;
     const int rows = int(lattice.rows.size());
     for (const std::vector<LinkedRows>& extra :
          {std::vector<LinkedRows>{}, {{0, rows - 1}, {2, rows / 2}}})
@@ -136,8 +140,11 @@ void each_team(Check&& check) {
         for (const int blocks : {2, 3, 7})
           for (const int tile : {no_tiles, 2})
             for (const bool is_part : {false, true}) {
-              if (is_part && (!extra.empty() || stages != sweeps)) continue; // not so computed
-              Passes passes(lattice, extra, stages, sweeps, blocks, tile, is_part);
+              // Parts have no extra links, and make one step a pass. Rows that extra links join are
+              // whole.
+              if (is_part && (!extra.empty() || stages != sweeps)) continue;
+              if (is_cut && !extra.empty()) continue;
+              Passes passes(lattice, extra, stages, sweeps, blocks, {tile, is_part, is_cut});
               check(passes, blocks);
             }
   }

@@ -42,8 +42,9 @@ struct Setup {
   std::string members{};
   /// Others than quaternions need a plug-in with has_all.
   Rotation rotation = Rotation::quaternion;
-  /// Rows across of a tile of the wavefront; 0: as many as suit the caches. Others than 0 need a
-  /// plug-in with has_tiles.
+  /// Width of a tile of the wavefront: rows across, in plates elements along x (rounded to packs,
+  /// at least one for each sweep). 0: as suits the caches. Others than 0 need a plug-in with
+  /// has_tiles.
   int tile = 0;
   /// Not null: the executor computes all members (Plugin::ensemble_lanes of them), of which
   /// `problem` is the first. Elements are then those of the ensemble, and a row of signals has each

@@ -44,23 +44,28 @@ private:
 
 BodyPlanes::BodyPlanes(const Lattice& lattice, SweepRows rows, PlaneDirection direction) {
   constexpr int lowest = std::numeric_limits<int>::min(), highest = std::numeric_limits<int>::max();
-  least_y_ = least_z_ = highest;
-  int most_y = lowest, most_z = lowest;
+  least_y_ = least_z_ = first_piece = highest;
+  int most_y = lowest, most_z = lowest, most_piece = lowest;
+  const auto piece_of = [&](const Row& row) { return lattice.piece_of(row.x_begin); };
   for (int r = rows.begin; r < rows.end; ++r) {
     const Row& row = lattice.rows[std::size_t(r)];
     least_y_ = std::min(least_y_, row.y), most_y = std::max(most_y, row.y);
     least_z_ = std::min(least_z_, row.z), most_z = std::max(most_z, row.z);
+    first_piece = std::min(first_piece, piece_of(row));
+    most_piece = std::max(most_piece, piece_of(row));
   }
+  const int pieces = most_piece - first_piece + 1;
   const int size_y = most_y - least_y_ + 1, size_z = most_z - least_z_ + 1;
   is_along_y_ = direction == PlaneDirection::longer      ? size_y > size_z
                 : direction == PlaneDirection::row_order ? size_z == 1
                                                          : direction == PlaneDirection::y;
   along = is_along_y_ ? size_y : size_z;
-  across = is_along_y_ ? size_z : size_y;
+  across = (is_along_y_ ? size_z : size_y) * pieces;
   rows_.assign(std::size_t(along) * std::size_t(across), -1);
   for (int r = rows.begin; r < rows.end; ++r) {
     const Row& row = lattice.rows[std::size_t(r)];
-    rows_[place(plane_of(row), is_along_y_ ? row.z - least_z_ : row.y - least_y_)] = r;
+    const int layer = is_along_y_ ? row.z - least_z_ : row.y - least_y_;
+    rows_[place(plane_of(row), layer * pieces + piece_of(row) - first_piece)] = r;
   }
 }
 

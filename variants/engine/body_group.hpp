@@ -22,7 +22,8 @@ struct LinkedRows {
 /// The direction in which planes of rows follow one another.
 enum class PlaneDirection : std::uint8_t { longer, row_order, y, z };
 
-/// Rows of one body by their places: along the direction of the sweeps, and across it.
+/// Rows of one body by their places: along the direction of the sweeps, and across it. Across, the
+/// pieces of cut rows follow one another.
 class BodyPlanes {
 public:
   BodyPlanes(const Lattice& lattice, SweepRows rows, PlaneDirection direction);
@@ -33,6 +34,7 @@ public:
   /// The plane that a row of the body belongs to.
   int plane_of(const Row& row) const { return is_along_y_ ? row.y - least_y_ : row.z - least_z_; }
   int along = 0, across = 0;
+  int first_piece = 0; ///< of cut rows: the number of the first across
 
 private:
   std::size_t place(int s, int c) const {

@@ -19,21 +19,17 @@ private:
   std::vector<int> tiles_;
 };
 
-/// Rows that tasks are the first to read, and the tasks that fetch them: each at most one row, a
-/// part along with each of its packs.
+/// Rows that tasks are the first to read, and the tasks that fetch them: each a part of one row,
+/// along with each of its packs. A row is divided among several tasks, because the processor has
+/// few buffers for cache lines that are on their way, and loads from L2 need them too.
 class FetchPlan {
 public:
-  struct Task {
-    int packs; ///< 0: the task cannot fetch
-    int sweep;
-  };
-  /// @param tasks  in their order
-  explicit FetchPlan(std::vector<Task> tasks);
+  /// @param tasks   packs of each task in their order; 0: it cannot fetch
+  /// @param shares  tasks among which a row is divided
+  FetchPlan(std::vector<long> tasks, int shares);
   /// Tells that a task is the first to read a row since it left the cache. Tasks must come in
-  /// ascending order. An earlier task of the same sweep fetches the row, since the sweep that reads
-  /// the state has the least to load; if there is none, one of another sweep. A long row is fetched
-  /// by its reader, ahead of its own reading; what is then missing at its start, the row before it
-  /// in memory has fetched beyond its end.
+  /// ascending order. The row is divided among the nearest earlier tasks of about the reader's
+  /// length. Without any, a long row is fetched by its reader, ahead of its own reading.
   void first_read(std::size_t task, const void* row, std::size_t bytes);
 
   struct Fetch {
@@ -49,10 +45,12 @@ public:
 private:
   /// What is fetched earlier may be out of the cache before it is used.
   static constexpr long most_lead = 20 * lead;
+  static constexpr long most_ratio = 4; ///< of the lengths of two tasks, one of which fetches
   static constexpr long least_own_packs = lead + lead / 2; ///< of a row that its reader fetches
   void put(std::size_t task, const char* row, std::size_t bytes);
 
-  const std::vector<Task> tasks_;
+  const std::vector<long> tasks_;
+  const std::size_t shares_;
   std::vector<long> start_; ///< packs before each task
   std::vector<Fetch> fetches_;
 };

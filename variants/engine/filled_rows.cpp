@@ -112,7 +112,7 @@ FilledRows::FilledRows(const Lattice& cells, int lanes, std::span<const RowCosts
   }
   if (!is_any) return;
   forms_.resize(std::size_t(cells.rows.back().body) + 1);
-  filled_ = {{}, cells.present, cells.element_count, cells.x_stride};
+  filled_ = {{}, cells.present, cells.element_count, cells.x_stride, {}};
   row_.resize(cells.rows.size());
   first_place_.resize(cells.rows.size());
   for (const auto& [begin, end, form] : bodies) take(begin, end, form);

@@ -114,6 +114,8 @@ struct RowKernels {
   }
   DSS_FLATTEN static void prime(const RowTask<T>& task, int axis) {
     const StageRow<P, T, terms, kind> row{task};
+    if constexpr (kind == LaneKind::neighbours)
+      if (axis == 0) row.prime_x();
     if constexpr (P::axes > 1)
       if (axis == 1) row.prime(1);
     if constexpr (P::axes > 2)

@@ -58,7 +58,8 @@ struct KernelSet {
   /// @return false if the last stage of a step left a velocity that is not finite
   bool (*stage)(const RowTask<T>& task);
   /// Computes only the links from a row (its `in`, `upper_*`, `carry_*`) to the next row across an
-  /// axis (1 or 2). A block of rows needs them from the row before its first.
+  /// axis (1 or 2; of a piece of a cut row also 0). A block of rows needs them from the row before
+  /// its first.
   void (*prime)(const RowTask<T>& task, int axis);
   /// Computes an extra link, or of an ensemble the same link of all members.
   /// @param i, j                fields of the two elements; of an ensemble: packs

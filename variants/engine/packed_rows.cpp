@@ -53,11 +53,13 @@ static std::vector<RowCosts> costs_of(const Problem& problem, int lanes) {
 
 template <class T, int W>
 PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* part, Memory& where,
-                             const Ensemble* ensemble, RowForm furthest)
-    : memory(where), cells(ensemble == nullptr ? problem.lattice : ensemble->lattice),
-      filled(cells, W, costs_of(problem, W), furthest), lattice(filled.lattice()),
-      layout(descriptor(model)), rows(lattice.rows.size()), own_end(int(rows.size())), part_(part),
-      applied_index_(lattice.rows.size(), -1) {
+                             const Ensemble* ensemble, RowForm furthest, Lattice pieces)
+    : memory(where), cut(std::move(pieces)), cells(is_cut()              ? cut
+                                                   : ensemble == nullptr ? problem.lattice
+                                                                         : ensemble->lattice),
+      filled(cells, W, costs_of(problem, W), is_cut() ? RowForm::cells : furthest),
+      lattice(filled.lattice()), layout(descriptor(model)), rows(lattice.rows.size()),
+      own_end(int(rows.size())), part_(part), applied_index_(lattice.rows.size(), -1) {
   if (ensemble != nullptr) members_ = ensemble->members;
   if (members_.empty()) members_ = {&problem};
   if (is_ensemble() && members_.size() != std::size_t(W))
@@ -79,10 +81,11 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
     else
       packed.body = &bodies_[std::size_t(row.body)];
     packs += std::size_t(packed.packs);
-    packs_across = std::max(packs_across, packed.first_pack + packed.packs);
+    packs_across = std::max(packs_across, pack_across(int(r)) + packed.packs);
     max_packs = std::max(max_packs, packed.packs);
     if (filled.form(row) != RowForm::merged) tiled_packs = std::max(tiled_packs, packed.packs);
   }
+  set_place_sizes();
   mark_links();
   if constexpr (W == simd::lanes<T>) maps_ = LaneMaps<T>(filled, cells); // only these are filled
   for (std::size_t r = 0; r < rows.size(); ++r) rows[r].maps = maps_.of_row(r);
@@ -90,6 +93,24 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
   apply_extra_links(problem);
   apply_clamps();
   hand_out_applied();
+}
+
+/// Pieces with the same number have places of the same size, so that there are few sizes.
+template <class T, int W>
+void PackedRows<T, W>::set_place_sizes() {
+  std::vector<int> stage(cut.cuts.size() + 1), links(stage.size()); // of each piece
+  const auto piece_of = [&](std::size_t r) {
+    return is_cut() ? std::size_t(cut.piece_of(lattice.rows[r].x_begin)) : 0;
+  };
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const std::size_t n = piece_of(r);
+    stage[n] = std::max(stage[n], rows[r].packs);
+    links[n] = std::max(links[n], pack_across(int(r)) + rows[r].packs);
+  }
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    stage_sizes.push_back(stage[piece_of(r)]);
+    links_sizes.push_back(links[piece_of(r)]);
+  }
 }
 
 template <class T, int W>
@@ -128,9 +149,10 @@ template <class T, int W>
 bool PackedRows<T, W>::reads_halo(int row) const {
   if (has_halo_.empty()) return false;
   const Row& r = lattice.rows[std::size_t(row)];
-  for (const int read : {row, r.lower_y, r.upper_y, r.lower_z, r.upper_z})
-    if (read >= 0 && has_halo_[std::size_t(read)]) return true;
-  return false;
+  const auto has_halo = [&](int read) { return read >= 0 && has_halo_[std::size_t(read)]; };
+  for (const int axis : {0, 1, 2})
+    if (has_halo(r.lower(axis)) || has_halo(r.upper(axis))) return true;
+  return has_halo(row);
 }
 
 template <class T, int W>
@@ -158,7 +180,7 @@ void PackedRows<T, W>::mark_links() {
       };
       PackMasks& masks = of_row[std::size_t(place / W - rows[r].first_pack)];
       const auto bit = simd::LaneMask(1u << (place % W));
-      if (cells.is_present(row, x + cells.x_stride)) masks.link_x |= bit;
+      if (cells.has_link_x(row, x)) masks.link_x |= bit;
       if (links_to(row.upper_y)) masks.link_y |= bit;
       if (links_to(row.upper_z)) masks.link_z |= bit;
       if (links_to(row.lower_y)) masks.below_y |= bit;
@@ -172,6 +194,8 @@ template <class T, int W>
 std::size_t PackedRows<T, W>::bytes() const {
   std::size_t sum = rows.size() * sizeof(PackedRow<T>) + applied_index_.size() * sizeof(int) +
                     filled.bytes() + maps_.bytes();
+  sum += (stage_sizes.size() + links_sizes.size()) * sizeof(int) + cut.rows.size() * sizeof(Row) +
+         cut.present.size();
   for (const auto& masks : masks_) sum += masks.size() * sizeof(PackMasks);
   sum += member_bodies_.size() * sizeof(member_bodies_[0]);
   for (const auto& row : applied_) {

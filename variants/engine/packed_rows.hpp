@@ -44,12 +44,16 @@ public:
   /// @param memory    for what devices need too; outlives this object
   /// @param ensemble  null, or an ensemble of W members, of which `problem` is the first
   /// @param furthest  the last form that rows may take (FilledRows)
+  /// @param pieces    the problem's lattice with cut rows, which then are not filled
+  /// (pass_shape.hpp)
   PackedRows(const Problem& problem, Model model, const Part* part, Memory& memory = Memory::heap(),
-             const Ensemble* ensemble = nullptr, RowForm furthest = RowForm::cells);
+             const Ensemble* ensemble = nullptr, RowForm furthest = RowForm::cells,
+             Lattice pieces = {});
   PackedRows(const PackedRows&) = delete;
   PackedRows& operator=(const PackedRows&) = delete;
 
   Memory& memory;
+  const Lattice cut; ///< empty if rows are whole
   const Lattice& cells;
   const FilledRows filled;
   const Lattice& lattice; ///< the rows that packs hold: filled.lattice()
@@ -57,12 +61,21 @@ public:
   std::vector<PackedRow<T>> rows;
   int reach = 0;        ///< largest distance of two neighbours in the grid [rows]
   int stage_halo = 0;   ///< rows that a stage needs beside its own: reach, or an extra link's
-  int packs_across = 0; ///< packs of the widest body's grid
-  int max_packs = 0;    ///< packs of the longest row
-  int tiled_packs = 0;  ///< packs of the longest row that is not merged
-  int carry_size = 0;   ///< numbers of a pack in a carry buffer; the largest over the bodies
+  int packs_across = 0; ///< packs of the widest body's grid; of cut rows: of a piece
+  std::vector<int> stage_sizes; ///< packs of the place for a stage of each row
+  std::vector<int> links_sizes; ///< packs of the place for the links that each row leaves
+  int max_packs = 0;            ///< packs of the longest row
+  int tiled_packs = 0;          ///< packs of the longest row that is not merged
+  int carry_size = 0; ///< numbers of a pack in a carry buffer; the largest over the bodies
   int leapfrog_fields = 0;
   int fields() const { return int(layout.fields.size()); }
+  bool is_cut() const { return !cut.cuts.empty(); }
+  /// A row's first pack, counted from the start of the body's grid, or of the piece.
+  int pack_across(int row) const {
+    const Row& r = lattice.rows[std::size_t(row)];
+    const int piece = is_cut() ? cut.piece_of(r.x_begin) : 0;
+    return r.x_begin / W - (piece == 0 ? 0 : cut.cuts[std::size_t(piece) - 1] / W);
+  }
   const LaneMaps<T>& maps() const { return maps_; }
   /// Calls visit(element, x) for each element of a row, in ascending x of `lattice`.
   template <class Visit>
@@ -132,6 +145,7 @@ private:
     std::vector<Buffer<T>> values;
     std::vector<simd::LaneMask> free_lanes;
   };
+  void set_place_sizes();
   void choose_shapes(const Problem& problem, Model model);
   void set_constants();
   void find_layers();

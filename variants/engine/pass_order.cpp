@@ -44,20 +44,24 @@ private:
 
 class Order {
 public:
-  Order(const Lattice& lattice, const RowOrder& rows, std::span<const SweepRows> sweeps, int tile,
-        std::span<const LinkedRows> extra)
-      : lattice_(lattice), rows_(rows), sweeps_(sweeps), form_tile_(tile),
+  Order(const Lattice& lattice, const RowOrder& rows, std::span<const SweepRows> sweeps,
+        SweepForm form, std::span<const LinkedRows> extra)
+      : lattice_(lattice), rows_(rows), sweeps_(sweeps), form_(form),
         extra_(extra, lattice.rows.size(), sweeps.size()) {}
   void add_group(const BodyGroup& group) {
-    const int last = int(sweeps_.size()) - 1, across = group.members().front().planes.across,
-              tiles = form_tile_ == no_tiles || group.is_linked()
+    const BodyPlanes& planes = group.members().front().planes;
+    // Of cut rows: pieces of the first tile that the body does not have.
+    const int without = form_.is_cut ? planes.first_piece % form_.tile : 0;
+    const int last = int(sweeps_.size()) - 1, across = planes.across,
+              tiles = form_.tile == no_tiles || group.is_linked()
                           ? 1
-                          : (across + form_tile_ - 1) / form_tile_;
+                          : (across + without + form_.tile - 1) / form_.tile;
     // The mean of the sweeps' edges divides the rows evenly.
     const auto edge = [&](long t) {
-      return t == 0       ? 0
-             : t == tiles ? across + last
-                          : int((across * t + tiles / 2) / tiles) + last / 2;
+      return t == 0         ? 0
+             : t == tiles   ? across + last
+             : form_.is_cut ? int(t) * form_.tile - without
+                            : int((across * t + tiles / 2) / tiles) + last / 2;
     };
     for (int t = 0; t < tiles; ++t, ++tile_)
       for (int k = 0; k < group.planes() + last * group.lag(); ++k)
@@ -102,6 +106,7 @@ private:
     const int begin = sweeps_[std::size_t(sweep)].begin;
     // Rows before the sweep's first leave no links by themselves.
     const auto is_before = [&](int lower) { return lower >= 0 && rows_.place(lower) < begin; };
+    if (is_before(r.lower_x)) put(RowWork::upper_link_x, sweep, r.lower_x);
     if (is_before(r.lower_y)) put(RowWork::upper_link_y, sweep, r.lower_y);
     if (is_before(r.lower_z)) put(RowWork::upper_link_z, sweep, r.lower_z);
     const std::span<const int> links = extra_.links_of(row);
@@ -117,7 +122,7 @@ private:
   const Lattice& lattice_;
   const RowOrder& rows_;
   const std::span<const SweepRows> sweeps_;
-  const int form_tile_;
+  const SweepForm form_;
   ExtraWork extra_;
   int tile_ = 0;
 };
@@ -127,7 +132,7 @@ private:
 std::vector<PassTask> order_pass(const Lattice& lattice, const RowOrder& rows,
                                  std::span<const SweepRows> sweeps, SweepForm form,
                                  std::span<const LinkedRows> extra) {
-  Order order(lattice, rows, sweeps, form.tile, extra);
+  Order order(lattice, rows, sweeps, form, extra);
   const auto add = [&](std::span<const BodyGroup> groups) {
     for (const BodyGroup& group : groups) order.add_group(group);
   };
@@ -136,6 +141,16 @@ std::vector<PassTask> order_pass(const Lattice& lattice, const RowOrder& rows,
   else
     add(rows.groups());
   return std::move(order.tasks);
+}
+
+RowCuts cut_for_tiles(int first, int end, int width, int sweeps, int lanes) {
+  const int between = sweeps - 1, all = end - first + between;
+  const int tiles = std::min((end - first + width - 1) / std::max(width, 1), all / (between + 1));
+  RowCuts cuts{{}, sweeps};
+  for (int t = 1; t < tiles; ++t)
+    for (int n = 0; n <= between; ++n)
+      cuts.at.push_back((first + int(long(all) * t / tiles) - between + n) * lanes);
+  return cuts;
 }
 
 std::string tiles_text(int tile) {

@@ -13,11 +13,18 @@ namespace dss {
 enum class RowWork : std::uint8_t {
   stage,
   upper_links,
+  upper_link_x,
   upper_link_y,
   upper_link_z,
   extra_link,
   extra_sum
 };
+
+/// Whether a task computes the links that a row leaves for its upper row across an axis.
+constexpr bool leaves_links(RowWork work, int axis) {
+  constexpr RowWork alone[] = {RowWork::upper_link_x, RowWork::upper_link_y, RowWork::upper_link_z};
+  return work == RowWork::stage || work == RowWork::upper_links || work == alone[axis];
+}
 
 struct PassTask {
   RowWork work;
@@ -41,23 +48,38 @@ void each_input(const Lattice& lattice, std::span<const LinkedRows> extra, const
   }
   const Row& row = lattice.rows[std::size_t(task.row)];
   visit(task.row);
-  if (row.upper_y >= 0 && task.work != RowWork::upper_link_z) visit(row.upper_y);
-  if (row.upper_z >= 0 && task.work != RowWork::upper_link_y) visit(row.upper_z);
+  for (const int axis : {0, 1, 2})
+    if (row.upper(axis) >= 0 && leaves_links(task.work, axis)) visit(row.upper(axis));
 }
 
 /// A tile that holds every row across.
 inline constexpr int no_tiles = 0;
+
+/// Where rows are cut, so that tiles can divide them.
+struct RowCuts {
+  std::vector<int> at; ///< as Lattice::cuts; empty: rows stay whole
+  int pieces = 0;      ///< of a tile
+};
+/// Cuts rows for tiles of about equally many packs. Each sweep of a tile begins a piece before the
+/// sweep before it, so between the tiles lie pieces of one pack, one for each sweep but the first.
+/// @param first, end  packs of the rows
+/// @param width       packs of a tile, at most, if a tile has at least one for each sweep
+/// @param lanes       cells of a pack
+RowCuts cut_for_tiles(int first, int end, int width, int sweeps, int lanes);
 
 /// For the text of a schedule.
 std::string tiles_text(int tile);
 
 /// How sweeps go through a body.
 struct SweepForm {
-  int tile = no_tiles; ///< rows across of a tile
+  int tile = no_tiles; ///< rows across of a tile; of cut rows: pieces
   /// Planes in the order of the rows' numbers: along z, or along y in a body of one layer. Then the
   /// first rows are done first. Else along the longer of y and z, which makes planes small; bodies
   /// with extra links take the direction that suits these.
   bool is_in_row_order = false;
+  /// Tiles begin at every so many rows across, as rows were cut for them. Else they divide the rows
+  /// evenly.
+  bool is_cut = false;
 };
 
 /// Orders the tasks of a pass body by body. In a body, sweeps go from plane to plane of rows. Sweep

@@ -5,15 +5,22 @@
 namespace dss {
 namespace {
 
-/// Numbered places of equal size, two rings for each writer: of what its own tile reads last, and
-/// of what waits for another tile. Of a ring's free places the one that was given back first is
+/// Numbered places. For each writer and size there are two rings: of what its own tile reads last,
+/// and of what waits for another tile. Of a ring's free places the one that was given back first is
 /// taken. Such a ring is as long as it must be and no longer, and its order in memory is that of
 /// the writes.
 class Rings {
 public:
-  explicit Rings(std::size_t writers) : rings_(2 * writers) {}
-  int take(std::size_t writer, bool is_for_another_tile) {
-    const std::size_t n = 2 * writer + std::size_t(is_for_another_tile);
+  /// @param sizes  of each row's place; empty: 1
+  Rings(std::size_t writers, std::span<const int> sizes) : of_row_(sizes), sizes_{1} {
+    if (!sizes.empty()) sizes_.assign(sizes.begin(), sizes.end());
+    std::ranges::sort(sizes_);
+    sizes_.erase(std::unique(sizes_.begin(), sizes_.end()), sizes_.end());
+    rings_.resize(2 * writers * sizes_.size());
+  }
+  int take(std::size_t writer, int row, bool is_for_another_tile) {
+    const std::size_t n =
+        (2 * writer + std::size_t(is_for_another_tile)) * sizes_.size() + index_of_size(row);
     Ring& ring = rings_[n];
     if (ring.free.empty()) return int(n) + ring.count++ * int(rings_.size());
     const int place = ring.free.front();
@@ -25,23 +32,34 @@ public:
     if (place != PassPlaces::nowhere)
       rings_[std::size_t(place) % rings_.size()].free.push_back(place);
   }
-  /// Numbers all places ring after ring.
-  /// @return their number
-  int number(std::vector<std::vector<int>>& table) const {
+  /// Puts all places one behind the other, ring after ring.
+  /// @return their size
+  int put_in_order(std::vector<std::vector<int>>& table) const {
     std::vector<int> begin{0};
-    for (const Ring& ring : rings_) begin.push_back(begin.back() + ring.count);
-    const int rings = int(rings_.size());
+    for (std::size_t n = 0; n < rings_.size(); ++n)
+      begin.push_back(begin.back() + rings_[n].count * size(n));
     for (std::vector<int>& places : table)
       for (int& place : places)
-        if (place != PassPlaces::nowhere) place = begin[std::size_t(place % rings)] + place / rings;
+        if (place != PassPlaces::nowhere) {
+          const std::size_t ring = std::size_t(place) % rings_.size();
+          place = begin[ring] + place / int(rings_.size()) * size(ring);
+        }
     return begin.back();
   }
 
 private:
+  std::size_t index_of_size(int row) const {
+    if (of_row_.empty()) return 0;
+    return std::size_t(std::ranges::lower_bound(sizes_, of_row_[std::size_t(row)]) -
+                       sizes_.begin());
+  }
+  int size(std::size_t ring) const { return sizes_[ring % sizes_.size()]; }
   struct Ring {
     std::deque<int> free;
     int count = 0;
   };
+  const std::span<const int> of_row_;
+  std::vector<int> sizes_; ///< all, ascending
   std::vector<Ring> rings_;
 };
 
@@ -50,13 +68,13 @@ private:
 PassPlaces::PassPlaces(const Lattice& lattice, const RowOrder& rows,
                        std::span<const PassTask> order, int sweeps, int stages,
                        const std::vector<std::vector<int>>& increments,
-                       std::span<const LinkedRows> extra, bool is_filled)
-    : lattice_(lattice), rows_(rows), extra_(extra), is_filled_(is_filled) {
+                       std::span<const LinkedRows> extra, bool is_filled, PlaceSizes sizes)
+    : lattice_(lattice), rows_(rows), extra_(extra), is_filled_(is_filled), sizes_(sizes) {
   find_rows(order);
   stage_rows_ = empty_table(stages - 1);
   for (Table& links : links_) links = empty_table(sweeps);
   place_stage_rows(order, stages, increments);
-  for (const int axis : {1, 2}) place_links(order, axis);
+  for (const int axis : {0, 1, 2}) place_links(order, axis);
 }
 
 void PassPlaces::find_rows(std::span<const PassTask> order) {
@@ -69,7 +87,8 @@ void PassPlaces::find_rows(std::span<const PassTask> order) {
       add(extra_[std::size_t(task.row)].i), add(extra_[std::size_t(task.row)].j);
     if (task.is_extra()) continue;
     const Row& row = lattice_.rows[std::size_t(task.row)];
-    for (const int r : {task.row, row.lower_y, row.lower_z, row.upper_y, row.upper_z}) add(r);
+    add(task.row);
+    for (const int axis : {0, 1, 2}) add(row.lower(axis)), add(row.upper(axis));
   }
   first_ = least;
   row_count_ = std::size_t(most + 1 - least);
@@ -88,7 +107,7 @@ void PassPlaces::place_stage_rows(std::span<const PassTask> order, int stages,
   for (std::size_t n = 0; n < order.size(); ++n)
     each_read(order[n],
               [&](int stage, int row) { last_read[std::size_t(stage)][row_index(row)] = int(n); });
-  Rings rings(stage_rows_.size());
+  Rings rings(stage_rows_.size(), sizes_.stages);
   for (std::size_t n = 0; n < order.size(); ++n) {
     const PassTask& task = order[n];
     const auto stage = std::size_t(task.sweep % stages);
@@ -96,7 +115,7 @@ void PassPlaces::place_stage_rows(std::span<const PassTask> order, int stages,
       const int last = last_read[stage][row_index(task.row)];
       const bool is_read = last != nowhere;
       int& place = stage_rows_[stage][row_index(task.row)];
-      place = rings.take(stage, is_read && order[std::size_t(last)].tile != task.tile);
+      place = rings.take(stage, task.row, is_read && order[std::size_t(last)].tile != task.tile);
       if (!is_read) rings.give(place);
     }
     each_read(order[n], [&](int from, int read) {
@@ -106,23 +125,20 @@ void PassPlaces::place_stage_rows(std::span<const PassTask> order, int stages,
       rings.give(stage_rows_[std::size_t(from)][row_index(read)]);
     });
   }
-  stage_row_count_ = rings.number(stage_rows_);
+  stage_rows_size_ = rings.put_in_order(stage_rows_);
 }
 
 void PassPlaces::place_links(std::span<const PassTask> order, int axis) {
-  const RowWork alone = axis == 1 ? RowWork::upper_link_y : RowWork::upper_link_z;
-  const auto is_whole = [](const PassTask& task) {
-    return task.work == RowWork::stage || task.work == RowWork::upper_links;
-  };
   const auto has_lower = [&](const PassTask& task) {
-    return is_whole(task) && lower(task.row, axis) >= 0;
+    return (task.work == RowWork::stage || task.work == RowWork::upper_links) &&
+           lower(task.row, axis) >= 0;
   };
-  Table& links = links_[std::size_t(axis) - 1];
+  Table& links = links_[std::size_t(axis)];
   Table reader_tile = empty_table(int(links.size()));
   for (const PassTask& task : order)
     if (has_lower(task))
       reader_tile[std::size_t(task.sweep)][row_index(lower(task.row, axis))] = task.tile;
-  Rings rings(links.size());
+  Rings rings(links.size(), axis == 0 ? std::span<const int>() : sizes_.links);
   for (const PassTask& task : order) {
     const auto sweep = std::size_t(task.sweep);
     const auto give = [&] {
@@ -130,12 +146,12 @@ void PassPlaces::place_links(std::span<const PassTask> order, int axis) {
     };
     // A row reads what is left for it before it leaves its own in the same place.
     if (!is_filled_) give();
-    if ((is_whole(task) || task.work == alone) && upper(task.row, axis) >= 0)
+    if (leaves_links(task.work, axis) && upper(task.row, axis) >= 0)
       links[sweep][row_index(task.row)] =
-          rings.take(sweep, reader_tile[sweep][row_index(task.row)] != task.tile);
+          rings.take(sweep, task.row, reader_tile[sweep][row_index(task.row)] != task.tile);
     if (is_filled_) give();
   }
-  links_count_[std::size_t(axis) - 1] = rings.number(links);
+  links_size_[std::size_t(axis)] = rings.put_in_order(links);
 }
 
 } // namespace dss

@@ -8,6 +8,12 @@
 
 namespace dss {
 
+/// Sizes of places [packs], one for each row. Empty: each has one pack.
+struct PlaceSizes {
+  std::span<const int> stages; ///< for the output of a stage
+  std::span<const int> links; ///< for the links that a row leaves across y or z; across x: one pack
+};
+
 /// Places of all that a pass keeps. A row has its place from the task that writes it to the last
 /// one that reads it. So what one plane leaves for the next stays in the cache, and what a tile
 /// leaves for the next one waits as long as it must. Rows that a sweep writes one after the other
@@ -22,18 +28,19 @@ public:
   /// @param extra       rows of the extra links; outlive this object
   /// @param is_filled   rows may be filled. A pack of these reads links that the lower row left for
   ///   several packs, so a row cannot leave its own in their place
+  /// @param sizes       outlive this object
   PassPlaces(const Lattice& lattice, const RowOrder& rows, std::span<const PassTask> order,
              int sweeps, int stages, const std::vector<std::vector<int>>& increments,
-             std::span<const LinkedRows> extra, bool is_filled);
-  /// Place of the output of a stage of a row; 0 if no task of the pass writes it.
+             std::span<const LinkedRows> extra, bool is_filled, PlaceSizes sizes = {});
+  /// Place of the output of a stage of a row [packs]; 0 if no task of the pass writes it.
   int stage_row(int stage, int row) const { return at(stage_rows_, stage, row); }
-  /// Place of the links that a row leaves across axis 1 (y) or 2 (z) in a sweep; 0 if it leaves
-  /// none.
+  /// Place of the links that a row leaves across an axis in a sweep [packs]; 0 if it leaves none.
   int links(int axis, int sweep, int row) const {
-    return at(links_[std::size_t(axis) - 1], sweep, row);
+    return at(links_[std::size_t(axis)], sweep, row);
   }
-  int stage_row_count() const { return stage_row_count_; }
-  int links_count(int axis) const { return links_count_[std::size_t(axis) - 1]; }
+  /// What all places take [packs].
+  int stage_rows_size() const { return stage_rows_size_; }
+  int links_size(int axis) const { return links_size_[std::size_t(axis)]; }
 
 private:
   using Table = std::vector<std::vector<int>>;
@@ -57,12 +64,13 @@ private:
   const RowOrder& rows_;
   const std::span<const LinkedRows> extra_;
   const bool is_filled_;
+  const PlaceSizes sizes_;
   int first_ = 0;              ///< place in the order of the tables' first row
   std::size_t row_count_ = 0;  ///< of the tables
   Table stage_rows_;           ///< [stage][row_index]
-  std::array<Table, 2> links_; ///< [axis - 1][sweep][row_index]
-  int stage_row_count_ = 0;
-  std::array<int, 2> links_count_{};
+  std::array<Table, 3> links_; ///< [axis][sweep][row_index]
+  int stage_rows_size_ = 0;
+  std::array<int, 3> links_size_{};
 };
 
 } // namespace dss

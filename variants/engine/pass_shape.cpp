@@ -64,7 +64,7 @@ void cut_evenly(RowDivision& division, const PackedRows<T, W>& packed, int threa
 template <class T, int W>
 int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, int blocks, int halo) {
   if (!method.is_in_place() || packed.is_part()) return 1;
-  int steps = packed.reach <= 1 ? 8 : 4;
+  int steps = packed.reach <= 1 || packed.is_cut() ? 8 : 4;
   const int rows = int(packed.rows.size()) / blocks;
   while (steps > 1 && blocks > 1 && 2 * steps * halo > rows) --steps;
   return steps;
@@ -87,22 +87,54 @@ static std::size_t tile_bytes() {
   return l2_bytes() >= large_l2 ? l2_bytes() * 2 / 3 : 5 * l2_bytes();
 }
 
+/// What the rows between the first and the last sweep take of a row across [B].
 template <class T, int W>
-int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
-                int steps, int across, int asked) {
+static double bytes_across(const PackedRows<T, W>& packed, const Method& method,
+                           const RowStorage& storage, int steps) {
   // Planes of rows between the first and the last touch of a row: of the state and of the links one
   // for each sweep, of the output of a stage those up to its last reader.
   const int sweeps = steps * method.stages;
   double planes = sweeps * (1 + double(packed.carry_size) / (storage.stored() * W));
   for (int stage = 0; stage + 1 < method.stages; ++stage)
     planes += last_reader(method, stage) - stage;
-  const double across_bytes =
-      planes * double(packed.tiled_packs) * storage.stored() * W * sizeof(T);
-  if (asked >= across || across <= 1) return no_tiles;
-  if (const int most = int(double(l3_bytes()) / across_bytes); asked > std::max(most, 1))
+  return planes * double(packed.tiled_packs) * storage.stored() * W * sizeof(T);
+}
+
+/// @param bytes  of a row or an element across
+/// @throws InputError if a tile of so many does not fit in the caches
+static void require_cached(int asked, double bytes) {
+  if (const int most = std::max(1, int(double(l3_bytes()) / bytes)); asked > most)
     throw InputError(fmt::format(
         "--tile {}: between its sweeps, {:.0f} MB of rows would leave the caches; give at most {}",
-        asked, 1e-6 * asked * across_bytes, std::max(most, 1)));
+        asked, 1e-6 * asked * bytes, most));
+}
+
+template <class T, int W>
+RowCuts choose_cuts(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
+                    int asked) {
+  if (packed.filled.is_any() || packed.is_ensemble()) return {};
+  RowDivision whole;
+  whole.cuts = {0, int(packed.rows.size())};
+  if (most_rows_across(packed.lattice, whole, packed.is_part(), {}) > 1) return {};
+  int first = packed.packs_across, end = 0;
+  for (const PackedRow<T>& row : packed.rows)
+    first = std::min(first, row.first_pack), end = std::max(end, row.first_pack + row.packs);
+  const int steps = steps_a_pass(packed, method, 1, 1);
+  const double pack_bytes = bytes_across(packed, method, storage, steps) / packed.tiled_packs;
+  if (asked < (end - first) * W) require_cached(asked, pack_bytes / W);
+  // The border between two tiles costs more than the one between rows of a solid (README.md).
+  constexpr double share = 2.0 / 3;
+  const int width =
+      asked > 0 ? (asked + W - 1) / W : int(share * double(tile_bytes()) / pack_bytes);
+  return cut_for_tiles(first, end, width, steps * method.stages, W);
+}
+
+template <class T, int W>
+int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
+                int steps, int across, int asked) {
+  const double across_bytes = bytes_across(packed, method, storage, steps);
+  if (asked >= across || across <= 1) return no_tiles;
+  require_cached(asked, across_bytes);
   if (asked > 0) return asked;
   const double fit = double(tile_bytes()) / across_bytes;
   if (across <= fit) return no_tiles;
@@ -115,6 +147,7 @@ int choose_tile(const PackedRows<T, W>& packed, const Method& method, const RowS
   template RowDivision divide_rows(const PackedRows<T, W>&, std::span<const LinkedRows>, int);     \
   template void cut_evenly(RowDivision&, const PackedRows<T, W>&, int, int);                       \
   template int steps_a_pass(const PackedRows<T, W>&, const Method&, int, int);                     \
+  template RowCuts choose_cuts(const PackedRows<T, W>&, const Method&, const RowStorage&, int);    \
   template int choose_tile(const PackedRows<T, W>&, const Method&, const RowStorage&, int, int,    \
                            int);
 DSS_EACH_PACK(DSS_INSTANTIATE)

@@ -1,5 +1,5 @@
 #pragma once
-/// The shape of passes: where blocks begin, steps of a pass, tiles.
+/// The shape of passes: where blocks begin, steps of a pass, tiles, where rows are cut.
 #include "variants/engine/row_storage.hpp"
 #include "variants/engine/seams.hpp"
 
@@ -29,13 +29,23 @@ template <class T, int W>
 void cut_evenly(RowDivision& division, const PackedRows<T, W>& packed, int threads, int sweeps);
 
 /// Steps that a pass computes. Methods in place can let a step follow the one before it, so several
-/// steps need only one trip through memory. Up to eight if links reach one row (a plate), else up
+/// steps need only one trip through memory. Up to eight in a plate, else up
 /// to four, since the tiles of more steps would be narrow. With several blocks, only so many that
 /// sweeps differ by at most half a block, so that blocks wait little for one another.
 /// @param blocks  of about equally many rows
 /// @param halo    as RowDivision::halo
 template <class T, int W>
 int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, int blocks, int halo);
+
+/// A plane of a plate is one row, so its rows are cut where those that a pass has in use between
+/// its sweeps would leave L2. Rows are not cut if a body has several layers, which tiles divide
+/// into rows, or if rows are filled.
+/// @param packed  the rows, whole
+/// @param asked   as Setup::tile
+/// @throws InputError if the tile that was asked for does not fit in the caches
+template <class T, int W>
+RowCuts choose_cuts(const PackedRows<T, W>& packed, const Method& method, const RowStorage& storage,
+                    int asked);
 
 /// Rows across of the tiles of a pass: those asked for, else as many as fit in the caches;
 /// no_tiles if that is all.

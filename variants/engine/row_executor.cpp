@@ -26,10 +26,25 @@ static LaneKind lane_kind(const PackedRow<T>& row) {
 }
 
 template <class T>
+auto RowExecutor<T>::make_rows(const Setup& setup) -> Rows {
+  const PartSetup* const part = part_with_neighbours(setup.part);
+  const auto packed = [&](Lattice cut) {
+    return std::make_unique<PackedRows<T>>(setup.problem, setup.model,
+                                           part == nullptr ? nullptr : &part->part, Memory::heap(),
+                                           setup.ensemble, furthest_form(setup), std::move(cut));
+  };
+  Rows whole{packed({})};
+  const bool is_staged = setup.method.has_error_stage || (part != nullptr && part->is_every_stage);
+  if (is_staged || !setup.problem.extra_links.empty()) return whole;
+  const RowStorage storage(*whole.packed, setup.method, setup.precision);
+  RowCuts cuts = choose_cuts(*whole.packed, setup.method, storage, setup.tile);
+  if (cuts.at.empty()) return whole;
+  return {packed(cut_into_pieces(setup.problem.lattice, std::move(cuts.at))), cuts.pieces};
+}
+
+template <class T>
 RowExecutor<T>::RowExecutor(const Setup& setup)
-    : setup_(setup), part_(part_with_neighbours(setup.part)),
-      packed_(setup.problem, setup.model, part_ == nullptr ? nullptr : &part_->part, Memory::heap(),
-              setup.ensemble, furthest_form(setup)),
+    : setup_(setup), part_(part_with_neighbours(setup.part)), made_(make_rows(setup)),
       rows_(packed_, setup_.method, setup_.precision, setup_.steps(),
             [this](int r) { return row(r); }) {
   for (PackedRow<T>& row : packed_.rows)
@@ -82,8 +97,10 @@ void RowExecutor<T>::make_blocks() {
   shape_.form.is_in_row_order = is_part();
   const int across =
       most_rows_across(packed_.lattice, division_, shape_.form.is_in_row_order, extra_links.rows());
-  shape_.form.tile =
-      choose_tile(packed_, method, rows_.storage(), shape_.steps, across, setup_.tile);
+  shape_.form.is_cut = packed_.is_cut();
+  shape_.form.tile = packed_.is_cut() ? made_.tile
+                                      : choose_tile(packed_, method, rows_.storage(), shape_.steps,
+                                                    across, setup_.tile);
   wavefront_.emplace(packed_, method, setup_.steps(), rows_.storage(), signal_count(setup_.problem),
                      blocks_, shape_, extra_links);
 }
@@ -135,7 +152,7 @@ void RowExecutor<T>::write(std::size_t first, std::span<const double> fields) {
 
 template <class T>
 void RowExecutor<T>::read(std::size_t first, std::span<double> fields) {
-  if (is_started_ && end_rates_.empty()) end_rates_ = evaluate(end_signals_);
+  if (is_started_ && end_rates_.empty()) end_rates_ = all_rates(end_signals_);
   rows_.read(first, fields, is_started_ ? end_rates_.data() : nullptr);
 }
 
@@ -152,38 +169,56 @@ void RowExecutor<T>::restore(std::size_t first, std::span<const double> kept) {
   blocks_.publish_all(parity_);
 }
 
+// A row's input is its own fields and those of its upper rows, so copies of the next `reach` rows
+// are enough.
 template <class T>
-Buffer<T> RowExecutor<T>::evaluate(std::span<const double> signals) {
+template <class Rates, class Done>
+void RowExecutor<T>::evaluate(std::span<const double> signals, Rates&& rates, Done&& done) {
   refresh_halo();
-  const FlushDenormals guard;
-  Buffer<T> plain(rows_.plain_size()), rates(rows_.plain_size()),
-      zero(std::size_t(packed_.max_packs) * std::size_t(packed_.fields() * W));
-  rows_.copy_plain(plain.data());
-  const auto plain_row = [&](int r) { return plain.data() + rows_.plain_offset(r); };
+  const int rows = int(packed_.rows.size()), kept = packed_.reach + 1;
+  const std::size_t row_size =
+      std::size_t(packed_.max_packs + 1) * std::size_t(packed_.fields() * W);
+  Buffer<T> plain(std::size_t(kept) * row_size), zero(row_size), ones(std::size_t{W});
+  const auto plain_row = [&](int r) { return plain.data() + std::size_t(r % kept) * row_size; };
   ExtraLinks<T> extra_links(packed_);
-  extra_links.evaluate(plain_row, packed_.fields());
+  {
+    const FlushDenormals guard;
+    extra_links.evaluate([this](int r) { return row(r); }, stored_fields());
+  }
   StepSignals<T> values(signal_count(setup_.problem), 1, packed_.members().size());
-  Buffer<T> ones(std::size_t{W});
   std::fill_n(ones.data(), W, T(1));
   values.set(signals.data(), 1);
   CarryRings<T> carry(packed_);
-  for (int r = 0; r < int(packed_.rows.size()); ++r) {
+  for (int r = 0, copied = 0; r < rows; ++r) {
+    for (; copied < std::min(rows, r + kept); ++copied)
+      rows_.copy_plain_row(copied, row(copied), plain_row(copied));
     RowTask<T> task;
     set_row(task, packed_, r, packed_.fields(), carry, plain_row);
     task.signals = values.stage(0);
     task.base = zero.data(); // out = 0 + 1 f
-    task.out = rates.data() + rows_.plain_offset(r);
+    task.out = rates(r);
     task.beta = 1;
     task.betas = ones.data();
-    packed_.rows[std::size_t(r)].kernels->stage(task);
+    {
+      const FlushDenormals guard;
+      packed_.rows[std::size_t(r)].kernels->stage(task);
+    }
+    done(r);
   }
+}
+
+template <class T>
+Buffer<T> RowExecutor<T>::all_rates(std::span<const double> signals) {
+  Buffer<T> rates(rows_.plain_size());
+  evaluate(
+      signals, [&](int r) { return rates.data() + rows_.plain_offset(r); }, [](int) {});
   return rates;
 }
 
 template <class T>
 void RowExecutor<T>::derivative(std::span<const double> signals, std::span<double> rates) {
   stop_leapfrog();
-  rows_.rates_out(evaluate(signals).data(), rates);
+  rows_.rates_out(all_rates(signals).data(), rates);
 }
 
 template <class T>
@@ -198,7 +233,9 @@ void RowExecutor<T>::stop_leapfrog() {
 
 template <class T>
 void RowExecutor<T>::start_leapfrog(std::span<const double> signals) {
-  rows_.start(evaluate(signals).data());
+  Buffer<T> rates(std::size_t(packed_.max_packs) * std::size_t(packed_.fields() * W));
+  evaluate(
+      signals, [&](int) { return rates.data(); }, [&](int r) { rows_.start_row(r, rates.data()); });
   blocks_.publish_all(parity_);
 }
 
@@ -332,10 +369,14 @@ template <class T>
 std::string RowExecutor<T>::schedule() const {
   const std::string_view rows = packed_.filled.is_any() ? ", filled packs" : "";
   if (staged_) return fmt::format("stage by stage: {}{}", why_staged_, rows);
-  return fmt::format("wavefront over rows, reach {}, in place{}{}{}{}", packed_.reach,
-                     shape_.steps > 1 ? fmt::format(", {} steps a pass", shape_.steps) : "",
-                     tiles_text(shape_.form.tile), rows,
-                     setup_.problem.extra_links.empty() ? "" : ", with extra links");
+  return fmt::format(
+      "wavefront over rows, reach {}, in place{}{}{}{}", packed_.is_cut() ? 1 : packed_.reach,
+      shape_.steps > 1 ? fmt::format(", {} steps a pass", shape_.steps) : "",
+      packed_.is_cut() ? fmt::format(", tiles of {} elements",
+                                     packed_.cut.cuts[std::size_t(shape_.form.tile) - 1] -
+                                         packed_.lattice.rows.front().x_begin)
+                       : tiles_text(shape_.form.tile),
+      rows, setup_.problem.extra_links.empty() ? "" : ", with extra links");
 }
 
 template <class T>

@@ -84,8 +84,14 @@ private:
   }
   /// Exchanges the whole halo of the present state. All parts must call it.
   void refresh_halo();
-  /// Rates of all model fields at the present state, in packs of packed_.fields() fields.
-  Buffer<T> evaluate(std::span<const double> signals);
+  /// Computes the rates of all model fields at the present state, in packs of packed_.fields()
+  /// fields, row by row in the order of numbers. A row may be changed when it is done.
+  /// @param rates  (row) -> where its rates go
+  /// @param done   called with each row after its rates
+  template <class Rates, class Done>
+  void evaluate(std::span<const double> signals, Rates&& rates, Done&& done);
+  /// The rates of all rows, plain (StateRows::plain_offset).
+  Buffer<T> all_rates(std::span<const double> signals);
   void start_leapfrog(std::span<const double> signals);
   /// Moves the velocities from the half step to the present time. Then the stored state is what
   /// read() returns.
@@ -109,7 +115,14 @@ private:
 
   const Setup setup_;
   const PartSetup* part_; ///< null for a whole problem and for a part without neighbours
-  PackedRows<T> packed_;
+  /// The rows, cut if they are too long for the wavefront.
+  struct Rows {
+    std::unique_ptr<PackedRows<T>> packed;
+    int tile = no_tiles; ///< pieces of a tile, if rows are cut
+  };
+  static Rows make_rows(const Setup& setup);
+  const Rows made_;
+  PackedRows<T>& packed_ = *made_.packed;
   StateRows<T> rows_;
   std::string_view why_staged_;
   RowDivision division_; ///< of the wavefront

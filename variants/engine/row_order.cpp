@@ -24,7 +24,7 @@ int RowOrder::halo(const Lattice& lattice, std::span<const LinkedRows> extra) co
     if (a >= 0 && b >= 0) most = std::max(most, std::abs(place(a) - place(b)));
   };
   for (int r = 0; r < int(lattice.rows.size()); ++r)
-    for (const int axis : {1, 2}) add(r, lattice.rows[std::size_t(r)].upper(axis));
+    for (const int axis : {0, 1, 2}) add(r, lattice.rows[std::size_t(r)].upper(axis));
   for (const LinkedRows& link : extra) add(link.i, link.j);
   return std::max(most, 1);
 }

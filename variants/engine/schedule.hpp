@@ -7,20 +7,27 @@
 namespace dss {
 
 /// Carry buffers of one stage, for rows that are computed in the order of their numbers. They hold
-/// the link forces that a row leaves for its upper neighbours: across y the next row, across z a
-/// row at most `reach` rows ahead. A row reads what its lower neighbour left before it writes its
-/// own forces to the same place. So one row is enough across y, and a ring of `reach` rows across
-/// z. Filled rows need one more, since their packs read what was left for several packs.
+/// the link forces that a row leaves for its upper neighbours: across y the next row (of cut rows
+/// at most `reach` rows ahead), across z a row at most `reach` rows ahead. A row reads what its
+/// lower neighbour left before it writes its own forces to the same place. So rings of so many rows
+/// are enough. Filled rows need one more, since their packs read what was left for several packs.
+/// The pieces of a cut row leave one another a pack, for which one place is enough.
 template <class T>
 class CarryRings {
 public:
   CarryRings() = default;
   template <int W>
   explicit CarryRings(const PackedRows<T, W>& packed)
-      : rows_y_(packed.filled.is_any() ? 2 : 1), rows_z_(packed.reach + rows_y_ - 1),
+      : rows_y_(packed.filled.is_any() ? 2
+                : packed.is_cut()      ? packed.reach
+                                       : 1),
+        rows_z_(packed.is_cut() ? packed.reach : packed.reach + rows_y_ - 1),
         row_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
-        data_(std::size_t(rows_y_ + rows_z_) * row_size_, packed.memory) {}
+        data_(std::size_t(rows_y_ + rows_z_) * row_size_ + std::size_t(packed.carry_size),
+              packed.memory) {}
+  T* x(int) { return data_.data() + std::size_t(rows_y_ + rows_z_) * row_size_; }
   /// Ring rows start at pack 0 of the body's grid, so that rows with different first packs agree.
+  /// Those of cut rows start at a cut.
   T* y(int row) { return data_.data() + std::size_t(row % rows_y_) * row_size_; }
   T* z(int row) { return data_.data() + std::size_t(rows_y_ + row % rows_z_) * row_size_; }
   std::size_t bytes() const { return data_.bytes(); }
@@ -34,7 +41,7 @@ private:
 /// Fills the part of a task that depends on the row and its neighbours: masks, constants, input
 /// rows, carry buffers.
 /// @param fields  numbers that a pack of an input row holds for each element
-/// @param carry   y(row) and z(row) are the buffers for the links that a row leaves
+/// @param carry   x(row), y(row) and z(row) are the buffers for the links that a row leaves
 /// @param input   function from a row's number to the address of its input
 template <class T, int W, class Carry, class Input>
 void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fields, Carry&& carry,
@@ -42,7 +49,8 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   const PackedRow<T>& p = packed.rows[std::size_t(row)];
   const Row& r = packed.lattice.rows[std::size_t(row)];
   const std::ptrdiff_t pack_size = std::ptrdiff_t(fields) * W;
-  const std::ptrdiff_t carry_offset = std::ptrdiff_t(p.first_pack) * p.shape.carry_components * W;
+  const std::ptrdiff_t carry_offset =
+      std::ptrdiff_t(packed.pack_across(row)) * p.shape.carry_components * W;
   const auto aligned = [&](int upper) -> const T* {
     return input(upper) + (p.first_pack - packed.rows[std::size_t(upper)].first_pack) * pack_size;
   };
@@ -56,6 +64,9 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   task.live_lanes = &packed.live_lanes;
   task.applied = p.applied;
   task.in = input(row);
+  task.ahead = r.upper_x >= 0 ? input(r.upper_x) : task.in + p.packs * pack_size;
+  if (r.upper_x >= 0) task.carry_x = carry.x(row);
+  if (r.lower_x >= 0) task.from_x = carry.x(r.lower_x);
   if (r.upper_y >= 0) task.upper_y = aligned(r.upper_y), task.carry_y = carry.y(row) + carry_offset;
   if (r.lower_y >= 0) task.from_y = carry.y(r.lower_y) + carry_offset;
   if (r.upper_z >= 0) task.upper_z = aligned(r.upper_z), task.carry_z = carry.z(row) + carry_offset;
@@ -65,6 +76,7 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
 /// Computes only the links that a row leaves for its upper neighbours.
 template <class T>
 void prime_uppers(const KernelSet<T>& kernels, const RowTask<T>& task) {
+  if (task.carry_x != nullptr) kernels.prime(task, 0);
   if (task.upper_y != nullptr) kernels.prime(task, 1);
   if (task.upper_z != nullptr) kernels.prime(task, 2);
 }

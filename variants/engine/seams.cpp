@@ -116,8 +116,10 @@ void Seams::hand_over(const std::vector<std::vector<PassTask>>& orders) {
         if (output == state) return;
         const int from = owner(output, row, b);
         if (from == b) return;
-        auto& places = blocks_[std::size_t(from)].places;
-        places.emplace(key(output, row), int(places.size()));
+        BlockSeams& block = blocks_[std::size_t(from)];
+        if (!block.places.emplace(key(output, row), block.size).second) return;
+        // A pack more lies beyond each row, because rows look one pack ahead.
+        block.size += 1 + (reads_.sizes.empty() ? 1 : reads_.sizes[std::size_t(row)]);
       });
 }
 

@@ -23,6 +23,7 @@ struct PassReads {
   /// Of each stage, the stages whose outputs the update reads.
   std::vector<std::vector<int>> increments;
   std::span<const LinkedRows> extra; ///< rows of the extra links
+  std::span<const int> sizes = {};   ///< packs of each row's place; empty: each has one
 };
 
 /// Which outputs blocks hand over to others, and which tasks wait for which.
@@ -51,11 +52,12 @@ public:
   std::span<const SweepRows> sweeps(int block) const { return sweeps_[std::size_t(block)]; }
   /// The block that computes a row in a sweep. @param reader  a block that reads it
   int owner(int sweep, int row, int reader) const;
-  /// The place of an output of a block that others read; nowhere if none does. An output is that of
-  /// a stage of a row; or, of a method with one stage, the row before a sweep overwrites it, whose
-  /// number is that of the sweep. It keeps its place for the whole pass.
+  /// The place of an output of a block that others read [packs]; nowhere if none does. An output is
+  /// that of a stage of a row; or, of a method with one stage, the row before a sweep overwrites
+  /// it, whose number is that of the sweep. It keeps its place for the whole pass.
   int handed_over(int block, int output, int row) const;
-  int handed_over_count(int block) const { return int(blocks_[std::size_t(block)].places.size()); }
+  /// What all these places take [packs].
+  int handed_over_size(int block) const { return blocks_[std::size_t(block)].size; }
   /// When all tasks are made. Only waits and events are left.
   void forget_outputs();
   /// In the order of the tasks.
@@ -67,6 +69,7 @@ private:
   using Key = std::uint64_t;
   struct BlockSeams {
     std::unordered_map<Key, int> places; ///< of outputs that are handed over
+    int size = 0;                        ///< of all places
     std::vector<Wait> waits;
     std::vector<int> events;
   };

@@ -112,12 +112,16 @@ std::size_t StateRows<T, W>::plain_size() const {
 
 template <class T, int W>
 void StateRows<T, W>::copy_plain(T* plain, const RowAddress& row) {
+  for (int r = 0; r < int(packed_.rows.size()); ++r)
+    copy_plain_row(r, row(r), plain + plain_offset(r));
+}
+
+template <class T, int W>
+void StateRows<T, W>::copy_plain_row(int r, const T* row, T* plain) const {
   const std::size_t pack_size = std::size_t(packed_.fields() * W),
                     stored_size = std::size_t(stored_fields() * W);
-  for (int r = 0; r < int(packed_.rows.size()); ++r)
-    for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
-      std::copy_n(row(r) + std::size_t(p) * stored_size, pack_size,
-                  plain + plain_offset(r) + std::size_t(p) * pack_size);
+  for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
+    std::copy_n(row + std::size_t(p) * stored_size, pack_size, plain + std::size_t(p) * pack_size);
 }
 
 template <class T, int W>
@@ -139,20 +143,24 @@ void StateRows<T, W>::rates_out(const T* rates, std::span<double> out) const {
 
 template <class T, int W>
 void StateRows<T, W>::start(const T* rates) {
-  for (int r = 0; r < int(packed_.rows.size()); ++r)
-    for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
-      for (int l = 0; l < W; ++l) {
-        T* const lane = row_(r) + std::ptrdiff_t(p) * stored_fields() * W + l;
-        const T* const rate =
-            rates + plain_offset(r) + std::size_t(p) * std::size_t(packed_.fields() * W) + l;
-        const T half = half_step(l);
-        each_velocity([&](int f, int at) {
-          if (storage_.is_compensated())
-            keep(value(lane, f, f) - double(half) * double(rate[f * W]), lane, f, at);
-          else
-            lane[at * W] = simd::fma(-half, rate[f * W], lane[f * W]);
-        });
-      }
+  for (int r = 0; r < int(packed_.rows.size()); ++r) start_row(r, rates + plain_offset(r));
+}
+
+template <class T, int W>
+void StateRows<T, W>::start_row(int r, const T* rates) {
+  T* const row = row_(r);
+  for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
+    for (int l = 0; l < W; ++l) {
+      T* const lane = row + std::ptrdiff_t(p) * stored_fields() * W + l;
+      const T* const rate = rates + std::ptrdiff_t(p) * packed_.fields() * W + l;
+      const T half = half_step(l);
+      each_velocity([&](int f, int at) {
+        if (storage_.is_compensated())
+          keep(value(lane, f, f) - double(half) * double(rate[f * W]), lane, f, at);
+        else
+          lane[at * W] = simd::fma(-half, rate[f * W], lane[f * W]);
+      });
+    }
 }
 
 #define DSS_INSTANTIATE(T, W) template class StateRows<T, W>;

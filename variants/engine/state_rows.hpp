@@ -50,11 +50,15 @@ public:
   }
   void copy_plain(T* plain) { copy_plain(plain, row_); }
   void copy_plain(T* plain, const RowAddress& row);
+  /// Copies the model's fields of a row that is kept at `row`.
+  void copy_plain_row(int r, const T* row, T* plain) const;
   /// Converts plain rates to all 13 fields of all elements.
   void rates_out(const T* rates, std::span<double> out) const;
   /// Starts a staggered method: moves the velocities back by half a step, v_{-1/2} = v_0 - (h / 2)
   /// a_0. The predicted velocities p_0 = v_0 are in the rows already.
   void start(const T* rates);
+  /// The same of one row, from its own rates.
+  void start_row(int r, const T* rates);
 
   /// Where elements lie in rows. The message has the order of whole packs in memory: pack after
   /// pack, in it field after field, in it the lanes of the elements.

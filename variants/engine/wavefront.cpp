@@ -13,9 +13,7 @@ WavefrontStep<T, W>::WavefrontStep(PackedRows<T, W>& packed, const Method& metho
                                    std::size_t signal_count, Blocks<T, W>& blocks, int block,
                                    PassShape shape, const ExtraLinks<T, W>& extra_links)
     : packed_(packed), shape_(shape), fields_(storage.stored()), stages_(method.stages),
-      pack_size_(std::size_t(fields_ * W)), row_size_(std::size_t(packed.max_packs) * pack_size_),
-      links_size_(std::size_t(packed.packs_across) * std::size_t(packed.carry_size)),
-      blocks_(blocks), block_(block),
+      pack_size_(std::size_t(fields_ * W)), blocks_(blocks), block_(block),
       has_published_(
           blocks.all().size() > 1 &&
           (is_recomputed() || blocks.all().front().is_remote() || blocks.all().back().is_remote())),
@@ -39,15 +37,16 @@ void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order, const 
                                       const Seams& seams) {
   seams_ = &seams;
   places_.emplace(packed_.lattice, division().order, order, shape_.steps * stages_, stages_,
-                  reads.increments, reads.extra, packed_.filled.is_any());
-  // One pack more: rows look one pack ahead.
-  stage_rows_ =
-      Buffer<T>(std::size_t(places_->stage_row_count()) * row_size_ + pack_size_, packed_.memory);
-  handed_over_ = Buffer<T>(std::size_t(seams.handed_over_count(block_)) * (row_size_ + pack_size_),
-                           packed_.memory);
-  for (const int axis : {1, 2})
-    links_[std::size_t(axis) - 1] =
-        Buffer<T>(std::size_t(places_->links_count(axis)) * links_size_, packed_.memory);
+                  reads.increments, reads.extra, packed_.filled.is_any(),
+                  PlaceSizes{packed_.stage_sizes, packed_.links_sizes});
+  // One pack more: rows look one pack ahead. Rows that no task writes are read at the first place.
+  const int stages_size = std::max(places_->stage_rows_size(), packed_.max_packs) + 1;
+  stage_rows_ = Buffer<T>(std::size_t(stages_size) * pack_size_, packed_.memory);
+  handed_over_ =
+      Buffer<T>(std::size_t(seams.handed_over_size(block_)) * pack_size_, packed_.memory);
+  for (const int axis : {0, 1, 2})
+    links_[std::size_t(axis)] = Buffer<T>(
+        std::size_t(places_->links_size(axis)) * std::size_t(packed_.carry_size), packed_.memory);
 }
 
 template <class T, int W>
@@ -148,7 +147,7 @@ void WavefrontStep<T, W>::watch(int row, std::function<void()> done) {
 template <class T, int W>
 std::size_t WavefrontStep<T, W>::bytes() const {
   return stage_rows_.bytes() + handed_over_.bytes() + links_[0].bytes() + links_[1].bytes() +
-         extra_links_.bytes() + extra_wrenches_.bytes() +
+         links_[2].bytes() + extra_links_.bytes() + extra_wrenches_.bytes() +
          (tasks_[0].size() + tasks_[1].size()) * sizeof(RowStage);
 }
 
@@ -191,7 +190,7 @@ bool WavefrontStep<T, W>::note_failures(const RowStage& stage) {
 /// Tasks are read once a pass, so those of a large body are out of the cache by then.
 template <class T, int W>
 void WavefrontStep<T, W>::fetch(const RowStage& next) {
-  static_assert(sizeof(RowStage) <= 5 * Memory::line);
+  static_assert(sizeof(RowStage) <= 6 * Memory::line);
   for (std::size_t byte = 0; byte < sizeof(RowStage); byte += Memory::line)
     simd::fetch(reinterpret_cast<const char*>(&next) + byte);
 }
@@ -206,6 +205,9 @@ bool WavefrontStep<T, W>::compute(const RowStage& stage) {
     return stage.kernels->stage(task);
   case RowWork::upper_links:
     prime_uppers(*stage.kernels, task);
+    break;
+  case RowWork::upper_link_x:
+    stage.kernels->prime(task, 0);
     break;
   case RowWork::upper_link_y:
     stage.kernels->prime(task, 1);
@@ -232,7 +234,7 @@ Wavefront<T, W>::Wavefront(PackedRows<T, W>& packed, const Method& method,
   const int count = division.blocks(), sweeps = shape.steps * method.stages;
   for (int b = 0; b < count; ++b)
     steps_.emplace_back(packed, method, dt, storage, signal_count, blocks, b, shape, extra_links);
-  PassReads reads{method.stages, {}, steps_.front().linked_rows()};
+  PassReads reads{method.stages, {}, steps_.front().linked_rows(), packed.stage_sizes};
   for (const StageUpdate<T>& update : stage_updates<T>(method, storage, W, dt)) {
     reads.increments.emplace_back();
     for (const auto& [stage, alpha] : update.increments) reads.increments.back().push_back(stage);

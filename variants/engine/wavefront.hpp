@@ -77,8 +77,8 @@ private:
   T* output_row(int output, int r) {
     const int place = seams_->handed_over(block_, output, r);
     return place != Seams::nowhere
-               ? handed_over_.data() + std::size_t(place) * (row_size_ + pack_size_)
-               : stage_rows_.data() + std::size_t(places_->stage_row(output, r)) * row_size_;
+               ? handed_over_.data() + std::size_t(place) * pack_size_
+               : stage_rows_.data() + std::size_t(places_->stage_row(output, r)) * pack_size_;
   }
   /// Row r of Y_{stage + 1}, of the block that computes it.
   T* stage_row(int stage, int r) {
@@ -87,8 +87,8 @@ private:
   T* input_row(int sweep, int r, int parity);
   /// Where a row leaves links for its upper rows.
   T* links(int axis, int sweep, int r) {
-    return links_[std::size_t(axis) - 1].data() +
-           std::size_t(places_->links(axis, sweep, r)) * links_size_;
+    return links_[std::size_t(axis)].data() +
+           std::size_t(places_->links(axis, sweep, r)) * std::size_t(packed_.carry_size);
   }
   Block<T, W>& own() { return blocks_.all()[blocks_.first_own() + std::size_t(block_)]; }
   const RowDivision& division() const { return blocks_.division(); }
@@ -106,6 +106,7 @@ private:
   struct SweepLinks {
     WavefrontStep& step;
     int sweep;
+    T* x(int row) const { return step.links(0, sweep, row); }
     T* y(int row) const { return step.links(1, sweep, row); }
     T* z(int row) const { return step.links(2, sweep, row); }
   };
@@ -120,7 +121,7 @@ private:
   const PackedRows<T, W>& packed_;
   const PassShape shape_;
   const int fields_, stages_;
-  const std::size_t pack_size_, row_size_, links_size_; ///< the latter of a place [numbers]
+  const std::size_t pack_size_;
   Blocks<T, W>& blocks_;
   const int block_;
   const bool has_published_; ///< blocks exchange rows with others
@@ -136,7 +137,7 @@ private:
   std::span<WavefrontStep> all_;     ///< while tasks are made
   Buffer<T> stage_rows_,
       handed_over_;                ///< places of outputs; one pack more beyond each of the latter
-  std::array<Buffer<T>, 2> links_; ///< across y, z
+  std::array<Buffer<T>, 3> links_; ///< across x, y, z
   /// [parity]. One parity is enough if the block reads no published rows.
   std::array<std::vector<RowStage>, 2> tasks_;
   int watched_row_ = -1;

@@ -15,12 +15,13 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
   if (packed_.rows.front().kernels == nullptr) return; // devices fetch nothing
   // What stays in L2 from pass to pass needs no fetch.
   if (own().state_bytes() < 2 * l2_bytes()) return;
-  std::vector<FetchPlan::Task> places;
+  std::vector<long> packs;
   for (const RowStage& stage : tasks)
-    places.push_back({stage.work == RowWork::stage ? stage.task.packs : 0, stage.sweep});
-  FetchPlan plan(std::move(places));
-  LastTiles states(int(packed_.rows.size())), stage_rows(places_->stage_row_count()),
-      links[] = {LastTiles(places_->links_count(1)), LastTiles(places_->links_count(2))};
+    packs.push_back(stage.work == RowWork::stage ? stage.task.packs : 0);
+  FetchPlan plan(std::move(packs), shape_.steps * stages_);
+  LastTiles states(int(packed_.rows.size())), stage_rows(places_->stage_rows_size()),
+      links[] = {LastTiles(places_->links_size(0)), LastTiles(places_->links_size(1)),
+                 LastTiles(places_->links_size(2))};
   for (std::size_t n = 0; n < order.size(); ++n) {
     if (order[n].is_extra()) continue;
     const int tile = order[n].tile, sweep = order[n].sweep, s = sweep % stages_, r = order[n].row;
@@ -32,6 +33,7 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
       if (states.touch(of, tile)) plan.first_read(n, state_row(of, parity), bytes(of));
     };
     each_input(packed_.lattice, extra_links_.rows(), order[n], [&](int of) {
+      if (of == row.upper_x) return; // of that piece, only the first pack is read
       if (s == 0)
         read_state(of);
       else if (seams_->owner(s - 1, of, block_) == block_ &&
@@ -39,13 +41,14 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
         plan.first_read(n, stage_row(s - 1, of), bytes(of));
     });
     read_state(r);
-    for (const int axis : {1, 2}) {
-      LastTiles& of_axis = links[axis - 1];
+    for (const int axis : {0, 1, 2}) {
+      LastTiles& of_axis = links[axis];
       const int from = row.lower(axis);
-      if (from >= 0 && of_axis.touch(places_->links(axis, sweep, from), tile))
+      if (from >= 0 && of_axis.touch(places_->links(axis, sweep, from), tile)) {
+        const int left = axis == 0 ? 1 : packed_.rows[std::size_t(from)].packs;
         plan.first_read(n, this->links(axis, sweep, from),
-                        std::size_t(packed_.rows[std::size_t(from)].packs) *
-                            std::size_t(packed_.carry_size) * sizeof(T));
+                        std::size_t(left) * std::size_t(packed_.carry_size) * sizeof(T));
+      }
       if (row.upper(axis) >= 0) of_axis.touch(places_->links(axis, sweep, r), tile);
     }
     if (s + 1 < stages_) stage_rows.touch(places_->stage_row(s, r), tile);

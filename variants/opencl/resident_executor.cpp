@@ -72,6 +72,7 @@ static row_action device_action(RowWork work, row_action of_stage) {
     return prime_y;
   case RowWork::upper_link_z:
     return prime_z;
+  case RowWork::upper_link_x: // rows on devices are whole
   case RowWork::extra_link:
   case RowWork::extra_sum:
     break;

@@ -52,7 +52,7 @@ struct RunRequest {
   /// measured.
   double repeat_for = 0;
   bool has_balance = true; ///< follow the energy
-  int tile = 0;            ///< rows across of a tile of the wavefront; 0: as suits the caches
+  int tile = 0;            ///< as Setup::tile; 0: as suits the caches
 };
 
 } // namespace dss
