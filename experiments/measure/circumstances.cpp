@@ -4,10 +4,10 @@
 #include "solver/digest.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/lattice/shape_digest.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
-#include <functional>
 
 namespace dss {
 namespace {
@@ -45,11 +45,7 @@ void append(const std::string& path, const char* list, const std::string& text) 
 } // namespace
 
 std::string scene_digest(const Scene& scene) {
-  const Lattice& lattice = scene.problem.lattice;
-  std::string shape(lattice.present.begin(), lattice.present.end());
-  for (const Row& row : lattice.rows)
-    shape += fmt::format("{} {} {} {},", row.body, row.x_begin, row.y, row.z);
-  return fmt::format("{:016x}", std::hash<std::string>{}(read_text(scene.path) + shape));
+  return text_digest(read_text(scene.path) + shape_digest(scene.problem.lattice));
 }
 
 std::string scene_key(const Cell& cell, const Scene& scene) {

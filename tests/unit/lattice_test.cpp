@@ -1,4 +1,5 @@
 #include "solver/lattice/lattice.hpp"
+#include "solver/lattice/shape_digest.hpp"
 
 #include <gtest/gtest.h>
 
@@ -141,6 +142,16 @@ TEST(lattice, a_row_is_trimmed_to_its_cells_and_keeps_its_holes) {
   EXPECT_FALSE(lattice.is_present(row, 2));
   EXPECT_FALSE(lattice.is_present(row, 5));
   EXPECT_EQ(lattice.element_count, 3U);
+}
+
+/// Two rows of three cells in all: 2 and 1, or 1 and 2.
+TEST(lattice, digests_of_shapes_tell_where_rows_end) {
+  Lattice first, second;
+  append_body(first, {2, 2, 1, {1, 1, 1, 0}}, 0);
+  append_body(second, {2, 2, 1, {1, 0, 1, 1}}, 0);
+  EXPECT_EQ(first.present, second.present);
+  EXPECT_NE(shape_digest(first), shape_digest(second));
+  EXPECT_EQ(shape_digest(first), shape_digest(Lattice(first)));
 }
 
 } // namespace

@@ -51,7 +51,8 @@ public:
   void add_group(const BodyGroup& group) {
     const BodyPlanes& planes = group.members().front().planes;
     // Of cut rows: pieces of the first tile that the body does not have.
-    const int without = form_.is_cut ? planes.first_piece % form_.tile : 0;
+    const int without =
+        form_.is_cut && form_.tile != no_tiles ? planes.first_piece % form_.tile : 0;
     const int last = int(sweeps_.size()) - 1, across = planes.across,
               tiles = form_.tile == no_tiles || group.is_linked()
                           ? 1
@@ -144,8 +145,8 @@ std::vector<PassTask> order_pass(const Lattice& lattice, const RowOrder& rows,
 }
 
 RowCuts cut_for_tiles(int first, int end, int width, int sweeps, int lanes) {
-  const int between = sweeps - 1, all = end - first + between;
-  const int tiles = std::min((end - first + width - 1) / std::max(width, 1), all / (between + 1));
+  const int between = sweeps - 1, all = end - first + between, most = std::max(width, 1);
+  const int tiles = std::min((end - first + most - 1) / most, all / sweeps);
   RowCuts cuts{{}, sweeps};
   for (int t = 1; t < tiles; ++t)
     for (int n = 0; n <= between; ++n)

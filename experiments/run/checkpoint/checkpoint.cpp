@@ -3,6 +3,7 @@
 #include "experiments/base/build_info.hpp"
 #include "solver/digest.hpp"
 #include "solver/error.hpp"
+#include "solver/lattice/shape_digest.hpp"
 
 #include <algorithm>
 #include <array>
@@ -48,11 +49,7 @@ std::string problem_digest(const RunRequest& request, const RunPlan& plan) {
   // Names, defaults of a run and what checks need are not part of the problem.
   for (const char* key : {"$schema", "scene", "title", "description", "run", "verify", "tolerance"})
     text.erase(key);
-  const Lattice& lattice = plan.scene.problem.lattice;
-  std::string shape(lattice.present.begin(), lattice.present.end());
-  for (const Row& row : lattice.rows)
-    shape += fmt::format("{} {} {} {} {},", row.body, row.x_begin, row.x_end, row.y, row.z);
-  return text_digest(text.dump() + shape);
+  return text_digest(text.dump() + shape_digest(plan.scene.problem.lattice));
 }
 
 } // namespace
