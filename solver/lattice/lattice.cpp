@@ -69,7 +69,10 @@ public:
         add(row, begin, end, element);
       }
     }
-    for (std::size_t r = 0; r < whole.rows.size(); ++r) join_pieces(int(r));
+  }
+  /// Sets the neighbours of all pieces.
+  void join_all() {
+    for (std::size_t r = 0; r < whole_.rows.size(); ++r) join_pieces(int(r));
   }
 
 private:
@@ -119,7 +122,7 @@ private:
 
 Lattice cut_into_pieces(const Lattice& whole, std::vector<int> cuts) {
   Lattice cut{{}, whole.present, whole.element_count, 1, std::move(cuts)};
-  Pieces(whole, cut);
+  Pieces(whole, cut).join_all();
   return cut;
 }
 
