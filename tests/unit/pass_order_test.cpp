@@ -1,6 +1,4 @@
-/// The order of a pass, the places of what its tasks leave for one another, and its fetches.
-#include "variants/engine/body_group.hpp"
-#include "variants/engine/fetch_plan.hpp"
+/// The order of the tasks of a pass, and the places of what they leave for one another.
 #include "variants/engine/filled_rows.hpp"
 #include "variants/engine/pass_places.hpp"
 #include "variants/engine/seams.hpp"
@@ -9,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <map>
 #include <random>
 
@@ -96,7 +93,7 @@ void each_case(Check&& check) {
                                                    {false, Held::cut},
                                                    {true, Held::cut}}) {
           if (how == Held::cut && nz > 1) continue; // only rows of plates are cut
-          const SweepForm form{tile, is_in_row_order, how == Held::cut};
+          const SweepForm form{tile, is_in_row_order};
           const Lattice lattice = held(scattered_bodies(9, ny, nz, unsigned(ny)), how);
           const int rows = int(lattice.rows.size());
           for (const std::vector<LinkedRows>& extra : sets_of_links(lattice)) {
@@ -206,45 +203,6 @@ TEST(PassOrder, AddsUpExtraLinksBeforeTheirRows) {
   });
 }
 
-Lattice plates(const std::vector<std::pair<int, int>>& sizes) {
-  Lattice lattice;
-  for (int body = 0; body < int(sizes.size()); ++body) {
-    const auto [ny, nz] = sizes[std::size_t(body)];
-    append_body(lattice, {2, ny, nz, std::vector<std::uint8_t>(std::size_t(2 * ny * nz), 1)}, body);
-  }
-  return lattice;
-}
-
-TEST(BodyGroups, AreShiftedSoThatLinkedRowsAreClose) {
-  const Lattice lattice = plates({{20, 1}, {30, 1}, {5, 1}});
-  // The end of the first to the start of the second; the third is alone.
-  const std::vector<LinkedRows> ends{{19, 20}};
-  const std::vector<BodyGroup> groups = body_groups(lattice, {0, 55}, ends, false);
-  ASSERT_EQ(groups.size(), 2U);
-  EXPECT_EQ(groups[0].lag(), 1);
-  EXPECT_EQ(groups[0].members()[1].shift, 19);
-  EXPECT_EQ(groups[0].planes(), 49);
-  EXPECT_EQ(groups[0].rows_behind(), 2);
-  EXPECT_FALSE(groups[1].is_linked());
-  // Links that pull apart: each is two planes long, which is the least.
-  const std::vector<LinkedRows> apart{{4, 20}, {0, 20}};
-  EXPECT_EQ(body_groups(lattice, {0, 55}, apart, false).front().lag(), 3);
-}
-
-TEST(BodyGroups, ThatAreLinkedHaveNoRowsForTiles) {
-  const Lattice lattice = plates({{9, 4}, {9, 7}});
-  const std::vector<LinkedRows> in_first{{0, 9}}, between{{0, 36}};
-  RowDivision division;
-  division.cuts = {0, 99};
-  EXPECT_EQ(most_rows_across(lattice, division, false, {}), 7);
-  EXPECT_EQ(most_rows_across(lattice, division, false, in_first), 7);
-  EXPECT_EQ(most_rows_across(lattice, division, false, between), 0);
-  division.cuts = {0, 36};
-  EXPECT_EQ(most_rows_across(lattice, division, false, {}), 4);
-  division.order = RowOrder(lattice, in_first);
-  EXPECT_EQ(most_rows_across(lattice, division, false, in_first), 7);
-}
-
 TEST(RowCuts, LeaveAPackForEachSweepBetweenTiles) {
   constexpr int lanes = 8;
   for (const int sweeps : {1, 4, 8})
@@ -275,16 +233,6 @@ TEST(RowCuts, LeaveAPackForEachSweepBetweenTiles) {
           EXPECT_LE(most, least + 1);
           EXPECT_LE(most, std::max(width, sweeps));
         }
-}
-
-TEST(BodyGroups, TakeTheDirectionOfTheirLinks) {
-  // Planes along the longer side of each body would put one row of links beside many planes.
-  const Lattice lattice = plates({{20, 4}, {6, 20}});
-  std::vector<LinkedRows> links;
-  for (int z = 0; z < 4; ++z) links.push_back({z * 20, 80 + z * 6});
-  const std::vector<BodyGroup> groups = body_groups(lattice, {0, 200}, links, false);
-  ASSERT_EQ(groups.size(), 1U);
-  EXPECT_EQ(groups[0].lag(), 1);
 }
 
 /// Writes the name of what each task leaves into its place, and looks whether it is still there
@@ -350,7 +298,7 @@ TEST(PassPlaces, OfRowsOfUnequalSizesLieApart) {
   for (const Row& row : lattice.rows) sizes.push_back(row.x_end - row.x_begin);
   const std::vector<SweepRows> sweeps = sweeps_of(lattice, 0, int(lattice.rows.size()), 4);
   const RowOrder by_number;
-  const std::vector<PassTask> order = order_pass(lattice, by_number, sweeps, {2, false, true});
+  const std::vector<PassTask> order = order_pass(lattice, by_number, sweeps, {2});
   const PassPlaces places(lattice, by_number, order, 4, 4, {{}, {}, {}, {0, 1, 2}}, {}, false,
                           {sizes, sizes});
   std::map<int, int> end_of; // of each place
@@ -383,44 +331,6 @@ TEST(PassPlaces, OfAFilledRowAreNotThoseThatItReads) {
         }
     }
   });
-}
-
-TEST(FetchPlan, DividesARowAmongTasksThatAreEarlyEnough) {
-  constexpr int count = 100, packs = 8, lines = 16;
-  for (const int shares : {1, 2, 3}) {
-    FetchPlan plan(std::vector<long>(count, packs), shares);
-    std::vector<char> rows(std::size_t(count) * lines * 64);
-    const auto row = [&](int n) { return rows.data() + std::size_t(n) * lines * 64; };
-    for (int n = 0; n < count; n += 4) plan.first_read(std::size_t(n), row(n), lines * 64);
-    std::vector<int> fetched(std::size_t(count) * lines);
-    for (int n = 0; n < count; ++n) {
-      const auto& [from, of_pack] = plan.fetches()[std::size_t(n)];
-      if (from == nullptr) continue;
-      const auto line = std::size_t(from - rows.data()) / 64;
-      for (std::size_t k = 0; k < std::size_t(packs * of_pack) && line + k < fetched.size(); ++k)
-        ++fetched[line + k];
-      EXPECT_LE(n * packs + FetchPlan::lead, long(line / lines) * packs);
-    }
-    for (int n = 4; n < count; n += 4)
-      for (std::size_t k = 0; k < lines; ++k)
-        EXPECT_GE(fetched[std::size_t(n) * lines + k], 1) << "line " << k << " of row " << n;
-  }
-}
-
-TEST(FetchPlan, LetsNoShortTaskFetchALongRow) {
-  FetchPlan plan({100, 1, 100, 1, 100}, 1);
-  const std::vector<char> row(100 * 64);
-  plan.first_read(4, row.data(), row.size());
-  EXPECT_EQ(plan.fetches()[2].row, row.data());
-  for (const std::size_t n : {0, 1, 3, 4}) EXPECT_EQ(plan.fetches()[n].row, nullptr);
-}
-
-TEST(FetchPlan, LetsAReaderWithoutTasksBeforeItFetchItsRow) {
-  FetchPlan plan({100, 100}, 2);
-  const std::vector<char> row(100 * 64);
-  plan.first_read(0, row.data(), row.size());
-  EXPECT_EQ(plan.fetches()[0].row, row.data() + FetchPlan::lead * 64);
-  EXPECT_EQ(plan.fetches()[1].row, nullptr);
 }
 
 } // namespace

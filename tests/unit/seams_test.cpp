@@ -144,7 +144,7 @@ void each_team(Check&& check) {
               // whole.
               if (is_part && (!extra.empty() || stages != sweeps)) continue;
               if (is_cut && !extra.empty()) continue;
-              Passes passes(lattice, extra, stages, sweeps, blocks, {tile, is_part, is_cut});
+              Passes passes(lattice, extra, stages, sweeps, blocks, {tile, is_part});
               check(passes, blocks);
             }
   }

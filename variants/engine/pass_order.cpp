@@ -50,19 +50,20 @@ public:
         extra_(extra, lattice.rows.size(), sweeps.size()) {}
   void add_group(const BodyGroup& group) {
     const BodyPlanes& planes = group.members().front().planes;
-    // Of cut rows: pieces of the first tile that the body does not have.
-    const int without =
-        form_.is_cut && form_.tile != no_tiles ? planes.first_piece % form_.tile : 0;
+    // Tiles of cut rows begin where the rows were cut for them, others divide the rows evenly.
+    const bool is_cut = !lattice_.cuts.empty() && form_.tile != no_tiles;
+    // Pieces of the first tile that the body does not have.
+    const int without = is_cut ? planes.first_piece % form_.tile : 0;
     const int last = int(sweeps_.size()) - 1, across = planes.across,
               tiles = form_.tile == no_tiles || group.is_linked()
                           ? 1
                           : (across + without + form_.tile - 1) / form_.tile;
     // The mean of the sweeps' edges divides the rows evenly.
     const auto edge = [&](long t) {
-      return t == 0         ? 0
-             : t == tiles   ? across + last
-             : form_.is_cut ? int(t) * form_.tile - without
-                            : int((across * t + tiles / 2) / tiles) + last / 2;
+      return t == 0       ? 0
+             : t == tiles ? across + last
+             : is_cut     ? int(t) * form_.tile - without
+                          : int((across * t + tiles / 2) / tiles) + last / 2;
     };
     for (int t = 0; t < tiles; ++t, ++tile_)
       for (int k = 0; k < group.planes() + last * group.lag(); ++k)

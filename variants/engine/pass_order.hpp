@@ -77,9 +77,6 @@ struct SweepForm {
   /// first rows are done first. Else along the longer of y and z, which makes planes small; bodies
   /// with extra links take the direction that suits these.
   bool is_in_row_order = false;
-  /// Tiles begin at every so many rows across, as rows were cut for them. Else they divide the rows
-  /// evenly.
-  bool is_cut = false;
 };
 
 /// Orders the tasks of a pass body by body. In a body, sweeps go from plane to plane of rows. Sweep

@@ -25,6 +25,13 @@ static LaneKind lane_kind(const PackedRow<T>& row) {
                                 : LaneKind::neighbours;
 }
 
+/// Why the wavefront does not serve, whatever the rows are; empty if it may.
+static std::string_view why_never_in_blocks(const Setup& setup, const PartSetup* part) {
+  if (setup.method.has_error_stage) return "adaptive steps";
+  if (part != nullptr && part->is_every_stage) return "halos are exchanged in between";
+  return "";
+}
+
 template <class T>
 auto RowExecutor<T>::make_rows(const Setup& setup) -> Rows {
   const PartSetup* const part = part_with_neighbours(setup.part);
@@ -34,8 +41,7 @@ auto RowExecutor<T>::make_rows(const Setup& setup) -> Rows {
                                            setup.ensemble, furthest_form(setup), std::move(cut));
   };
   Rows whole{packed({})};
-  const bool is_staged = setup.method.has_error_stage || (part != nullptr && part->is_every_stage);
-  if (is_staged || !setup.problem.extra_links.empty()) return whole;
+  if (!why_never_in_blocks(setup, part).empty() || !setup.problem.extra_links.empty()) return whole;
   const RowStorage storage(*whole.packed, setup.method, setup.precision);
   RowCuts cuts = choose_cuts(*whole.packed, setup.method, storage, setup.tile);
   if (cuts.at.empty()) return whole;
@@ -63,16 +69,14 @@ RowExecutor<T>::RowExecutor(const Setup& setup)
 
 template <class T>
 std::string_view RowExecutor<T>::why_staged() {
-  const Method& method = setup_.method;
-  if (method.has_error_stage) return "adaptive steps";
-  if (part_ != nullptr && part_->is_every_stage) return "halos are exchanged in between";
-  if (setup_.problem.extra_links.empty()) return "";
+  const std::string_view why = why_never_in_blocks(setup_, part_);
+  if (!why.empty() || setup_.problem.extra_links.empty()) return why;
   if (is_part()) return "extra links may join rows of several parts";
   if (setup_.threads == 1) return "";
   // Else sweeps would differ by more than a block, so that threads would compute in turn.
   const ExtraLinks<T> extra_links(packed_);
   const long halo = divide_rows(packed_, extra_links.rows(), setup_.threads).halo;
-  if (method.stages * halo * setup_.threads > long(packed_.rows.size()))
+  if (setup_.method.stages * halo * setup_.threads > long(packed_.rows.size()))
     return "extra links join distant rows of several threads";
   return "";
 }
@@ -97,7 +101,7 @@ void RowExecutor<T>::make_blocks() {
   shape_.form.is_in_row_order = is_part();
   const int across =
       most_rows_across(packed_.lattice, division_, shape_.form.is_in_row_order, extra_links.rows());
-  shape_.form.is_cut = packed_.is_cut();
+
   shape_.form.tile = packed_.is_cut() ? made_.tile
                                       : choose_tile(packed_, method, rows_.storage(), shape_.steps,
                                                     across, setup_.tile);
