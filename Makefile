@@ -25,8 +25,9 @@ build: dependencies
 	@rm -f $(PRESET).configure.log
 	@cmake --build --preset $(PRESET) $(TARGETS)
 
-# The tests of the report need a browser, that of sizes needs ctags.
-test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium universal-ctags
+# The tests of the report need a browser, that of sizes needs ctags, random scenes need RapidCheck.
+test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium universal-ctags \
+  librapidcheck-dev
 test: build
 	@ctest --preset $(PRESET)
 
@@ -38,7 +39,7 @@ test-aarch64: build
 	@cmake --build --preset aarch64 --target dssbench
 	@/usr/bin/python3 tests/aarch64/aarch64_test.py $(BUILD) build/aarch64
 
-# Fuzzes the readers of files, FUZZ_S seconds each (tests/fuzz/fuzz.py).
+# Fuzzes the readers of files and the command line, FUZZ_S seconds each (tests/fuzz/fuzz.py).
 FUZZ_S ?= 60
 fuzz: export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 fuzz: dependencies
@@ -54,7 +55,7 @@ mutants: dependencies
 	@cmake --preset debug -S build/mutants -DDSS_UNITY=OFF -DDSS_VARIANTS=reference >/dev/null
 	@tests/mutants/mutate.py --tree build/mutants --count $(MUTANTS) --json build/mutants.json
 
-# Kills and failing writes, KILLS and WRITES of them (tests/faults/campaign.py).
+# Kills, stops and failing writes, KILLS and WRITES of them (tests/faults/campaign.py).
 KILLS ?= 1000
 WRITES ?= 10000
 faults: TARGETS := --target dssbench failing_calls
@@ -73,15 +74,16 @@ restarts: build
 UNTIMED_STUDIES := error_budget failures continuum
 # Tables of speed-ups are measured in three parts, with other studies in between: a busy neighbour
 # of the machine stays for minutes, and so disturbs only some of their rounds.
-IN_THREE_PARTS := table1 table2 table3
+IN_THREE_PARTS := table1 table2 table3 chain chain_block chain_bending
 PAPER_STUDIES := paper_table1 paper_table2 paper_table3
-STUDIES := chain chain_block chain_bending kernels
+STUDIES := kernels
 LATER_STUDIES := geometry work_precision advise stability model_ladder statics balance cluster \
   mixed_nodes
 # Five minutes of measuring: the paper's tables and the chain alone.
 ifeq (quick,$(SCALE))
 UNTIMED_STUDIES :=
-STUDIES := chain
+IN_THREE_PARTS := table1 table2 table3 chain
+STUDIES :=
 LATER_STUDIES :=
 endif
 ORDER := $(IN_THREE_PARTS:%=begin-%) $(STUDIES:%=study-%) $(IN_THREE_PARTS:%=go-on-%) \

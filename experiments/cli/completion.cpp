@@ -13,7 +13,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 /// The words before the one to be completed.
-struct CommandLine {
+struct TypedLine {
   const CLI::App* command; ///< the program itself before a command is typed
   Words positionals;
   Words before;
@@ -32,8 +32,8 @@ bool takes_next(const CLI::Option* option, const std::string& word) {
          word.find('=') == std::string::npos;
 }
 
-CommandLine read_line(const CLI::App& app, const Words& before) {
-  CommandLine line{&app, {}, before};
+TypedLine read_line(const CLI::App& app, const Words& before) {
+  TypedLine line{&app, {}, before};
   for (std::size_t place = 0; place < before.size(); ++place) {
     const std::string& word = before[place];
     if (word.starts_with("-")) {
@@ -51,7 +51,7 @@ CommandLine read_line(const CLI::App& app, const Words& before) {
 }
 
 /// Parameters of the scene on the line: "n=".
-Words parameters_of(const CommandLine& line) {
+Words parameters_of(const TypedLine& line) {
   Words keys;
   for (const SceneListing& scene : list_scenes())
     if (std::ranges::find(line.before, scene.name) != line.before.end())
@@ -60,12 +60,12 @@ Words parameters_of(const CommandLine& line) {
 }
 
 /// Scales of the study on the line; without a study, the usual scales.
-Words scales_of(const CommandLine& line) {
+Words scales_of(const TypedLine& line) {
   const Words scales = line.positionals.empty() ? Words{} : scale_names(line.positionals.front());
   return scales.empty() ? names_of("SCALE") : scales;
 }
 
-Words values_of(const CLI::Option& option, const CommandLine& line) {
+Words values_of(const CLI::Option& option, const TypedLine& line) {
   const std::string kind = option.get_positional() ? option.get_name(true) : option.get_type_name();
   if (kind == "KEY=VALUE") return parameters_of(line);
   if (kind == "SCALE") return scales_of(line);
@@ -88,7 +88,7 @@ Words options_of(const CLI::App* command) {
   return names;
 }
 
-const CLI::Option* positional_of(const CommandLine& line) {
+const CLI::Option* positional_of(const TypedLine& line) {
   std::size_t place = 0;
   for (const CLI::Option* option : line.command->get_options())
     if (option->get_positional() &&
@@ -117,7 +117,7 @@ std::vector<std::string> completions(const CLI::App& app, std::vector<std::strin
   if (!words.empty()) words.pop_back();
   if (word == "=") word.clear();
   std::erase(words, "=");
-  const CommandLine line = read_line(app, words);
+  const TypedLine line = read_line(app, words);
   if (line.command == nullptr) return {};
   const auto values = [&](const CLI::Option& option, const std::string& value,
                           const std::string& prefix) {

@@ -3,6 +3,7 @@
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/sweep_study.hpp"
+#include "experiments/measure/cell_plan.hpp"
 #include "experiments/measure/study_paths.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "experiments/studies/run_study.hpp"
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 struct SweepArguments {
   SweepRequest request;
   std::string directory = "sweeps";
-  bool resumes = false, has_picture = true;
+  bool resumes = false, is_dry = false, has_picture = true;
 };
 
 /// A new study, with as many steps as the samples need. Nothing is written unless it is sound.
@@ -40,6 +41,17 @@ void make_study(const SweepRequest& request, const std::string& path) {
     study = sweep_study(request, trial_rates(cells, progress));
   }
   write_json(path, study);
+}
+
+/// Prints what a sweep would measure. Nothing runs, and nothing is written.
+int show_plan(const SweepRequest& request, const std::string& directory, const std::string& name) {
+  const SpeedupStudy cells = read_speedup(sweep_file(sweep_study(request, {})), usable_cores());
+  fmt::print("{}", plan_text(cells, study_paths(directory, name)));
+  if (request.steps == 0)
+    fmt::print("Steps: a trial finds how many a sample of {:g} s needs; the plan shows the least "
+               "number.\n",
+               request.sample_s);
+  return exit_success;
 }
 
 /// Requires that the study that is there has the cells of the request.
@@ -85,6 +97,7 @@ int sweep(const SweepArguments& arguments) {
   const SweepRequest& request = arguments.request;
   const std::string name = sweep_name(request),
                     path = (fs::path(arguments.directory) / (name + ".json")).string();
+  if (arguments.is_dry) return show_plan(request, arguments.directory, name);
   if (arguments.resumes) {
     require_same(request, path);
   } else {
@@ -124,6 +137,12 @@ void add_cells(CLI::App& command, SweepRequest& request) {
        fmt::format("On several ranks: {}", fmt::join(names_of("HALO"), ", ")));
   list("--decomposition", request.decompositions, "DECOMPOSITION",
        fmt::format("On several ranks: {}", fmt::join(names_of("DECOMPOSITION"), ", ")));
+  list("--ensemble", request.members, "TEXT",
+       "Numbers of equal members that run side by side, as `dssbench run --ensemble N`");
+  command
+      .add_option("--device", request.device,
+                  "Device for variants that compute on devices, as for `dssbench run --device`")
+      ->type_name("DEVICE");
   list("--model", request.models, "MODEL", "Names of models (default: spatial)");
   list("--precision", request.precisions, "PRECISION", "f64, f32, f32c (default: f64)");
   list("--integrator", request.integrators, "INTEGRATOR", "Names of methods (default: rk4)");
@@ -158,6 +177,8 @@ void add_effort(CLI::App& command, SweepArguments& arguments) {
   command.add_flag(
       "--resume", arguments.resumes,
       "Go on with the study that is there, as it is, and measure only what is missing");
+  command.add_flag("--dry-run", arguments.is_dry, "Print the plan and measure nothing")
+      ->excludes("--resume");
   command.add_flag("!--no-picture", arguments.has_picture, "Draw nothing");
 }
 

@@ -59,6 +59,14 @@ Json sets_of(const SweepRequest& request) {
   return sets;
 }
 
+/// Whether a variant computes on no device. Those that are unknown or cannot run here may have one:
+/// the study says what is wrong with them.
+bool is_without_device(const std::string& variant) {
+  const auto found = std::ranges::find(asked_variants(), variant, &VariantStatus::name);
+  return variant == "auto" || (found != asked_variants().end() && found->is_usable() &&
+                               load_variant(variant).devices == nullptr);
+}
+
 Json block_of(const SweepRequest& request, const Names& variants, const Names& threads,
               const Names& ranks) {
   Json block = {{"scene", scene_for_study(request.scene)}};
@@ -71,9 +79,25 @@ Json block_of(const SweepRequest& request, const Names& variants, const Names& t
   };
   add("models", request.models), add("precisions", request.precisions);
   add("integrators", request.integrators);
+  if (!request.members.empty()) block["ensemble"] = values_of(request.members);
+  if (!request.device.empty() && !is_without_device(variants.front()))
+    block["device"] = request.device;
   if (ranks != Names{"1"})
     add("halos", request.halos), add("decompositions", request.decompositions);
   return block;
+}
+
+/// All cells: those of the base, and every combination. If a device is given, variants that compute
+/// on devices have a block of their own.
+Json blocks_of(const SweepRequest& request, const std::string& base) {
+  Json blocks = Json::array({block_of(request, {base}, {"1"}, {"1"})});
+  Names here, on_devices;
+  for (const std::string& variant : request.variants)
+    (request.device.empty() || is_without_device(variant) ? here : on_devices).push_back(variant);
+  for (const Names& variants : {here, on_devices})
+    if (!variants.empty())
+      blocks.push_back(block_of(request, variants, request.threads, request.ranks));
+  return blocks;
 }
 
 /// CLI11's ranges let nan pass.
@@ -89,7 +113,7 @@ void require_sound(const SweepRequest& request) {
   for (const std::string& text : request.set) cells *= values_of_set(text).second.size();
   for (const Names* names :
        {&request.variants, &request.threads, &request.ranks, &request.models, &request.precisions,
-        &request.integrators, &request.halos, &request.decompositions}) {
+        &request.integrators, &request.halos, &request.decompositions, &request.members}) {
     cells *= std::max<std::size_t>(1, names->size());
     if (cells > most_cells)
       throw InputError(
@@ -98,6 +122,13 @@ void require_sound(const SweepRequest& request) {
   const bool has_ranks = request.ranks != Names{"1"};
   if (!has_ranks && !(request.halos.empty() && request.decompositions.empty()))
     throw InputError("--halo, --decomposition: one process exchanges nothing; give --ranks");
+  if (has_ranks && !request.members.empty())
+    throw InputError("--ensemble: members run side by side on one rank; leave --ranks out");
+  if (!request.device.empty() && is_without_device(base_of(request)) &&
+      std::ranges::all_of(request.variants, is_without_device))
+    throw InputError(fmt::format("--device {}: {} compute on this CPU; give opencl too, or leave "
+                                 "--device out",
+                                 request.device, fmt::join(request.variants, ", ")));
   for (const char* const variant : {"as_published", "reference"})
     if (has_ranks && std::ranges::find(request.variants, variant) != request.variants.end())
       throw InputError(fmt::format("--variant {0}: computes no part of a scene, so it runs on one "
@@ -105,7 +136,8 @@ void require_sound(const SweepRequest& request) {
                                    variant));
 }
 
-/// Steps of the fastest cell of each variant for a sample, by overrides and variant.
+/// Steps of the fastest cell of each variant for a sample, by overrides and variant. Without
+/// overrides, the steps of one member also bound those of its ensembles, whose steps take longer.
 std::map<std::string, std::map<std::string, long>> steps_of(const std::vector<CellRate>& rates,
                                                             double sample_s) {
   std::map<std::string, std::map<std::string, long>> steps;
@@ -189,9 +221,7 @@ Json sweep_study(const SweepRequest& request, const std::vector<CellRate>& rates
   const Names& swept = request.set.empty() ? request.variants : request.set;
   return {{"experiment", sweep_name(request)},
           {"title", fmt::format("Sweep of {}: {}", request.scene, fmt::join(swept, " "))},
-          {"cells",
-           {block_of(request, {base}, {"1"}, {"1"}),
-            block_of(request, request.variants, request.threads, request.ranks)}},
+          {"cells", blocks_of(request, base)},
           {"base", {base}},
           {"twin", base},
           {"scales", {{sweep_scale, scale_of(request, rates)}}}};

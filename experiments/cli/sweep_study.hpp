@@ -17,11 +17,13 @@ struct SweepRequest {
   std::vector<std::string> set; ///< "n=40,80": a key and its values
   std::vector<std::string> variants, models, precisions, integrators, halos, decompositions;
   std::vector<std::string> threads{"1"}, ranks{"1"};
-  std::string base;      ///< of the speed-ups; empty: the first variant
-  long steps = 0;        ///< of all cells; 0: as many as a sample needs
-  double sample_s = 0.1; ///< least time of a sample [s]
-  long repetitions = 6;  ///< of a cell, at least
-  double budget_s = 120; ///< no repetitions beyond the least number after this time [s]
+  std::vector<std::string> members; ///< numbers of equal members of ensembles
+  std::string device;               ///< of the variants that compute on devices
+  std::string base;                 ///< of the speed-ups; empty: the first variant
+  long steps = 0;                   ///< of all cells; 0: as many as a sample needs
+  double sample_s = 0.1;            ///< least time of a sample [s]
+  long repetitions = 6;             ///< of a cell, at least
+  double budget_s = 120;            ///< no repetitions beyond the least number after this time [s]
 };
 
 /// Name of the only scale of such a study.

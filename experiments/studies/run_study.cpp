@@ -77,8 +77,9 @@ int run_study(Study& study, const StudyHead& head, const StudyOptions& options) 
       study.run({options.directory, paths, options.resumes, options.rounds, progress});
   for (const NamedTable& named : result.tables)
     write_csv(study_paths(options.directory, named.name).table, without_empty_columns(named.table));
-  fmt::print("{}\nTable: {}\n", result.text,
-             study_paths(options.directory, result.tables.front().name).table);
+  fmt::print("{}\n", result.text);
+  if (!result.tables.empty())
+    fmt::print("Table: {}\n", study_paths(options.directory, result.tables.front().name).table);
   if (study.keeps_records()) fmt::print("Records: {}\n", paths.raw);
   return result.is_fine ? exit_success : exit_check_failed;
 }

@@ -34,7 +34,7 @@ struct NamedTable {
 
 /// Tables and text of a finished study.
 struct StudyResult {
-  std::vector<NamedTable> tables; ///< at least one; the main table is first
+  std::vector<NamedTable> tables; ///< the main table is first; none if rounds are missing for it
   std::string text;               ///< summary for people
   bool is_fine = true;            ///< no check failed
 };

@@ -71,6 +71,30 @@ class Sweep(ProgramTest):
                  if row["status"] in ("ok", "oversubscribed")]
         self.assertEqual(sorted(ranks), ["1", "1", "2"])
 
+    def test_members_and_devices_are_choices_too(self):
+        devices = json.loads(dssbench("list", "devices", "--json").stdout)
+        has_device = any(row["platform"] and row["kind"] == "cpu" and row["status"] == "usable"
+                         for row in devices)
+        more = ["--variant", "opencl", "--device", "cpu"] if has_device else []
+        result = self.sweep("two_elements", "--variant", "scalar", "--ensemble", "1,8",
+                            "--sample-time", 0.002, "--repetitions", 1, "--no-picture", *more)
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
+        rows = self.table("sweep_two_elements")
+        self.assertEqual({row["status"] for row in rows}, {"ok"})
+        cells = {(row["set"], row["variant"], row.get("device", "")) for row in rows}
+        expected = {("", "scalar", ""), ("ensemble=8", "scalar", "")}
+        if has_device:
+            expected |= {("", "opencl", "cpu"), ("ensemble=8", "opencl", "cpu")}
+        self.assertEqual(cells, expected)
+
+    def test_a_dry_run_prints_the_cells_and_writes_nothing(self):
+        for steps in ([], ["--steps", 5]):
+            result = self.sweep(*SWEEP, *steps, "--dry-run")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(result.stdout.count("scalar, 1 thread"), 2, result.stdout)
+            self.assertEqual("a trial finds" in result.stdout, not steps)
+            self.assertFalse(os.path.exists(self.path("out")))
+
     def test_resume_goes_on_with_the_study_that_is_there(self):
         line = [*SWEEP, "--steps", 10, "--repetitions", 1, "--no-picture", "--name", "mine"]
         self.assertEqual(self.sweep(*line).returncode, 0)
@@ -116,6 +140,9 @@ class Sweep(ProgramTest):
                 (["--name", "no slash"], ["plate_paper", "--name", "a/b"]),
                 (["--halo", "give --ranks"], ["plate_paper", "--halo", "deep"]),
                 (["reference", "--base"], ["plate_paper", "--variant", "reference", "--ranks", 2]),
+                (["--ensemble", "--ranks"], ["plate_paper", "--ensemble", "8", "--ranks", "2"]),
+                (["--device", "opencl"], ["plate_paper", "--device", "cpu"]),
+                (["--dry-run", "--resume"], ["plate_paper", "--dry-run", "--resume"]),
                 (["more than 1000"], ["plate_paper", "--set", "n=" + ",".join(["8"] * 1001)]),
                 (["--sample-time"], ["plate_paper", "--sample-time", "nan"]),
                 (["--resume", "there is no"], ["plate_paper", "--resume"]),

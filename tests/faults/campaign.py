@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Kills the program and lets its writes fail, and counts what was lost or wrong.
+"""Kills and stops the program, lets its writes fail, and counts what was lost or wrong.
 
     make faults                                      # 1,000 kills, 10,000 failed writes
     tests/faults/campaign.py PROGRAM LIBRARY --kills 6 --writes 40     # a short form
 
-Four kinds of fault:
+Kinds of fault:
   kills    kill -9 of a study, or of the process that measures, at a random moment; then --resume
   writes   the n-th call that changes a file fails (failing_calls.c), for every n in turn; by turns
            the disk is full (ENOSPC), the device is broken (EIO), the directory is read-only (EROFS)
+  checkpoints  the same while a run writes checkpoints; then it is continued
   torn     a file of results is cut off at any length, then read
   gone     the directory of results vanishes while a study runs
+  stopped  a study and all that it started stand still for a while (SIGSTOP)
+  clock    the time of day jumps back and forth by a day
 After each fault the study is resumed. `lost`: a record that was written before the fault is missing
 or changed, or the study cannot be completed. `wrong`: a record that differs from an undisturbed
 run's, a repetition twice, a crash, or a failure at exit code 0. Exit code 1 if there is any.
@@ -38,6 +41,9 @@ STUDY = {
                          "budget_s": 60, "time_limit_s": 20}},
 }
 SCENE = ("run", "two_elements", "--variant", "scalar", "--steps", "20")
+STEPS = 60
+LONGER = ("run", "plate_paper", "--set", "n=8", "--variant", "scalar", "--steps", str(STEPS),
+          "--no-balance", "--json", "-")
 FAULTS = (errno.ENOSPC, errno.EIO, errno.EROFS)
 CRASHES = (-signal.SIGSEGV, -signal.SIGABRT, -signal.SIGBUS, -signal.SIGFPE, -signal.SIGILL)
 
@@ -55,6 +61,9 @@ class Campaign:
         self.require(self.experiment(self.folder / "whole"), 0)
         self.whole_s = time.monotonic() - begin
         self.expected = {self.key(row): row["state_digest"] for row in self.rows("whole")}
+        whole = self.longer()
+        self.require(whole, 0)
+        self.digest = self.digest_of(whole)
 
     @staticmethod
     def key(row):
@@ -171,6 +180,82 @@ class Campaign:
         for path in files + parts:
             path.unlink()
 
+    def longer(self, *options, **settings):
+        return subprocess.run([self.program, *LONGER, *options], capture_output=True, text=True,
+                              timeout=300, **settings)
+
+    @staticmethod
+    def digest_of(result):
+        return json.loads(result.stdout)["state_digest"] if result.returncode == 0 else None
+
+    def fail_checkpoint(self, number, fault):
+        """What a run has left of its checkpoints continues to the state of a whole run."""
+        self.counts["checkpoints", "tried"] += 1
+        saved = self.folder / "c.ckpt"
+        files = [saved, saved.with_name("c.ckpt.previous")]
+        first = self.longer("--checkpoint", saved, "--checkpoint-every", "20",
+                            env=self.failing(number, fault))
+        left = [file for file in files if file.exists()]
+        parts = list(self.folder.glob("c.ckpt*.part"))
+        ends = [self.longer("--restart", file) for file in left]
+        digests = [self.digest_of(end) for end in ends if "has done all of its" not in end.stderr]
+        is_wrong = (any(digest not in (self.digest, None)
+                        for digest in [self.digest_of(first), *digests])
+                    or any(run.returncode in CRASHES for run in [first, *ends])
+                    or any(end.returncode == 2 and end.stderr.count("\n") != 1 for end in ends)
+                    or bool(parts))
+        # One call fails, so a run that goes on saves the next time.
+        is_lost = ((bool(digests) and self.digest not in digests)
+                   or (first.returncode == 0 and not saved.exists()))
+        self.counts["checkpoints", "wrong"] += is_wrong
+        self.counts["checkpoints", "lost"] += is_lost
+        self.counts["checkpoints", "survived"] += not is_wrong and not is_lost
+        if is_wrong or is_lost:
+            print(f"checkpoints: call {number} fails with {fault}: exit code {first.returncode}, "
+                  f"left {[file.name for file in left + parts]}, digests {digests} of "
+                  f"{self.digest}: {first.stderr}{''.join(end.stderr for end in ends)}", flush=True)
+        self.remove_checkpoints()
+
+    def remove_checkpoints(self):
+        for path in self.folder.glob("c.ckpt*"):
+            path.unlink()
+
+    def survive(self, kind, result, name):
+        """The study must end with the records of an undisturbed run."""
+        self.counts[kind, "tried"] += 1
+        have = {self.key(row): row["state_digest"] for row in self.rows(name)
+                if row["status"] == "ok"}
+        days = {row["time_utc"][:10] for row in self.rows(name)}
+        is_wrong = (result.returncode != 0 or have != self.expected
+                    or (kind == "clock" and len(days) < 2))  # else the clock did not jump
+        self.counts[kind, "wrong"] += is_wrong
+        self.counts[kind, "survived"] += not is_wrong
+        if is_wrong:
+            print(f"{kind} {name}: exit code {result.returncode}: {result.stderr}", flush=True)
+        shutil.rmtree(self.folder / name, ignore_errors=True)
+
+    def stop(self, number):
+        name = f"stopped{number}"
+        run = subprocess.Popen(self.command(self.folder / name), stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True, start_new_session=True)
+        time.sleep(self.random.uniform(0, self.whole_s))
+        try:
+            os.killpg(run.pid, signal.SIGSTOP)
+            time.sleep(0.5)
+        except ProcessLookupError:
+            pass
+        finally:
+            if run.poll() is None:
+                os.killpg(run.pid, signal.SIGCONT)
+        errors = run.communicate(timeout=300)[1]
+        self.survive("stopped", subprocess.CompletedProcess([], run.returncode, "", errors), name)
+
+    def jump(self, number):
+        name = f"clock{number}"
+        jump = self.random.choice(["86400", "-86400"])
+        environment = self.failing(0, 0, DSS_CLOCK_JUMP=jump)
+        self.survive("clock", self.experiment(self.folder / name, env=environment), name)
+
     def tear(self, number):
         """A file of results that ends anywhere is refused in one line, or read up to there."""
         self.counts["torn", "tried"] += 1
@@ -218,14 +303,23 @@ class Campaign:
             self.tear(number)
             if number % 4 == 0:
                 self.vanish(number)
+                self.stop(number)
+                self.jump(number)
         files = [self.folder / name for name in ("a.csv", "a.json", "a.vtu")]
         most = self.calls([self.program, *SCENE, "--state", files[0], "--json", files[1],
                            "--output", files[2]])
         of_run = min(len(FAULTS) * most, writes // 2)
         for place in range(of_run):
             self.fail_run(1 + place % most, FAULTS[place // most])
+        saving = ("--checkpoint", self.folder / "c.ckpt", "--checkpoint-every", "20")
+        most = self.calls([self.program, *LONGER, *saving])
+        self.remove_checkpoints()
+        of_checkpoints = min(len(FAULTS) * most, writes // 4)
+        for place in range(of_checkpoints):  # spread over all calls
+            turn, call = divmod(place * len(FAULTS) * most // of_checkpoints, most)
+            self.fail_checkpoint(1 + call, FAULTS[(turn + call) % len(FAULTS)])
         most = self.calls(self.command(self.folder / "counted"))
-        for place in range(writes - of_run):
+        for place in range(writes - of_run - of_checkpoints):
             self.fail_study(1 + place % most, FAULTS[(place // most + place) % len(FAULTS)])
 
 

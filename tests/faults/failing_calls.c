@@ -1,7 +1,8 @@
 /* Preloaded into the program: the n-th call of open (to write), write, rename, ftruncate, fsync or
  * mkdir fails, with DSS_FAIL_AT=n and DSS_FAIL_ERRNO (default: ENOSPC). Pipes and terminals are left
  * alone. Calls are counted in each process by itself. With DSS_FAIL_COUNT=FILE the process appends
- * its number of calls there when it ends. */
+ * its number of calls there when it ends. With DSS_CLOCK_JUMP=S every other call of
+ * clock_gettime(CLOCK_REALTIME) is off by S seconds. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -12,6 +13,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <sys/types.h>
+#include <time.h>
 #include <unistd.h>
 
 static atomic_long calls;
@@ -65,4 +67,15 @@ int open(const char* path, int flags, ...) {
   }
   if ((flags & O_ACCMODE) != O_RDONLY && fails()) return -1;
   return NEXT(open)(path, flags, mode);
+}
+
+int clock_gettime(clockid_t clock, struct timespec* now) {
+  static int (*next)(clockid_t, struct timespec*);
+  static atomic_long looks;
+  if (next == NULL) next = NEXT(clock_gettime);
+  const char* jump = getenv("DSS_CLOCK_JUMP");
+  const int result = next(clock, now);
+  if (result == 0 && clock == CLOCK_REALTIME && jump != NULL && ++looks % 2 == 0)
+    now->tv_sec += atol(jump);
+  return result;
 }

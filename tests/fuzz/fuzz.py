@@ -19,6 +19,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHIPPED = {
     "json": ["experiments/scenes/**/*.json"],
+    "scene": ["experiments/scenes/**/*.json"],
+    "platform": ["experiments/platforms/*.xml"],
     "study": ["experiments/studies/**/*.json"],
     "members": ["examples/ensemble/*"],
     "csv": ["results/raw/table2.csv", "examples/ensemble/*.csv"],
@@ -40,9 +42,11 @@ def run_target(program, build, seconds):
     corpus = build / "corpus" / name
     corpus.mkdir(parents=True, exist_ok=True)
     own = ROOT / "tests" / "fuzz" / "seeds" / name
-    with tempfile.TemporaryDirectory(prefix="dssbench-seeds-") as folder:
+    in_memory = "/dev/shm" if os.path.isdir("/dev/shm") else None  # what targets write
+    with tempfile.TemporaryDirectory(prefix="dssbench-seeds-") as folder, \
+            tempfile.TemporaryDirectory(prefix="dssbench-fuzz-", dir=in_memory) as written:
         seeds = [seeds_of(name, pathlib.Path(folder))] + ([own] if own.is_dir() else [])
-        environment = {**os.environ, "TMPDIR": "/dev/shm" if os.path.isdir("/dev/shm") else "/tmp"}
+        environment = {**os.environ, "TMPDIR": written}
         result = subprocess.run(
             [program, f"-max_total_time={seconds}", f"-artifact_prefix={corpus}-", *LIMITS, corpus,
              *seeds], capture_output=True, text=True, errors="replace", env=environment)

@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
+#include <ranges>
 #include <set>
+#include <utility>
 
 namespace dss {
 namespace {
@@ -64,6 +67,15 @@ TimedStage timed_stage(const ChainStudy& study, const Scene& scene, const ChainS
   return timed;
 }
 
+/// All stages of a repetition with memory of its own, since times depend on where it lies. A few
+/// steps, a tenth of a sample, touch it.
+void renew(const ChainStudy& study, const Scene& scene, std::vector<TimedStage>& stages) {
+  for (TimedStage& timed : stages) {
+    timed.run = std::make_unique<StageRun>(study, scene, timed.stage);
+    timed.run->advance(timed.steps / 10 + 1);
+  }
+}
+
 /// Record of the run that was just timed.
 Record stage_record(const ChainStudy& study, const TimedStage& timed, std::size_t n,
                     int repetition) {
@@ -110,26 +122,40 @@ Record fastest_sample(const ChainStudy& study, const TimedStage& timed, std::siz
   return fastest;
 }
 
-/// Times all stages in turn, for the study's number of repetitions.
-void time_stages(const ChainStudy& study, const Scene& scene, RecordFile& records,
-                 Progress& progress) {
+/// The stages that a repetition lacks, of each repetition that lacks any.
+using Missing = std::map<int, std::vector<std::size_t>>;
+
+Missing missing_of(const ChainStudy& study, const RecordFile& records) {
   std::set<std::pair<std::string, std::string>> present;
   for (const Record& record : records.present())
     present.emplace(text_in(record, "cell"), text_in(record, "repetition"));
+  const std::vector<ChainStage> stages = study.timed();
+  Missing missing;
+  for (int repetition = 0; repetition < study.repetitions; ++repetition)
+    for (std::size_t n = 0; n < stages.size(); ++n)
+      if (!present.contains({chain_cell(n, stages[n]), fmt::format("{}", repetition)}))
+        missing[repetition].push_back(n);
+  return missing;
+}
+
+/// Times all stages in turn, for so many of the repetitions that are missing.
+void time_stages(const ChainStudy& study, const Scene& scene, const Missing& missing, long rounds,
+                 RecordFile& records, Progress& progress) {
   std::vector<TimedStage> stages;
   for (const ChainStage& stage : study.timed()) stages.push_back(timed_stage(study, scene, stage));
   double done = 0;
-  for (int repetition = 0; repetition < study.repetitions; ++repetition)
-    for (std::size_t n = 0; n < stages.size(); ++n) {
+  for (const auto& [repetition, lacking] : missing | std::views::take(rounds)) {
+    renew(study, scene, stages);
+    for (const std::size_t n : lacking) {
       const TimedStage& timed = stages[n];
-      progress.show(done++, double(study.repetitions) * double(stages.size()), timed.stage.label);
-      if (present.contains({chain_cell(n, timed.stage), fmt::format("{}", repetition)})) continue;
+      progress.show(done++, double(rounds) * double(stages.size()), timed.stage.label);
       for (int attempt = 0; attempt < most_attempts; ++attempt) {
         const Record record = fastest_sample(study, timed, n, repetition);
         records.append(record);
         if (text_in(record, "contaminated") != "true") break;
       }
     }
+  }
 }
 
 class Chain : public Study {
@@ -160,7 +186,14 @@ public:
       write_circumstances(paths.context, measurement_context(), of);
     else
       note_resumption(paths.context);
-    time_stages(study_, scene, records, how.progress);
+    const Missing missing = missing_of(study_, records);
+    const long all = long(missing.size()),
+               rounds = how.rounds > 0 ? std::min(how.rounds, all) : all;
+    if (rounds > 0) time_stages(study_, scene, missing, rounds, records, how.progress);
+    if (rounds < all)
+      return {
+          {},
+          fmt::format("{}: {} rounds are missing; go on with --resume", study_.name, all - rounds)};
     ChainErrors errors(study_, scene, how.note());
     const Table table = chain_table(study_, read_csv(paths.raw).rows, errors);
     const bool is_right = std::ranges::all_of(
@@ -171,6 +204,7 @@ public:
             is_right && number_in(last, "error_max") <= study_.bar};
   }
   bool keeps_records() const override { return true; }
+  bool has_rounds() const override { return true; }
 
 private:
   ChainStudy study_;
