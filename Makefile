@@ -72,7 +72,7 @@ restarts: build
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.
 UNTIMED_STUDIES := error_budget failures continuum
-# Tables of speed-ups are measured in three parts, with other studies in between: a busy neighbour
+# Speed-ups are measured in three parts, with other studies in between: a busy neighbour
 # of the machine stays for minutes, and so disturbs only some of their rounds.
 IN_THREE_PARTS := table1 table2 table3 chain chain_block chain_bending
 PAPER_STUDIES := paper_table1 paper_table2 paper_table3
