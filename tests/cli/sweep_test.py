@@ -71,21 +71,23 @@ class Sweep(ProgramTest):
                  if row["status"] in ("ok", "oversubscribed")]
         self.assertEqual(sorted(ranks), ["1", "1", "2"])
 
-    def test_members_and_devices_are_choices_too(self):
-        devices = json.loads(dssbench("list", "devices", "--json").stdout)
-        has_device = any(row["platform"] and row["kind"] == "cpu" and row["status"] == "usable"
-                         for row in devices)
-        more = ["--variant", "opencl", "--device", "cpu"] if has_device else []
-        result = self.sweep("two_elements", "--variant", "scalar", "--ensemble", "1,8",
-                            "--sample-time", 0.002, "--repetitions", 1, "--no-picture", *more)
+    def test_numbers_of_members_are_a_choice_too(self):
+        result = self.sweep("plate_paper", "--set", "n=8", "--variant", "scalar", "--ensemble",
+                            "1,8", "--sample-time", 0.002, "--repetitions", 1, "--no-picture")
         self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
-        rows = self.table("sweep_two_elements")
+        rows = self.table("sweep_plate_paper")
         self.assertEqual({row["status"] for row in rows}, {"ok"})
-        cells = {(row["set"], row["variant"], row.get("device", "")) for row in rows}
-        expected = {("", "scalar", ""), ("ensemble=8", "scalar", "")}
-        if has_device:
-            expected |= {("", "opencl", "cpu"), ("ensemble=8", "opencl", "cpu")}
-        self.assertEqual(cells, expected)
+        self.assertEqual({row["set"] for row in rows}, {"n=8", "ensemble=8 n=8"})
+
+    def test_the_device_is_that_of_the_variants_that_compute_on_one(self):
+        result = self.sweep("two_elements", "--variant", "scalar,opencl", "--device", "cpu",
+                            "--dry-run")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        cells = [line for line in result.stdout.splitlines() if line.startswith("two_elements")]
+        self.assertFalse([line for line in cells if "scalar on" in line], result.stdout)
+        self.assertEqual(sum("opencl" in line for line in cells), 1, result.stdout)
+        self.assertTrue("opencl on cpu" in result.stdout or "unavailable" in result.stdout
+                        or "skipped" in result.stdout, result.stdout)
 
     def test_a_dry_run_prints_the_cells_and_writes_nothing(self):
         for steps in ([], ["--steps", 5]):
