@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -143,12 +142,14 @@ void time_stages(const ChainStudy& study, const Scene& scene, const Missing& mis
                  RecordFile& records, Progress& progress) {
   std::vector<TimedStage> stages;
   for (const ChainStage& stage : study.timed()) stages.push_back(timed_stage(study, scene, stage));
+  const double all = double(rounds) * double(stages.size());
   double done = 0;
-  for (const auto& [repetition, lacking] : missing | std::views::take(rounds)) {
+  for (const auto& [repetition, lacking] : missing) {
+    if (rounds-- == 0) break;
     renew(study, scene, stages);
     for (const std::size_t n : lacking) {
       const TimedStage& timed = stages[n];
-      progress.show(done++, double(rounds) * double(stages.size()), timed.stage.label);
+      progress.show(done++, all, timed.stage.label);
       for (int attempt = 0; attempt < most_attempts; ++attempt) {
         const Record record = fastest_sample(study, timed, n, repetition);
         records.append(record);
