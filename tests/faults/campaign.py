@@ -89,9 +89,16 @@ class Campaign:
         text = path.read_text()
         return list(csv.DictReader(text[:text.rfind("\n") + 1].splitlines()))
 
+    def count(self, kind, is_wrong, is_lost=False):
+        """Counts a fault. @return whether it is to be told"""
+        is_bad = is_wrong or is_lost
+        for what, is_so in (("tried", True), ("survived", not is_bad), ("wrong", is_wrong),
+                            ("lost", is_lost)):
+            self.counts[kind, what] += is_so
+        return is_bad
+
     def judge(self, kind, name, before, result=None):
         """Resumes the study, and looks at what is there."""
-        self.counts[kind, "tried"] += 1
         after = self.rows(name)
         resumed = self.experiment(self.folder / name, "--resume")
         is_refused, why = resumed.returncode == 2, resumed.stderr
@@ -106,10 +113,7 @@ class Campaign:
         is_lost = ((is_refused and bool(before)) or resumed.returncode != 0
                    or set(have) != set(self.expected)
                    or any(row not in after for row in before))
-        self.counts[kind, "wrong"] += is_wrong
-        self.counts[kind, "lost"] += is_lost
-        self.counts[kind, "survived"] += not is_wrong and not is_lost
-        if is_wrong or is_lost:
+        if self.count(kind, is_wrong, is_lost):
             print(f"{kind} {name}: wrong {is_wrong}, lost {is_lost}\n{why}{resumed.stderr}"
                   f"{result.stderr if result is not None else ''}", flush=True)
         shutil.rmtree(self.folder / name, ignore_errors=True)
@@ -156,7 +160,6 @@ class Campaign:
 
     def fail_run(self, number, fault):
         """A run writes three files, of which earlier versions exist. Each is old or new."""
-        self.counts["outputs", "tried"] += 1
         files = [self.folder / name for name in ("end.csv", "end.json", "end.vtu")]
         for file in files:
             file.write_text("earlier\n")
@@ -172,9 +175,7 @@ class Campaign:
         is_wrong = (not is_whole or result.returncode in CRASHES or bool(parts)
                     or (result.returncode == 0 and not all(is_new))
                     or (result.returncode != 0 and result.stderr.count("\n") != 1))
-        self.counts["outputs", "wrong"] += is_wrong
-        self.counts["outputs", "survived"] += not is_wrong
-        if is_wrong:
+        if self.count("outputs", is_wrong):
             print(f"outputs: call {number} fails with {fault}: exit code {result.returncode}, new "
                   f"{is_new}, whole {is_whole}, {parts}: {result.stderr}", flush=True)
         for path in files + parts:
@@ -190,7 +191,6 @@ class Campaign:
 
     def fail_checkpoint(self, number, fault):
         """What a run has left of its checkpoints continues to the state of a whole run."""
-        self.counts["checkpoints", "tried"] += 1
         saved = self.folder / "c.ckpt"
         files = [saved, saved.with_name("c.ckpt.previous")]
         first = self.longer("--checkpoint", saved, "--checkpoint-every", "20",
@@ -207,10 +207,7 @@ class Campaign:
         # One call fails, so a run that goes on saves the next time.
         is_lost = ((bool(digests) and self.digest not in digests)
                    or (first.returncode == 0 and not saved.exists()))
-        self.counts["checkpoints", "wrong"] += is_wrong
-        self.counts["checkpoints", "lost"] += is_lost
-        self.counts["checkpoints", "survived"] += not is_wrong and not is_lost
-        if is_wrong or is_lost:
+        if self.count("checkpoints", is_wrong, is_lost):
             print(f"checkpoints: call {number} fails with {fault}: exit code {first.returncode}, "
                   f"left {[file.name for file in left + parts]}, digests {digests} of "
                   f"{self.digest}: {first.stderr}{''.join(end.stderr for end in ends)}", flush=True)
@@ -222,15 +219,12 @@ class Campaign:
 
     def survive(self, kind, result, name):
         """The study must end with the records of an undisturbed run."""
-        self.counts[kind, "tried"] += 1
         have = {self.key(row): row["state_digest"] for row in self.rows(name)
                 if row["status"] == "ok"}
         days = {row["time_utc"][:10] for row in self.rows(name)}
         is_wrong = (result.returncode != 0 or have != self.expected
                     or (kind == "clock" and len(days) < 2))  # else the clock did not jump
-        self.counts[kind, "wrong"] += is_wrong
-        self.counts[kind, "survived"] += not is_wrong
-        if is_wrong:
+        if self.count(kind, is_wrong):
             print(f"{kind} {name}: exit code {result.returncode}: {result.stderr}", flush=True)
         shutil.rmtree(self.folder / name, ignore_errors=True)
 
@@ -258,7 +252,6 @@ class Campaign:
 
     def tear(self, number):
         """A file of results that ends anywhere is refused in one line, or read up to there."""
-        self.counts["torn", "tried"] += 1
         source = self.random.choice(["raw/tiny.csv", "raw/tiny.json", "tables/tiny.csv"])
         name = f"torn{number}"
         shutil.copytree(self.folder / "whole", self.folder / name)
@@ -272,16 +265,13 @@ class Campaign:
                     or any(row["state_digest"] != self.expected.get(self.key(row))
                            for row in rows if row["status"] == "ok")
                     or (result.returncode == 0 and len(rows) != len(self.expected)))
-        self.counts["torn", "wrong"] += is_wrong
-        self.counts["torn", "survived"] += not is_wrong
-        if is_wrong:
+        if self.count("torn", is_wrong):
             print(f"torn: {source} at {path.stat().st_size} of {len(whole)}: exit code "
                   f"{result.returncode}: {result.stderr}", flush=True)
         shutil.rmtree(self.folder / name)
 
     def vanish(self, number):
         """The directory of results is removed while the study runs."""
-        self.counts["gone", "tried"] += 1
         name = f"gone{number}"
         run = subprocess.Popen(self.command(self.folder / name), stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
@@ -291,9 +281,7 @@ class Campaign:
         has_all = len(self.rows(name)) == len(self.expected)
         is_wrong = run.returncode in CRASHES or (run.returncode == 0 and not has_all
                                                  and (self.folder / name).exists())
-        self.counts["gone", "wrong"] += is_wrong
-        self.counts["gone", "survived"] += not is_wrong
-        if is_wrong:
+        if self.count("gone", is_wrong):
             print(f"gone: exit code {run.returncode}: {errors}", flush=True)
         shutil.rmtree(self.folder / name, ignore_errors=True)
 

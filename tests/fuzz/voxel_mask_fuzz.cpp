@@ -8,8 +8,7 @@ namespace {
 std::string scene_of(const std::string& mask) {
   return fmt::format(R"({{"scene": "masked", "title": "a mask", "bodies": [{{"name": "body",
     "geometry": {{"voxels": {{"file": "{}"}}}}, "element": 0.01,
-    "constants": {{"law": "paper", "k": 1e11, "d": 1e5, "kt": 0, "dt": 1e2, "mass": 1,
-                   "inertia": 1}}}}],
+    "constants": {{"law": "paper"}}}}],
     "run": {{"dt": 1e-6, "steps": 10, "integrator": "rk4"}}}})",
                      mask);
 }
