@@ -34,7 +34,7 @@ class Interrupts(TinyStudyTest):
                                 cwd=self.directory,
                                 env={**os.environ, "TMPDIR": self.path("tmp")})
 
-    def end(self, run, number=signal.SIGINT, after_s=1.5):
+    def end(self, run, number=signal.SIGINT, after_s=0.5):
         """Interrupts the terminal's foreground group, as Ctrl-C does. Returns the line."""
         time.sleep(after_s)
         self.assertIsNone(run.poll(), "it ended before it was interrupted")
@@ -76,8 +76,9 @@ class Interrupts(TinyStudyTest):
     def test_ranks_leave_no_shared_memory(self):
         before = self.shared_memory()
         for number in (signal.SIGINT, signal.SIGTERM):
-            line = self.end(self.start("run", *LONG, "--ranks", "2"), number, after_s=3)
-            self.assertIn("dssbench: interrupted", line)
+            run = self.start("run", *LONG, "--ranks", "2")
+            self.wait_for(lambda: self.shared_memory() - before)
+            self.assertIn("dssbench: interrupted", self.end(run, number))
         self.assertEqual(self.shared_memory() - before, set())
 
     def long_study(self):
