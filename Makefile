@@ -5,13 +5,17 @@ BUILD := build/$(PRESET)
 SCALE ?= host
 OUT ?= $(if $(filter host,$(SCALE)),results,build/results-$(SCALE))
 
+# Ninja would start two more jobs than there are processors, and that takes a tenth longer: the
+# compiler needs its caches.
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
+
 # These presets need Clang.
 ifneq (,$(filter clang tsan,$(PRESET)))
 export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
-.PHONY: verify-cpu verify-devices test-aarch64 fuzz mutants faults restarts
+.PHONY: verify-cpu verify-devices test-aarch64 fuzz mutants faults restarts flips
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -68,6 +72,12 @@ RESTARTS ?= 1000
 restarts: TARGETS := --target dssbench
 restarts: build
 	@tests/faults/restarts.py $(BUILD)/dssbench --runs $(RESTARTS)
+
+# Wrong bits in the state of runs, FLIPS of them, and what finds them (tests/faults/flips.py).
+FLIPS ?= 1000
+flips: TARGETS := --target dssbench
+flips: build
+	@tests/faults/flips.py $(BUILD)/dssbench --flips $(FLIPS)
 
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.

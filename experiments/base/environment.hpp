@@ -33,6 +33,9 @@ inline constexpr std::array environment_variables = {
     EnvironmentVariable{
         "DSSBENCH_FAULT",
         "Injects a fault for tests: die:RANK:EXCHANGE, hang:RANK:EXCHANGE or slow:RANK:FACTOR."},
+    EnvironmentVariable{"DSSBENCH_FLIP",
+                        "Flips a bit of the state of a run for tests: STEP:ELEMENT:NUMBER:BIT, "
+                        "and :stays if it stays wrong."},
     EnvironmentVariable{"DSSBENCH_CACHE_DIR",
                         "Directory of compiled OpenCL programs (default: dssbench/opencl in "
                         "XDG_CACHE_HOME, or in ~/.cache)."},

@@ -113,6 +113,9 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   if (!request.ensemble.empty() && !(request.checkpoint.empty() && request.restart.empty()))
     throw InputError("--ensemble: ensembles have no checkpoints; leave --checkpoint and --restart "
                      "out, or run members by themselves");
+  if (!request.ensemble.empty() && request.guard != 0)
+    throw InputError("--ensemble: ensembles have no guard; leave --guard out, or run members by "
+                     "themselves");
   for (const auto& [option, file] :
        {std::pair("--checkpoint", request.checkpoint), std::pair("--restart", request.restart)})
     if (command.count(option) > 0 && file.empty())
@@ -141,7 +144,8 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   const RunResult result = run_scene(request);
   if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));
   if (result.status == "unstable") throw UnstableError(result.reason);
-  if (request.json != "-" && result.status != "bound") print_summary(result);
+  const bool has_end = result.status == "ok" || result.status == "wrong";
+  if (request.json != "-" && has_end) print_summary(result);
   if (result.status == "ok") return exit_success;
   fmt::print(stderr, "dssbench: {}: {}\n", result.scene, result.reason);
   return exit_check_failed;
@@ -294,6 +298,27 @@ void add_checkpoint_options(CLI::App& command, RunRequest& request) {
       ->group("Checkpoints");
 }
 
+/// Options of guarded runs.
+void add_guard_options(CLI::App& command, RunRequest& request) {
+  command
+      .add_option("--guard", request.guard,
+                  "Every so many steps, compute some once more by another variant; if any bit "
+                  "differs, the run ends")
+      ->group("Guard");
+  command
+      .add_option("--guard-steps", request.guard_steps,
+                  "Steps that are computed once more, of those of --guard; all of them: no wrong "
+                  "bit stays")
+      ->capture_default_str()
+      ->group("Guard");
+  command
+      .add_option("--guard-variant", request.guard_variant,
+                  "Variant that computes them; it must round alike; auto: the fastest other one")
+      ->capture_default_str()
+      ->type_name("VARIANT")
+      ->group("Guard");
+}
+
 /// Options for studies.
 void add_check_options(CLI::App& command, RunRequest& request) {
   command
@@ -356,6 +381,7 @@ void add_run_command(CLI::App& app, Chosen& chosen) {
   add_step_options(*command, request);
   add_output_options(*command, request);
   add_checkpoint_options(*command, request);
+  add_guard_options(*command, request);
   add_check_options(*command, request);
   command->footer("Example: dssbench run plate_paper --set n=100 --steps 500 --variant avx2 "
                   "--threads 2 --output plate.vtu");

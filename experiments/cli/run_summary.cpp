@@ -61,6 +61,15 @@ void print_balance(const RunResult& result) {
                *limit);
 }
 
+void print_guard(const RunResult& result) {
+  if (!result.guard) return;
+  const GuardReport& guard = *result.guard;
+  fmt::print("guard: {} of {} steps computed once more by {}, in {} looks: the same bits; {:.2g} % "
+             "of the time\n",
+             guard.checked_steps, result.advanced_steps(), guard.witness, guard.checks,
+             100 * guard.time_s / (guard.time_s + result.wall_s));
+}
+
 /// " (fastest of 8 samples, mean of 5 runs)"; empty for one run.
 std::string samples_text(const RunResult& result) {
   std::vector<std::string> parts;
@@ -109,6 +118,7 @@ void print_summary(const RunResult& result) {
                result.reference->times.count, result.reference->accuracy.final,
                result.reference->accuracy.l2, result.reference->accuracy.max,
                result.reference->error);
+  print_guard(result);
   print_balance(result);
   if (result.energy_drift) fmt::print("energy drift {:.3g}\n", *result.energy_drift);
   if (result.ranks.ranks > 1)

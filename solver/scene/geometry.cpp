@@ -96,8 +96,10 @@ Layers read_layers(const Node& node) {
 Layers read_layer_file(const Node& node) {
   const auto path = std::filesystem::path(node.file()).parent_path() / node.text();
   std::error_code error;
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path, error))
+  const bool is_file = std::filesystem::is_regular_file(path, error); // a device may have no end
+  std::ifstream file;
+  if (is_file) file.open(path);
+  if (!file.is_open())
     node.fail(fmt::format("voxel file {} cannot be read; its path is relative to the scene's file",
                           path.string()));
   Layers layers(1);
@@ -112,12 +114,11 @@ Layers read_layer_file(const Node& node) {
   return layers;
 }
 
-VoxelGrid grid_of(const Node& node, const Layers& layers) {
+/// Requires that all lines are of one length, and all layers of as many lines.
+void require_box(const Node& node, const Layers& layers) {
   if (layers.empty() || layers[0].empty() || layers[0][0].empty())
     node.fail("the voxel mask is empty; a body has at least one element");
   const std::size_t nx = layers[0][0].size(), ny = layers[0].size();
-  VoxelGrid grid = empty_grid(node, {long(nx), long(ny), long(layers.size())});
-  std::size_t cell = 0;
   for (std::size_t z = 0; z < layers.size(); ++z) {
     if (layers[z].size() != ny)
       node.fail(fmt::format("layer {} has {} lines; layer 0 has {}", z, layers[z].size(), ny));
@@ -126,14 +127,23 @@ VoxelGrid grid_of(const Node& node, const Layers& layers) {
       if (line.size() != nx)
         node.fail(fmt::format("layer {}, line {} has {} characters; the first line has {}", z, y,
                               line.size(), nx));
-      for (const char mark : line) {
+    }
+  }
+}
+
+VoxelGrid grid_of(const Node& node, const Layers& layers) {
+  require_box(node, layers); // before the grid takes memory
+  VoxelGrid grid =
+      empty_grid(node, {long(layers[0][0].size()), long(layers[0].size()), long(layers.size())});
+  std::size_t cell = 0;
+  for (std::size_t z = 0; z < layers.size(); ++z)
+    for (std::size_t y = 0; y < layers[z].size(); ++y)
+      for (const char mark : layers[z][y]) {
         if (mark != '#' && mark != '.')
           node.fail(fmt::format(
               "layer {}, line {} has '{}'; write # for an element and . for a hole", z, y, mark));
         grid.occupied[cell++] = mark == '#';
       }
-    }
-  }
   return grid;
 }
 

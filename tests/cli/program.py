@@ -6,8 +6,6 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["DSSBENCH"]
-# Open MPI would look for networks of a cluster, which takes 0.2 s a start.
-os.environ.setdefault("OMPI_MCA_pml", "ob1")
 
 
 def dssbench(*arguments, **options):

@@ -159,7 +159,7 @@ Tries tries_of(Executor& run, const Problem& whole, const Problem& part) {
 Tries tries_in_parts(const AdaptiveRun& run, const State& start, int parts, bool is_every_stage,
                      bool is_overlapped) {
   const Decomposition decomposition = decompose(run.problem, "blocks", parts);
-  Mailboxes mailboxes;
+  ThreadMailboxes mailboxes;
   std::vector<Tries> own(static_cast<std::size_t>(parts));
   Tries joined{{}, poisoned(run.problem)};
   std::vector<std::thread> team;

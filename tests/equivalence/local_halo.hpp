@@ -1,5 +1,5 @@
 #pragma once
-/// A halo whose neighbours are threads of the same process: parts without MPI.
+/// A halo whose neighbours are threads or fibres of the same process: parts without MPI.
 #include "variants/api/message_order.hpp"
 
 #include <array>
@@ -17,12 +17,21 @@ namespace dss::test {
 class Mailboxes {
 public:
   using Letter = std::vector<std::byte>;
-  void put(int from, int to, Letter letter) {
+  virtual ~Mailboxes() = default;
+  virtual void put(int from, int to, Letter letter) = 0;
+  /// Waits for the next one.
+  virtual Letter take(int from, int to) = 0;
+};
+
+/// Of threads.
+class ThreadMailboxes final : public Mailboxes {
+public:
+  void put(int from, int to, Letter letter) override {
     const std::lock_guard lock(mutex_);
     boxes_[{from, to}].push_back(std::move(letter));
     filled_.notify_all();
   }
-  Letter take(int from, int to) {
+  Letter take(int from, int to) override {
     std::unique_lock lock(mutex_);
     auto& box = boxes_[{from, to}];
     for (int yields = 0; yields < most_yields && box.empty();

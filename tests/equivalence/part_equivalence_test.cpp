@@ -44,7 +44,7 @@ struct PartsRun {
 
   template <class Act>
   State run(const Decomposition& decomposition, const State& state, Act&& act) const {
-    Mailboxes mailboxes;
+    ThreadMailboxes mailboxes;
     std::vector<Part> parts;
     for (int p = 0; p < decomposition.parts; ++p)
       parts.push_back(make_part(problem, decomposition, p, is_every_stage ? 1 : method.stages));

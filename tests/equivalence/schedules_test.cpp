@@ -66,13 +66,13 @@ TEST_P(EverySchedule, has_bitwise_equal_states_for_rows_cut_anywhere_and_threads
       const State state = rounded(fixture::random_state(problem, 3, 2e-4, 0.02, 0.01), precision);
       VariantRun run{plugin, problem, method, Model::spatial, precision};
       run.tile = 1000; // longer than the rows
-      const State whole = run.after(state, 20), rates = run.derivative(state);
+      const State whole = run.after(state, 10), rates = run.derivative(state);
       EXPECT_EQ(run.executor()->schedule().find("tiles"), std::string::npos);
       for (run.threads = 1; run.threads <= 3; ++run.threads)
         for (const int tile : {1, 40, 100}) {
           run.tile = tile;
           EXPECT_NE(run.executor()->schedule().find("tiles"), std::string::npos);
-          EXPECT_EQ(differing_bits(whole, run.after(state, 20), precision), 0u)
+          EXPECT_EQ(differing_bits(whole, run.after(state, 10), precision), 0u)
               << name(precision) << ' ' << method.name << ", tile " << tile << ", " << run.threads
               << " threads";
           EXPECT_EQ(differing_bits(rates, run.derivative(state), precision), 0u);

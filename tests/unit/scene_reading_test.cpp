@@ -114,6 +114,17 @@ TEST_F(scene_file, with_a_bad_voxel_mask_is_refused) {
   written("mask.txt", "\n\n");
   expect_part(refusal(scene_with(R"({"voxels": {"file": "mask.txt"}})")), "mask is empty");
   expect_part(refusal(scene_with(R"({"voxels": {"layers": [["..", ".."]]}})")), "no element");
+  // A device may have no end.
+  expect_part(refusal(scene_with(R"({"voxels": {"file": "/dev/zero"}})")),
+              "/dev/zero cannot be read");
+}
+
+TEST_F(scene_file, with_lines_of_unequal_lengths_is_refused_before_the_grid_takes_memory) {
+  std::string mask(60000, '#');
+  for (int line = 1; line < 60000; ++line) mask.append("\n#");
+  written("mask.txt", mask);
+  expect_part(refusal(scene_with(R"({"voxels": {"file": "mask.txt"}})")),
+              "layer 0, line 1 has 1 characters");
 }
 
 TEST_F(scene_file, makes_a_porous_box_from_its_seed) {

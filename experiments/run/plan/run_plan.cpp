@@ -298,7 +298,8 @@ void require_room(const RunRequest& request, double elements, int fields, Precis
       !request.hybrid.empty())
     return;
   const double number = precision == Precision::f64 ? sizeof(double) : sizeof(float);
-  require_memory(elements * fields * number / std::max(1, request.ranks),
+  const int states = request.guard > 0 ? 2 : 1;
+  require_memory(states * elements * fields * number / std::max(1, request.ranks),
                  fmt::format("{}: the states of {:.0f} elements", request.scene, elements),
                  "give the scene fewer elements");
 }

@@ -41,6 +41,9 @@ struct RunRequest {
   std::string checkpoint;                ///< file that says where the run stands, or empty
   std::string checkpoint_every = "60s";  ///< see parse_checkpoint_interval
   std::string restart;                   ///< checkpoint that the run continues from, or empty
+  long guard = 0;                        ///< steps between two looks of the guard; 0: no guard
+  long guard_steps = 1;                  ///< of each look, computed once more
+  std::string guard_variant = "auto";    ///< that computes them
   std::string json;                      ///< file, "-" for standard output, or empty
   std::string check_state;               ///< file of the oracle's state, or empty
   long check_step = 0;                   ///< step of that state

@@ -92,8 +92,7 @@ double max_displacement(Executor& executor, std::size_t element_count) {
 
 void StateDigest::add(std::span<const double> fields) {
   for (const double field : fields) {
-    const std::uint64_t word =
-        std::abs(field) < smallest_ ? 0 : std::bit_cast<std::uint64_t>(field);
+    const std::uint64_t word = common_bits(field, precision_);
     // FNV-1a spreads bits only upwards. The rotation moves the high bits of a double down first.
     hash_ = (hash_ ^ std::rotl(word, 32)) * 0x100000001b3u;
     hash_ ^= hash_ >> 29;

@@ -5,6 +5,8 @@
 #include "variants/api/api.hpp"
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -31,18 +33,22 @@ std::optional<std::size_t> first_not_finite(Executor& executor, std::size_t elem
 double max_displacement(std::span<const double> state);
 double max_displacement(Executor& executor, std::size_t element_count);
 
-/// 64-bit digest of a state's bits (FNV-1a over its 64-bit words). -0 counts as +0. Numbers below
-/// 2^-1000 (f64) or 2^-120 (f32) also count as +0, because some variants may flush them (DESIGN.md
-/// section 6).
+/// The bits of a number that variants agree on. -0 counts as +0. Numbers below 2^-1000 (f64) or
+/// 2^-120 (f32) also count as +0, because some variants may flush them (DESIGN.md section 6).
+inline std::uint64_t common_bits(double number, Precision precision) {
+  const double smallest = precision == Precision::f64 ? 0x1p-1000 : 0x1p-120;
+  return std::abs(number) < smallest ? 0 : std::bit_cast<std::uint64_t>(number);
+}
+
+/// 64-bit digest of a state's common bits (FNV-1a over 64-bit words).
 class StateDigest {
 public:
-  explicit StateDigest(Precision precision)
-      : smallest_(precision == Precision::f64 ? 0x1p-1000 : 0x1p-120) {}
+  explicit StateDigest(Precision precision) : precision_(precision) {}
   void add(std::span<const double> fields);
   std::uint64_t value() const { return hash_; }
 
 private:
-  double smallest_;
+  Precision precision_;
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 

@@ -1,5 +1,6 @@
 #include "experiments/run/timed/run.hpp"
 #include "experiments/run/checkpoint/checkpoint_plan.hpp"
+#include "experiments/run/guard/guard.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/output.hpp"
@@ -31,6 +32,7 @@ bool is_ok_on_root(Executor& executor, const RunResult& result) {
 RunResult run_scene(const RunRequest& request) {
   const RunPlan plan = plan_run(request);
   require_sound_checkpoints(request, plan);
+  require_sound_guard(request, plan);
   const Problem& problem = plan.scene.problem;
   flush_denormals();
   RunResult result = described(plan, request);

@@ -27,7 +27,8 @@ Json of_hybrid(R r, const T& value) {
 }
 template <class T>
 Json of_state(R r, const T& value) {
-  return r.status == "unstable" || r.status == "bound" ? Json() : Json(value);
+  const bool has_end = r.status == "ok" || r.status == "wrong";
+  return has_end ? Json(value) : Json();
 }
 template <class T>
 Json if_checked(R r, const T& value) {
@@ -65,6 +66,16 @@ Json model_choice(R r) {
       {"asked", choice.asked}, {"chosen", name(choice.chosen)},   {"why", choice.why},
       {"smaller", smaller},    {"is_bounded", choice.is_bounded}, {"tolerance", choice.tolerance},
       {"monitor", monitor},    {"promotions", promotions}};
+}
+
+Json guard(R r) {
+  if (!r.guard) return {};
+  return {{"witness", r.guard->witness},
+          {"every", r.guard->every},
+          {"steps", r.guard->steps},
+          {"checks", r.guard->checks},
+          {"checked_steps", r.guard->checked_steps},
+          {"time_s", r.guard->time_s}};
 }
 
 Json network(R r) {
@@ -299,6 +310,8 @@ const RunField fields[] = {
      [](R r) { return of_hybrid(r, r.hybrid.rebalances); }, median},
     {"hybrid_reason", "hybrid_reason", "", "why the hybrid chose its members",
      [](R r) { return of_hybrid(r, r.hybrid.reason); }, last},
+    {"guard", "", "", "what --guard computed once more, and its time, which wall_s leaves out",
+     [](R r) { return guard(r); }},
     {"check", "check", "", "passed, failed, or none", [](R r) { return Json(verdict(r.check)); }},
     {"check_how", "check_how", "", "what the state was compared with, and when",
      [](R r) { return Json(r.check.how); }},
@@ -330,7 +343,7 @@ const RunField fields[] = {
      [](R r) { return of_reference(r, &Accuracy::spin); }},
     {"reference_error", "reference_error", "", "estimated error of the solution itself",
      [](R r) { return r.reference ? Json(r.reference->error) : Json(); }},
-    {"status", "status", "", "ok, unstable, wrong, or bound; with reason",
+    {"status", "status", "", "ok, unstable, wrong, bound or faulty; with reason",
      [](R r) { return Json(r.status); }, last},
     {"reason", "reason", "", "why the status is not ok", [](R r) { return Json(r.reason); }, last},
 };

@@ -34,6 +34,16 @@ struct ReferenceResult {
   Accuracy accuracy;
 };
 
+/// How a run was guarded (experiments/run/guard).
+struct GuardReport {
+  std::string witness;    ///< variant that computed steps once more
+  long every = 0;         ///< steps between two looks
+  long steps = 0;         ///< of each look
+  long checks = 0;        ///< comparisons
+  long checked_steps = 0; ///< that were computed once more
+  double time_s = 0;      ///< not part of wall_s
+};
+
 /// Everything that a run reports. run_fields.hpp lists the meaning of each field.
 struct RunResult {
   std::string scene, variant, isa, model, precision, integrator, rotation, schedule;
@@ -74,8 +84,10 @@ struct RunResult {
   ModelReport model_report;
   CheckResult check;
   std::optional<ReferenceResult> reference;
+  std::optional<GuardReport> guard;
   std::vector<std::string> files; ///< written files, as text
-  /// status other than "ok": "unstable", "wrong", "bound"; reason: what happened, and where
+  /// status other than "ok": "unstable", "wrong", "bound", "faulty"; reason: what happened, and
+  /// where
   std::string status = "ok", reason;
   /// Elements x steps, if not all elements took all steps: of an ensemble.
   std::optional<double> element_steps;

@@ -38,11 +38,14 @@ void TimedRun::run() {
   begin_balance(0);
   if (plan_.adaptive) adaptive_.emplace(adaptive_steps());
   begin_saving();
+  begin_guarding();
   const Traffic before = traffic(*executor_);
   const DeviceUse used_before = device_use(*executor_);
   while (!pass_all_stops())
     if (result_.status != "ok") return;
   end_saving();
+  guard_.reset();
+  flip_.reset();
   if (meter_)
     result_.reference = {plan_.reference->times, plan_.reference->error, meter_->result()};
   put_traffic(*executor_, since(before, traffic(*executor_)), double(result_.advanced_steps()),
@@ -163,9 +166,14 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
   // also counts the signals' rows and the wait for the start of other ranks.
   const UsageMeter usage;
   while (step < stop && is_finite) {
+    if (!is_guarded(step, result)) return false;
+    if (flip_) flip_->apply(*executor_, step, plan_.precision);
     if (saved_) step_ = step, save_or_end();
     const bool is_very_first = !std::exchange(has_begun_, true);
-    const long count = is_very_first ? 1 : chunk(stop - step);
+    long most = stop - step;
+    if (guard_) most = guard_->steps_left(step, most);
+    if (flip_) most = flip_->steps_left(step, most);
+    const long count = is_very_first ? 1 : chunk(most);
     const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
     // Lets all ranks start together, so that work of rank 0 alone is not timed.
     if (plan_.plugin->is_distributed) gather(*executor_, 0);
@@ -180,7 +188,30 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
     show_progress(step);
   }
   result.usage += usage.read();
-  return is_finite;
+  return is_finite && (step < plan_.steps || is_guarded(step, result));
+}
+
+void TimedRun::begin_guarding() {
+  flip_ = FlippedBit::of_environment();
+  if (flip_)
+    flip_->require_within(problem_.lattice.element_count, kept_fields(*executor_), plan_.precision);
+  if (request_.guard == 0) return;
+  const std::string& variant = result_.variant; // of ranks: "mpi:avx512"
+  guard_.emplace(request_, plan_, *executor_, variant.substr(variant.find(':') + 1),
+                 result_.has_fma);
+}
+
+bool TimedRun::is_guarded(long step, RunResult& result) {
+  return !guard_ || is_guarded(guard_->look(*executor_, model_, step), step, result);
+}
+
+bool TimedRun::is_guarded(const std::string& difference, long step, RunResult& result) {
+  result.guard = guard_->report();
+  if (difference.empty()) return true;
+  result.status = "faulty";
+  result.steps = step;
+  result.reason = difference;
+  return false;
 }
 
 bool TimedRun::is_finite_after(long step) {

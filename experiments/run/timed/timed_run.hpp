@@ -5,6 +5,8 @@
 #include "experiments/base/progress.hpp"
 #include "experiments/run/checkpoint/checkpoint.hpp"
 #include "experiments/run/checkpoint/checkpoint_plan.hpp"
+#include "experiments/run/guard/flipped_bit.hpp"
+#include "experiments/run/guard/guard.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/timed/adaptive_steps.hpp"
 #include "experiments/run/timed/oracle_check.hpp"
@@ -89,6 +91,11 @@ private:
   double adapt_again(Usage& usage);
 
   void look(long step);
+  void begin_guarding();
+  /// Lets the guard look. @return false if it found other bits: the run then ends as faulty
+  bool is_guarded(long step, RunResult& result);
+  /// @param difference  what the guard found, or empty
+  bool is_guarded(const std::string& difference, long step, RunResult& result);
 
   // The following functions save the run and continue it (timed_run_checkpoint.cpp).
 
@@ -182,6 +189,8 @@ private:
   /// Set while the run is saved: not during its warm-up.
   std::optional<CheckpointClock> saved_;
   std::optional<InterruptsDeferred> interrupts_;
+  std::optional<Guard> guard_;     ///< not during the warm-up
+  std::optional<FlippedBit> flip_; ///< likewise
   std::optional<Progress> progress_;
   Clock::time_point shown_; ///< when the progress was shown last, or began
   bool is_progress_shown_ = false;

@@ -15,18 +15,20 @@ bool TimedRun::advance_watched(long step, long stop) {
     const long next = monitor_->next_look(monitor_->good_step(), stop);
     RunResult tried = result_;
     const bool is_finite = advance_to(step, next, tried);
-    result_.wall_s = tried.wall_s, result_.usage = tried.usage;
+    result_.wall_s = tried.wall_s, result_.usage = tried.usage, result_.guard = tried.guard;
     if (is_finite && monitor_->look(*executor_, next)) {
       step = next;
       result_.model_report = monitor_->report();
       continue;
     }
-    if (!is_finite && request_.on_bound == "stop") {
+    if (tried.status == "faulty" || (!is_finite && request_.on_bound == "stop")) {
       // with --on-bound stop, a non-finite state is reported as unstable
       result_ = std::move(tried);
       return false;
     }
     step = monitor_->good_step();
+    if (guard_ && !is_guarded(guard_->go_back(step, monitor_->good_state()), next, result_))
+      return false;
     if (!promote(next, step, monitor_->promoted(), "")) return false;
   }
   return true;
@@ -77,6 +79,7 @@ void TimedRun::begin_anew() {
   step_ = result_.resumed_step = 0;
   if (saved_) saved_->take(0);
   left_out_.reset();
+  if (guard_) guard_->forget();
   write_initial_state(*executor_, problem_);
   begin_balance(0);
   series_.discard();
