@@ -6,6 +6,7 @@
 #include "experiments/run/checkpoint/checkpoint.hpp"
 #include "experiments/run/ensemble/ensemble_plan.hpp"
 #include "experiments/run/ensemble/ensemble_run.hpp"
+#include "experiments/run/guard/guard.hpp"
 #include "experiments/run/plan/job.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "experiments/run/plan/run_plan.hpp"
@@ -39,9 +40,11 @@ void require_startable(RunRequest request) {
     throw InputError(fmt::format("--ranks {}: more than {} are too many for this machine; start "
                                  "them by mpirun and your hosts",
                                  request.ranks, most_ranks_here()));
-  if (request.ensemble.empty())
-    decomposition_for(plan_run(request).scene.problem, request.decomposition, request.ranks);
-  else
+  if (request.ensemble.empty()) {
+    const RunPlan plan = plan_run(request);
+    require_sound_guard(request, plan);
+    decomposition_for(plan.scene.problem, request.decomposition, request.ranks);
+  } else
     plan_ensemble(request);
 }
 
@@ -113,6 +116,10 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   if (!request.ensemble.empty() && !(request.checkpoint.empty() && request.restart.empty()))
     throw InputError("--ensemble: ensembles have no checkpoints; leave --checkpoint and --restart "
                      "out, or run members by themselves");
+  if (command.count("--guard") > 0
+          ? request.guard == 0
+          : command.count("--guard-steps") + command.count("--guard-variant") > 0)
+    throw InputError("--guard: give 1 step or more between two looks");
   if (!request.ensemble.empty() && request.guard != 0)
     throw InputError("--ensemble: ensembles have no guard; leave --guard out, or run members by "
                      "themselves");
@@ -302,13 +309,12 @@ void add_checkpoint_options(CLI::App& command, RunRequest& request) {
 void add_guard_options(CLI::App& command, RunRequest& request) {
   command
       .add_option("--guard", request.guard,
-                  "Every so many steps, compute some once more by another variant; if any bit "
-                  "differs, the run ends")
+                  "Every so many steps, another variant computes --guard-steps steps again; if a "
+                  "bit differs, the run ends")
       ->group("Guard");
   command
       .add_option("--guard-steps", request.guard_steps,
-                  "Steps that are computed once more, of those of --guard; all of them: no wrong "
-                  "bit stays")
+                  "Steps that are computed again, of those of --guard")
       ->capture_default_str()
       ->group("Guard");
   command

@@ -64,10 +64,11 @@ void print_balance(const RunResult& result) {
 void print_guard(const RunResult& result) {
   if (!result.guard) return;
   const GuardReport& guard = *result.guard;
-  fmt::print("guard: {} of {} steps computed once more by {}, in {} looks: the same bits; {:.2g} % "
-             "of the time\n",
-             guard.checked_steps, result.advanced_steps(), guard.witness, guard.checks,
-             100 * guard.time_s / (guard.time_s + result.wall_s));
+  fmt::print(
+      "guard: {} of {} steps computed again by {} ({} comparison{}): the same bits; {:.2g} % "
+      "of the time\n",
+      guard.checked_steps, result.advanced_steps(), guard.witness, guard.checks,
+      guard.checks == 1 ? "" : "s", 100 * guard.time_s / (guard.time_s + result.wall_s));
 }
 
 /// " (fastest of 8 samples, mean of 5 runs)"; empty for one run.

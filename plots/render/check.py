@@ -22,11 +22,6 @@ class Unreadable(Exception):
 def violations(figure):
     """A sentence for each violation in a figure."""
     figure.draw_without_rendering()
-    return violations_as_drawn(figure)
-
-
-def violations_as_drawn(figure):
-    """The same for a figure that was drawn: drawing places its texts, and takes long."""
     return [*text_beyond_canvas(figure), *legends_over_data(figure), *series_alike(figure)]
 
 

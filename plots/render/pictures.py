@@ -46,8 +46,8 @@ def save(figure, output, source, **more):
     from . import check
     is_png = pathlib.Path(output).suffix.lower() == ".png"
     pathlib.Path(output).parent.mkdir(parents=True, exist_ok=True)
+    found = check.violations(figure)
     figure.savefig(output, metadata={KEY: source} if is_png and source else None, **more)
-    found = check.violations_as_drawn(figure)
     if found:
         raise check.Unreadable("\n".join(f"{output}: {text}" for text in found))
 

@@ -98,7 +98,12 @@ Layers read_layer_file(const Node& node) {
   std::error_code error;
   const bool is_file = std::filesystem::is_regular_file(path, error); // a device may have no end
   std::ifstream file;
-  if (is_file) file.open(path);
+  if (is_file) {
+    require_memory(double(std::filesystem::file_size(path, error)),
+                   fmt::format("{}: the text of {}", node.where(), path.string()),
+                   "give the scene fewer voxels");
+    file.open(path);
+  }
   if (!file.is_open())
     node.fail(fmt::format("voxel file {} cannot be read; its path is relative to the scene's file",
                           path.string()));

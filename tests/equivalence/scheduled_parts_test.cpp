@@ -1,5 +1,6 @@
 /// Parts of a body under schedules that a number decides: the same bits as the whole in each order
-/// of turns, no deadlock, no message over an unread one, and an end for all when one part dies.
+/// of turns, no deadlock, and no message over an unread one. If a part dies, executors pass the
+/// error of the halo on, so that all end. Exchanges of ranks and hybrids have tests of their own.
 /// DSS_SCHEDULES is the number of schedules, DSS_SCHEDULE the first (HACKING.md).
 #include "solver/decomposition/decomposition.hpp"
 #include "tests/equivalence/comparison.hpp"
@@ -72,7 +73,8 @@ struct DeathAt {
 struct ScheduledRun {
   explicit ScheduledRun(std::uint64_t number) : random(number) {
     const auto one_of = [&](auto&& list) { return list[random() % std::size(list)]; };
-    variant = one_of(part_variants());
+    const char* names[] = {"scalar", "avx2", "avx512", "neon"}; // also where some are missing
+    variant = one_of(names);
     problem = made(int(random() % 6));
     method = &methods()[random() % methods().size()];
     precision = one_of(precisions);
@@ -81,13 +83,6 @@ struct ScheduledRun {
     is_every_stage = random() % 2, is_overlapped = random() % 2;
     steps = 2 + long(random() % 8);
     if (random() % 4 == 0) death = {int(random() % std::uint64_t(parts)), int(random() % 12)};
-  }
-  static std::vector<std::string> part_variants() {
-    std::vector<std::string> names;
-    for (const VariantStatus& status : variants())
-      if (status.is_usable() && !status.is_by_name && !load_variant(status.name).has_all)
-        names.push_back(status.name);
-    return names;
   }
   static std::vector<std::string> usable_ways() {
     std::vector<std::string> ways;
@@ -195,6 +190,7 @@ TEST(ScheduledParts, have_the_bits_of_the_whole_in_every_order_of_turns) {
   for (std::uint64_t number = first; number < first + count && !HasFailure(); ++number) {
     ScheduledRun run(number);
     SCOPED_TRACE("DSS_SCHEDULE=" + std::to_string(number) + ": " + run.text());
+    if (!has(run.variant)) continue;
     if (run.way == "strips" && std::size_t(run.parts) > run.problem.lattice.rows.size()) continue;
     const State start = rounded(
         fixture::random_state(run.problem, int(number % 1000), 1e-4, 0.02, 0.01), run.precision);

@@ -37,16 +37,19 @@ std::optional<FlippedBit> FlippedBit::of_environment() {
   return flip;
 }
 
-void FlippedBit::require_within(std::size_t elements, int numbers, Precision precision) const {
-  const int bits = precision == Precision::f64 ? 64 : 32;
-  if (element_ >= elements || number_ >= numbers || bit_ >= bits)
-    throw InputError(fmt::format("DSSBENCH_FLIP: the state has {} elements of {} numbers of {} "
-                                 "bits",
-                                 elements, numbers, bits));
+void FlippedBit::require_within(const RunPlan& plan, Executor& executor) const {
+  const int bits = plan.precision == Precision::f64 ? 64 : 32, numbers = kept_fields(executor);
+  const std::size_t elements = plan.scene.problem.lattice.element_count;
+  if (plan.adaptive) throw InputError("DSSBENCH_FLIP: steps must be equal; leave --rtol out");
+  if (step_ >= plan.steps || element_ >= elements || number_ >= numbers || bit_ >= bits)
+    throw InputError(fmt::format("DSSBENCH_FLIP: the run has {} steps, {} elements of {} numbers "
+                                 "of {} bits",
+                                 plan.steps, elements, numbers, bits));
 }
 
-void FlippedBit::apply(Executor& executor, long step, Precision precision) const {
-  if (stays_ ? step < step_ : step != step_) return;
+void FlippedBit::apply(Executor& executor, long step, Precision precision) {
+  if (stays_ ? step < step_ : step != step_ || is_done_) return;
+  is_done_ = true;
   std::vector<double> kept(std::size_t(kept_fields(executor)));
   save(executor, element_, kept);
   double& number = kept[std::size_t(number_)];

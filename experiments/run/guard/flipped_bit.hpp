@@ -1,7 +1,6 @@
 #pragma once
 /// A wrong bit in the state of a run, for tests of what is found.
-#include "kernels/precision.hpp"
-#include "variants/api/api.hpp"
+#include "experiments/run/plan/run_plan.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,10 +15,10 @@ class FlippedBit {
 public:
   /// Empty if the variable is not set. @throws InputError if it is set to anything else
   static std::optional<FlippedBit> of_environment();
-  /// @throws InputError if the state has no such number
-  void require_within(std::size_t elements, int numbers, Precision precision) const;
+  /// @throws InputError if the run has no such step or its state no such number
+  void require_within(const RunPlan& plan, Executor& executor) const;
   /// Before a chunk of steps.
-  void apply(Executor& executor, long step, Precision precision) const;
+  void apply(Executor& executor, long step, Precision precision);
   /// Steps from a step to the wrong bit, at most `most`.
   long steps_left(long step, long most) const {
     return step < step_ ? std::min(most, step_ - step) : most;
@@ -29,7 +28,7 @@ private:
   long step_ = 0;
   std::size_t element_ = 0;
   int number_ = 0, bit_ = 0;
-  bool stays_ = false;
+  bool stays_ = false, is_done_ = false;
 };
 
 } // namespace dss

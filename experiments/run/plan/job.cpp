@@ -8,6 +8,7 @@
 #include "variants/loading/outside.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
@@ -115,8 +116,11 @@ JobResult run_job(int ranks, int threads, const std::vector<std::string>& argume
   ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
   // Single-copy transfers fail in containers without ptrace.
   ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-  // All ranks are on this machine. To look for networks of a cluster takes 0.2 s a start.
-  ::setenv("OMPI_MCA_pml", "ob1", 0);
+  // Without an allocation of nodes, all ranks are on this machine. To look for networks of a
+  // cluster takes 0.2 s a start.
+  const std::array allocations = {"SLURM_JOB_ID", "PBS_NODEFILE", "LSB_JOBID", "PE_HOSTFILE"};
+  if (std::ranges::none_of(allocations, [](const char* name) { return std::getenv(name); }))
+    ::setenv("OMPI_MCA_pml", "ob1", 0);
   const ChildResult job =
       run_child(mpirun_path(), line, std::numeric_limits<double>::infinity(), true);
   JobResult result{exit_success, job.output, job.error, ""};

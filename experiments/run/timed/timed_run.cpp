@@ -33,12 +33,16 @@ TimedRun::TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& re
 
 void TimedRun::run() {
   describe_executor(*executor_, *plan_.plugin, result_);
+  std::unique_ptr<Guard> guard = made_guard();
+  std::optional<FlippedBit> flip = FlippedBit::of_environment();
+  if (flip) flip->require_within(plan_, *executor_);
   warm_up();
   write_initial_state(*executor_, problem_);
   begin_balance(0);
   if (plan_.adaptive) adaptive_.emplace(adaptive_steps());
   begin_saving();
-  begin_guarding();
+  guard_ = std::move(guard);
+  flip_ = flip;
   const Traffic before = traffic(*executor_);
   const DeviceUse used_before = device_use(*executor_);
   while (!pass_all_stops())
@@ -164,16 +168,20 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
   bool is_finite = true;
   // Not for each chunk: reading the queues would cost as much as the chunk of a small scene. So it
   // also counts the signals' rows and the wait for the start of other ranks.
-  const UsageMeter usage;
+  std::optional<UsageMeter> usage(std::in_place);
+  const auto is_guarded = [&] {
+    if (!guard_ || !guard_->is_due(step)) return true;
+    result.usage += usage->read();
+    const std::string difference = guard_->look(*executor_, model_, step);
+    usage.emplace();
+    return is_sound(difference, step, result);
+  };
   while (step < stop && is_finite) {
-    if (!is_guarded(step, result)) return false;
+    if (!is_guarded()) return false;
     if (flip_) flip_->apply(*executor_, step, plan_.precision);
-    if (saved_) step_ = step, save_or_end();
+    if (saved_ && (!guard_ || guard_->has_checked(step))) step_ = step, save_or_end();
     const bool is_very_first = !std::exchange(has_begun_, true);
-    long most = stop - step;
-    if (guard_) most = guard_->steps_left(step, most);
-    if (flip_) most = flip_->steps_left(step, most);
-    const long count = is_very_first ? 1 : chunk(most);
+    const long count = is_very_first ? 1 : chunk(steps_to_pause(step, stop));
     const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
     // Lets all ranks start together, so that work of rank 0 alone is not timed.
     if (plan_.plugin->is_distributed) gather(*executor_, 0);
@@ -183,29 +191,33 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
     result.wall_s += wall_s;
     if (is_very_first) result_.first_step_s += wall_s;
     is_finite = outcome.is_finite;
-    if (!is_finite) report_breakdown(step + outcome.step, outcome, result);
+    if (!is_finite) report_failure(step + outcome.step, outcome, result);
     step += count;
     show_progress(step);
   }
-  result.usage += usage.read();
-  return is_finite && (step < plan_.steps || is_guarded(step, result));
+  result.usage += usage->read();
+  return is_finite && (step < plan_.steps || is_guarded());
 }
 
-void TimedRun::begin_guarding() {
-  flip_ = FlippedBit::of_environment();
-  if (flip_)
-    flip_->require_within(problem_.lattice.element_count, kept_fields(*executor_), plan_.precision);
-  if (request_.guard == 0) return;
+long TimedRun::steps_to_pause(long step, long stop) const {
+  long most = stop - step;
+  if (guard_) most = guard_->steps_left(step, most);
+  return flip_ ? flip_->steps_left(step, most) : most;
+}
+
+void TimedRun::report_failure(long step, const Outcome& outcome, RunResult& result) {
+  report_breakdown(step, outcome, result);
+  if (guard_) is_sound(guard_->judge_failure(*executor_, step, outcome.element), step, result);
+}
+
+std::unique_ptr<Guard> TimedRun::made_guard() {
+  if (request_.guard == 0) return nullptr;
   const std::string& variant = result_.variant; // of ranks: "mpi:avx512"
-  guard_.emplace(request_, plan_, *executor_, variant.substr(variant.find(':') + 1),
-                 result_.has_fma);
+  return std::make_unique<Guard>(request_, plan_, *executor_, variant.substr(variant.find(':') + 1),
+                                 result_.has_fma);
 }
 
-bool TimedRun::is_guarded(long step, RunResult& result) {
-  return !guard_ || is_guarded(guard_->look(*executor_, model_, step), step, result);
-}
-
-bool TimedRun::is_guarded(const std::string& difference, long step, RunResult& result) {
+bool TimedRun::is_sound(const std::string& difference, long step, RunResult& result) {
   result.guard = guard_->report();
   if (difference.empty()) return true;
   result.status = "faulty";

@@ -91,11 +91,14 @@ private:
   double adapt_again(Usage& usage);
 
   void look(long step);
-  void begin_guarding();
-  /// Lets the guard look. @return false if it found other bits: the run then ends as faulty
-  bool is_guarded(long step, RunResult& result);
-  /// @param difference  what the guard found, or empty
-  bool is_guarded(const std::string& difference, long step, RunResult& result);
+  std::unique_ptr<Guard> made_guard(); ///< null if the request has none
+  /// Steps from a step to the next pause of the guard, at most to `stop`.
+  long steps_to_pause(long step, long stop) const;
+  /// A step failed: the run is unstable, or faulty if the witness does not fail alike.
+  void report_failure(long step, const Outcome& outcome, RunResult& result);
+  /// Ends the run as faulty if the guard found other bits.
+  /// @param difference  what it found, or empty
+  bool is_sound(const std::string& difference, long step, RunResult& result);
 
   // The following functions save the run and continue it (timed_run_checkpoint.cpp).
 
@@ -189,7 +192,7 @@ private:
   /// Set while the run is saved: not during its warm-up.
   std::optional<CheckpointClock> saved_;
   std::optional<InterruptsDeferred> interrupts_;
-  std::optional<Guard> guard_;     ///< not during the warm-up
+  std::unique_ptr<Guard> guard_;   ///< not during the warm-up
   std::optional<FlippedBit> flip_; ///< likewise
   std::optional<Progress> progress_;
   Clock::time_point shown_; ///< when the progress was shown last, or began

@@ -27,8 +27,10 @@ bool TimedRun::advance_watched(long step, long stop) {
       return false;
     }
     step = monitor_->good_step();
-    if (guard_ && !is_guarded(guard_->go_back(step, monitor_->good_state()), next, result_))
+    if (guard_ && is_finite &&
+        !is_sound(guard_->go_back(*executor_, step, monitor_->good_state(), next), next, result_))
       return false;
+    if (guard_) guard_->forget();
     if (!promote(next, step, monitor_->promoted(), "")) return false;
   }
   return true;
