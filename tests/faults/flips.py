@@ -56,8 +56,7 @@ class Campaign:
         method = self.random.choice(METHODS)
         precision = self.random.choice(PRECISIONS)
         options = [*scene, "--integrator", method, "--precision", precision,
-                   "--variant", self.random.choice(self.variants),
-                   "--threads", str(self.random.randint(1, 2))]
+                   "--variant", self.random.choice(self.variants)]
         if self.random.random() < 0.6:
             options += ["--model", "spatial"]
         return options, method, precision
