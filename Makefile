@@ -5,8 +5,8 @@ BUILD := build/$(PRESET)
 SCALE ?= host
 OUT ?= $(if $(filter host,$(SCALE)),results,build/results-$(SCALE))
 
-# Ninja would start two more jobs than there are processors, and that takes a tenth longer: the
-# compiler needs its caches.
+# Ninja would start two more jobs than there are processors, and that takes longer: the compiler
+# needs its caches.
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 
 # These presets need Clang.
