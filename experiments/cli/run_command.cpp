@@ -116,9 +116,9 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   if (!request.ensemble.empty() && !(request.checkpoint.empty() && request.restart.empty()))
     throw InputError("--ensemble: ensembles have no checkpoints; leave --checkpoint and --restart "
                      "out, or run members by themselves");
-  if (command.count("--guard") > 0
-          ? request.guard == 0
-          : command.count("--guard-steps") + command.count("--guard-variant") > 0)
+  if (request.guard == 0 &&
+      command.count("--guard") + command.count("--guard-steps") + command.count("--guard-variant") >
+          0)
     throw InputError("--guard: give 1 step or more between two looks");
   if (!request.ensemble.empty() && request.guard != 0)
     throw InputError("--ensemble: ensembles have no guard; leave --guard out, or run members by "

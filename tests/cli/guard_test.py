@@ -65,7 +65,7 @@ class Guard(ProgramTest):
     def test_a_bit_that_stays_wrong_is_found_in_one_step(self):
         result = dssbench("run", *PLATE, "--guard", "10", env=flipped("23:130:3:54:stays"))
         self.assertEqual(result.returncode, 1)
-        self.assertRegex(result.stderr, r"between steps (\d)0 and \1(?#)1, ")
+        self.assertRegex(result.stderr, r"between steps (?P<ten>\d)0 and (?P=ten)1, ")
         missed = dssbench("run", *PLATE, "--guard", "10", "--no-balance",
                           env=flipped("23:130:3:30"))
         self.assertEqual(missed.returncode, 0, missed.stderr)

@@ -7,7 +7,6 @@
 #include <functional>
 #include <memory>
 #include <random>
-#include <span>
 #include <stdexcept>
 #include <ucontext.h>
 #include <utility>
@@ -51,7 +50,6 @@ public:
     present_->is_ready = std::move(is_ready);
     ::swapcontext(&present_->context, &main_);
   }
-  std::mt19937_64& random() { return random_; }
 
 private:
   struct Fibre {

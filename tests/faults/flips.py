@@ -73,8 +73,8 @@ class Campaign:
         every = self.random.randint(5, 40)
         steps = self.random.randint(2 * every, 4 * every)
         elements = self.elements(options)
-        code, clean, errors = self.run(options, "--steps", str(steps), "--guard", str(every),
-                                       "--guard-steps", str(self.random.randint(1, every)))
+        code, _, errors = self.run(options, "--steps", str(steps), "--guard", str(every),
+                                   "--guard-steps", str(self.random.randint(1, every)))
         if FAULTY_WORD in errors:
             self.fail(f"a false report: {options}: {errors}")
             return
@@ -87,7 +87,7 @@ class Campaign:
         flip = (f"{step}:{self.random.randrange(elements)}:{self.random.choice(numbers)}:"
                 f"{self.random.randrange(BITS[precision])}")
         look = min((step // every + 1) * every, steps)
-        code, flipped, _ = self.run(options, "--steps", str(look), flip=flip)
+        _, flipped, _ = self.run(options, "--steps", str(look), flip=flip)
         _, clean, _ = self.run(options, "--steps", str(look))
         if flipped == clean:
             self.counts["flips that left no trace"] += 1
@@ -96,6 +96,7 @@ class Campaign:
         if not self.finds(options, steps, every, every, flip):
             self.fail(f"a flip was not found: DSSBENCH_FLIP={flip} {options} --steps {steps} "
                       f"--guard {every} --guard-steps {every}")
+            return
         self.counts["found, all steps computed twice"] += 1
         self.counts["found, one step of each interval"] += self.finds(options, steps, every, 1,
                                                                       flip)

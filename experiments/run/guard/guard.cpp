@@ -36,7 +36,8 @@ std::string name_of_number(int number, const Method& method) {
 
 /// @return empty, or why the variant cannot be a witness
 std::string why_no_witness(const Plugin& plugin, const RunPlan& plan, bool has_fma) {
-  if (plugin.is_distributed || plugin.has_all) return "it computes no run of one process like it";
+  if (plugin.is_distributed) return "it computes by other variants on ranks";
+  if (plugin.has_all) return "it does not give out what its methods keep";
   if (plugin.has_fma != has_fma)
     return fmt::format("it {} multiply-adds, the run {}",
                        plugin.has_fma ? "fuses" : "does not fuse", has_fma ? "does" : "does not");

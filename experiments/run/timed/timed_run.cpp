@@ -195,8 +195,9 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
     step += count;
     show_progress(step);
   }
+  const bool is_right = is_finite && (step < plan_.steps || is_guarded());
   result.usage += usage->read();
-  return is_finite && (step < plan_.steps || is_guarded());
+  return is_right;
 }
 
 long TimedRun::steps_to_pause(long step, long stop) const {
