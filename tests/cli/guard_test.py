@@ -1,19 +1,10 @@
 """A guarded run: what it says, what it finds, and what is refused."""
-import json
 import os
 import unittest
 
-from program import ProgramTest, dssbench, why_no_variant
+from program import ProgramTest, dssbench, record, why_no_variant
 
 PLATE = ("plate_paper", "--set", "n=12", "--variant", "avx2", "--steps", "60")
-
-
-def record(*arguments):
-    """The record of a run that ends well."""
-    result = dssbench("run", *arguments, "--json", "-")
-    if result.returncode != 0:
-        raise AssertionError(result.stderr)
-    return json.loads(result.stdout)
 
 
 def flipped(flip):
@@ -24,10 +15,10 @@ def flipped(flip):
 @unittest.skipIf(why_no_variant("avx2"), why_no_variant("avx2") or "")
 class Guard(ProgramTest):
     def test_a_sound_run_has_the_same_bits_and_says_what_was_checked(self):
-        plain = record(*PLATE)
+        plain = record("run", *PLATE)
         self.assertIsNone(plain["guard"])
         for steps, checks in ((1, 6), (4, 6), (10, 6)):
-            guarded = record(*PLATE, "--guard", "10", "--guard-steps", steps)
+            guarded = record("run", *PLATE, "--guard", "10", "--guard-steps", steps)
             self.assertEqual(guarded["state_digest"], plain["state_digest"])
             guard = guarded["guard"]
             self.assertEqual((guard["checks"], guard["checked_steps"]), (checks, checks * steps))
@@ -39,7 +30,7 @@ class Guard(ProgramTest):
         self.assertIn("6 of 60 steps computed again", text)
 
     def test_the_last_interval_may_be_short(self):
-        guard = record(*PLATE, "--guard", "25", "--guard-steps", "25")["guard"]
+        guard = record("run", *PLATE, "--guard", "25", "--guard-steps", "25")["guard"]
         self.assertEqual((guard["checks"], guard["checked_steps"]), (3, 60))
 
     def test_a_bit_that_flips_once_is_found_where_all_steps_are_computed_twice(self):
@@ -74,7 +65,7 @@ class Guard(ProgramTest):
         for method in ("rk4", "velocity_verlet", "smoothed_verlet", "midpoint", "dopri5"):
             for precision in ("f64", "f32", "f32c"):
                 with self.subTest(method=method, precision=precision):
-                    guard = record(*PLATE, "--integrator", method, "--precision", precision,
+                    guard = record("run", *PLATE, "--integrator", method, "--precision", precision,
                                    "--model", "spatial", "--dt", "1e-7", "--guard", "7",
                                    "--guard-steps", "3")["guard"]
                     self.assertEqual(guard["checks"], 9)
@@ -83,7 +74,7 @@ class Guard(ProgramTest):
         block = ("block", "--set", "nx=7", "--set", "ny=5", "--set", "nz=4", "--steps", "58",
                  "--integrator", "rkc2", "--precision", "f32", "--variant", "avx2",
                  "--guard", "22", "--guard-steps", "22")
-        whole = record(*block)
+        whole = record("run", *block)
         promotion = whole["model_choice"]["promotions"][0]
         self.assertLess(promotion["resumed_step"], 22)
         # Steps that the promotion takes back count, too.
@@ -97,7 +88,7 @@ class Guard(ProgramTest):
     @unittest.skipIf(why_no_variant("mpi"), why_no_variant("mpi") or "")
     def test_ranks_have_a_witness_on_ranks(self):
         ranks = (*PLATE, "--ranks", "2", "--halo", "deep", "--guard", "20")
-        self.assertEqual(record(*ranks)["guard"]["checks"], 3)
+        self.assertEqual(record("run", *ranks)["guard"]["checks"], 3)
         result = dssbench("run", *ranks, "--guard-steps", "20", env=flipped("25:130:3:30"))
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         self.assertIn("between steps 20 and 40", result.stderr)
@@ -108,7 +99,7 @@ class Guard(ProgramTest):
             if why_no_variant(variant):
                 continue
             run = [option for option in PLATE if option not in ("--variant", "avx2")]
-            self.assertEqual(record(*run, *options, "--guard", "30")["guard"]["checks"], 2)
+            self.assertEqual(record("run", *run, *options, "--guard", "30")["guard"]["checks"], 2)
 
     def test_what_cannot_be_guarded_is_refused(self):
         for words, options in (

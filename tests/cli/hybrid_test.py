@@ -5,19 +5,12 @@ import shutil
 import unittest
 
 from devices_test import NO_PLATFORM, SMALL, devices, why_no_variant
-from program import ProgramTest, dssbench
+from program import ProgramTest, dssbench, record
 
 PLATE = ("run", "plate_paper", "--set", "n=24", "--steps", "60")
 
 
 HAS_CPU_DEVICE = any(device["kind"] == "cpu" for device in devices())
-
-
-def record(*arguments, **options):
-    result = dssbench(*arguments, "--json", "-", **options)
-    if result.returncode != 0:
-        raise AssertionError(result.stderr)
-    return json.loads(result.stdout)
 
 
 class Options(ProgramTest):

@@ -14,6 +14,14 @@ def dssbench(*arguments, **options):
                           timeout=300, **options)
 
 
+def record(*arguments, **options):
+    """The JSON record of a command that must end well."""
+    result = dssbench(*arguments, "--json", "-", **options)
+    if result.returncode != 0:
+        raise AssertionError(result.stderr)
+    return json.loads(result.stdout)
+
+
 def why_no_variant(name):
     """None if the variant runs here."""
     listed = json.loads(dssbench("list", "variants", "--json").stdout)

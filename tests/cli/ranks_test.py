@@ -9,6 +9,7 @@ import subprocess
 import time
 import unittest
 
+import program
 from program import PROGRAM, ProgramTest, dssbench
 
 STRATEGIES = ("sendrecv", "overlap", "deep", "deep-overlap", "shared")
@@ -32,13 +33,7 @@ def why_no_ranks():
 WHY_NOT = why_no_ranks()
 
 
-@functools.lru_cache(maxsize=None)
-def record(*arguments):
-    """The result of a run. Equal runs are made once."""
-    result = dssbench(*arguments, "--json", "-")
-    if result.returncode != 0:
-        raise AssertionError(result.stderr)
-    return json.loads(result.stdout)
+record = functools.lru_cache(maxsize=None)(program.record)  # equal runs are made once
 
 
 def mpirun(ranks, *arguments):
