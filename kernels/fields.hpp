@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace dss {
 
@@ -13,6 +14,8 @@ using Vec3 = std::array<double, 3>;
 /// Index of each field. The fields of an element are contiguous. Elements follow each other in
 /// global grid order, x fastest.
 enum Field : int { ux, uy, uz, vx, vy, vz, qs, qx, qy, qz, wx, wy, wz, field_count };
+inline constexpr std::array<std::string_view, field_count> field_names{
+    "ux", "uy", "uz", "vx", "vy", "vz", "qs", "qx", "qy", "qz", "wx", "wy", "wz"};
 
 /// Degrees of freedom as bits of a clamp: displacement along, rotation about a global axis.
 enum Dof : std::uint8_t {
@@ -24,5 +27,6 @@ enum Dof : std::uint8_t {
   dof_rz = 32,
   dof_all = 63
 };
+inline constexpr std::array<std::string_view, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
 } // namespace dss

@@ -28,10 +28,8 @@ std::vector<std::string> platforms_in(const Node& node) {
   return names;
 }
 
-const std::vector<std::string>& field_names() {
-  static const std::vector<std::string> all = {"ux", "uy", "uz", "vx", "vy", "vz", "qs",
-                                               "qx", "qy", "qz", "wx", "wy", "wz"};
-  return all;
+Field field_in(const Node& node) {
+  return Field(node.choice("field", {field_names.begin(), field_names.end()}));
 }
 
 } // namespace dss

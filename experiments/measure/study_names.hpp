@@ -1,5 +1,6 @@
 #pragma once
 /// Checks names in the JSON of studies. Errors name the nearest known name.
+#include "kernels/fields.hpp"
 #include "kernels/model.hpp"
 #include "solver/json/node.hpp"
 #include "variants/loading/loader.hpp"
@@ -16,7 +17,7 @@ Precision precision_in(const Node& node);
 /// Names of platforms. @throws InputError with the place and the nearest known name
 std::vector<std::string> platforms_in(const Node& node);
 
-/// Names of an element's fields, in the order of `Field`.
-const std::vector<std::string>& field_names();
+/// Reads a field of an element. @throws InputError with the place and the nearest known name
+Field field_in(const Node& node);
 
 } // namespace dss

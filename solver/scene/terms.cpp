@@ -76,7 +76,7 @@ int joint_axis(ObjectNode& joint, const JointSide& from, const JointSide& to) {
 }
 
 std::uint8_t read_dofs(const Node& node) {
-  static const std::vector<std::string> names = {"ux", "uy", "uz", "rx", "ry", "rz"};
+  static const std::vector<std::string> names(dof_names.begin(), dof_names.end());
   if (node.is_string()) {
     if (node.text() != "all")
       node.fail(fmt::format("{} is neither \"all\" nor a list of {}", node.shown(), listed(names)));
@@ -84,7 +84,7 @@ std::uint8_t read_dofs(const Node& node) {
   }
   unsigned dofs = 0;
   for (const Node& item : node.items()) dofs |= 1U << item.choice("degree of freedom", names);
-  if (dofs == 0) node.fail("clamps nothing; list some of ux, uy, uz, rx, ry, rz, or write \"all\"");
+  if (dofs == 0) node.fail("clamps nothing; list some of " + listed(names) + ", or write \"all\"");
   return std::uint8_t(dofs);
 }
 

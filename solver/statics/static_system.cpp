@@ -42,11 +42,10 @@ FreeDofs free_dofs(const Problem& problem, std::uint8_t dofs) {
 }
 
 std::string dof_text(const Problem& problem, std::size_t dof) {
-  constexpr std::array<std::string_view, 6> names{"ux", "uy", "uz", "rx", "ry", "rz"};
   std::string text;
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
     if (e == dof / 6)
-      text = fmt::format("{} of element {} of body \"{}\"", names[dof % 6], e,
+      text = fmt::format("{} of element {} of body \"{}\"", dof_names[dof % 6], e,
                          problem.bodies[std::size_t(row.body)].name);
   });
   return text;

@@ -23,7 +23,7 @@ std::string names_schema() {
       definition("analysis", names_of("ANALYSIS")),
       definition("decomposition", names_of("DECOMPOSITION")),
       definition("face", face_names),
-      definition("field", field_names()),
+      definition("field", {field_names.begin(), field_names.end()}),
       definition("halo", names_of("HALO")),
       definition("memory_level", memory_levels),
       definition("method", names_of("INTEGRATOR")),

@@ -19,13 +19,12 @@ static std::vector<int> even_cuts(const PackedRows<T, W>& packed, const RowOrder
   std::vector<std::size_t> packs{0}; // before each place
   for (int place = 0; place < rows; ++place)
     packs.push_back(packs.back() + std::size_t(packed.rows[std::size_t(order.row(place))].packs));
-  // Of all sweeps, which compute what a part's own rows need beside them, too (block_sweeps).
   const auto work_before = [&](int place) {
     std::size_t work = 0;
     for (int n = 0; n < sweeps; ++n) {
-      const int outer = (sweeps - 1 - n) * halo, low = std::max(0, begin - outer),
-                high = std::min(rows, end + outer);
-      work += packs[std::size_t(std::clamp(place + n * halo, low, high))] - packs[std::size_t(low)];
+      const SweepRows all = rows_of_sweep({begin, end}, n, sweeps, halo, rows);
+      work += packs[std::size_t(std::clamp(place + n * halo, all.begin, all.end))] -
+              packs[std::size_t(all.begin)];
     }
     return work;
   };

@@ -5,6 +5,11 @@
 
 namespace dss {
 
+SweepRows rows_of_sweep(SweepRows last, int n, int sweeps, int halo, int rows) {
+  const int outer = (sweeps - 1 - n) * halo;
+  return {std::max(0, last.begin - outer), std::min(rows, last.end + outer)};
+}
+
 std::vector<std::vector<SweepRows>> block_sweeps(const RowDivision& division, int rows,
                                                  int sweeps) {
   const std::vector<int>& cuts = division.cuts;
@@ -13,17 +18,18 @@ std::vector<std::vector<SweepRows>> block_sweeps(const RowDivision& division, in
     const bool is_first = b == 0, is_last = b + 2 == cuts.size();
     std::vector<SweepRows>& block = all.emplace_back();
     for (int n = 0; n < sweeps; ++n) {
-      const int outer = (sweeps - 1 - n) * division.halo;
-      const auto low = [&](int cut) { return std::max(0, cut - outer); };
-      const auto high = [&](int cut) { return std::min(rows, cut + outer); };
+      const auto computed = [&](int begin, int end) {
+        return rows_of_sweep({begin, end}, n, sweeps, division.halo, rows);
+      };
+      const SweepRows whole = computed(cuts.front(), cuts.back());
       const auto between = [&](int cut) {
-        return std::clamp(cut + n * division.halo, low(cuts.front()), high(cuts.back()));
+        return std::clamp(cut + n * division.halo, whole.begin, whole.end);
       };
       if (division.seams == SeamKind::recomputed)
-        block.push_back({low(cuts[b]), high(cuts[b + 1])});
+        block.push_back(computed(cuts[b], cuts[b + 1]));
       else
-        block.push_back({is_first ? low(cuts[b]) : between(cuts[b]),
-                         is_last ? high(cuts[b + 1]) : between(cuts[b + 1])});
+        block.push_back({is_first ? whole.begin : between(cuts[b]),
+                         is_last ? whole.end : between(cuts[b + 1])});
     }
   }
   return all;

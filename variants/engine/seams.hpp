@@ -14,6 +14,9 @@ namespace dss {
 /// its end finds what the block above computed at its start. The first and the last block also have
 /// what the outermost own rows of a part depend on.
 /// @param rows    of the whole problem, or of the part with its halo
+/// The rows that sweep n of a pass computes, so that its last sweep has the rows `last`.
+SweepRows rows_of_sweep(SweepRows last, int n, int sweeps, int halo, int rows);
+
 /// @param sweeps  of a pass
 std::vector<std::vector<SweepRows>> block_sweeps(const RowDivision& division, int rows, int sweeps);
 
@@ -49,7 +52,6 @@ public:
   Seams(const Lattice& lattice, const RowDivision& division,
         std::vector<std::vector<SweepRows>> sweeps, PassReads reads,
         const std::vector<std::vector<PassTask>>& orders);
-  std::span<const SweepRows> sweeps(int block) const { return sweeps_[std::size_t(block)]; }
   /// The block that computes a row in a sweep. @param reader  a block that reads it
   int owner(int sweep, int row, int reader) const;
   /// The place of an output of a block that others read [packs]; nowhere if none does. An output is

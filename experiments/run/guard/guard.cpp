@@ -23,15 +23,13 @@ constexpr std::string_view guard_option = "--guard", witness_option = "--guard-v
 
 /// What a kept number is (variants/api/kept_state.hpp).
 std::string name_of_number(int number, const Method& method) {
-  constexpr std::array<const char*, field_count> fields = {"ux", "uy", "uz", "vx", "vy", "vz", "qs",
-                                                           "qx", "qy", "qz", "wx", "wy", "wz"};
-  if (number < int(field_count)) return fields[std::size_t(number)];
+  if (number < int(field_count)) return std::string(field_names[std::size_t(number)]);
   const int low = kept_first_low(method);
-  if (number >= low) return fmt::format("low part of {}", fields[std::size_t(number - low)]);
+  if (number >= low) return fmt::format("low part of {}", field_names[std::size_t(number - low)]);
   if (number == kept_is_started) return "mark of the start";
   const int velocity = number - kept_half_velocities;
   return fmt::format("half-step {}",
-                     fields[std::size_t(velocity < 3 ? vx + velocity : wx + velocity - 3)]);
+                     field_names[std::size_t(velocity < 3 ? vx + velocity : wx + velocity - 3)]);
 }
 
 /// @return empty, or why the variant cannot be a witness

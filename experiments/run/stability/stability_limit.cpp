@@ -232,14 +232,13 @@ LimitComparison predicted_alone(const Method& method, const StabilityLimit& pred
 }
 
 std::string mode_text(const StabilityLimit& limit) {
-  constexpr const char* names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
   const Mode& mode = limit.mode;
   const std::string shape = mode.omega > 0 ? fmt::format("{:.4g} rad/s, damping ratio {:.3g}",
                                                          mode.omega, mode.rate / (2 * mode.omega))
                                            : fmt::format("a decay of {:.4g} 1/s", mode.rate);
-  return limit.is_exact
-             ? fmt::format("{}, most in {} of element {}", shape, names[mode.dof], mode.element)
-             : shape + ", the worst that the bounds allow";
+  return limit.is_exact ? fmt::format("{}, most in {} of element {}", shape,
+                                      dof_names[std::size_t(mode.dof)], mode.element)
+                        : shape + ", the worst that the bounds allow";
 }
 
 } // namespace dss

@@ -1,6 +1,7 @@
 #include "experiments/run/verify/verify.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/state/state_access.hpp"
+#include "experiments/run/verify/expected_runs.hpp"
 #include "experiments/run/verify/verified_methods.hpp"
 #include "solver/error.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace dss {
@@ -27,19 +27,12 @@ bool is_outside(const Plugin& plugin) {
 constexpr unsigned seed = 20220617;
 using Verdict = VerifyRow::Verdict;
 
-/// State that the oracle computes for a run, and its step [s].
-struct ExpectedRun {
-  double dt = 0;
-  std::vector<double> state;
-};
-
 /// Collects the rows of one scene.
 class SceneVerification {
 public:
   SceneVerification(const Scene& scene, long steps, const std::string& device)
-      : scene_(scene), problem_(scene.problem), steps_(steps), device_(device) {
-    for (const Method& method : methods()) steps_of_[&method] = verified_step(problem_, method);
-  }
+      : scene_(scene), problem_(scene.problem), steps_(steps), device_(device),
+        expected_(problem_, steps) {}
 
   void verify(Model model, Precision precision, const std::vector<const Plugin*>& plugins) {
     model_ = model;
@@ -86,27 +79,11 @@ private:
   /// The two most used models are verified with every method on every variant.
   bool is_common() const { return model_ == Model::spatial || model_ == Model::planar; }
 
-  /// Equations of the oracle for a variant with its own description of rotations.
+  /// With finite rotations, those of the variant's own description: another one has another error
+  /// of a step.
   Rotation equations_of(Rotation own) const {
     const Rotation of_model = rotation_of(model_);
     return of_model == Rotation::quaternion ? own : of_model;
-  }
-
-  /// Computed once for all models with the same equations. With finite rotations, they are those of
-  /// the variant's own description: another one has another error of a step.
-  /// @param halvings  how often the step is halved and the number of steps doubled
-  const ExpectedRun& expected_run(const Method& method, Rotation own, int halvings = 0) {
-    const Rotation equations = equations_of(own);
-    const auto [place, is_new] = expected_runs_.try_emplace({&method, equations, halvings});
-    ExpectedRun& run = place->second;
-    if (!is_new) return run;
-    run.dt = std::ldexp(steps_of_.at(&method), -halvings);
-    run.state = initial_state(problem_);
-    Oracle<long double> oracle(problem_, method, run.dt, equations);
-    oracle.write(run.state);
-    oracle.advance(steps_ << halvings);
-    oracle.read(run.state);
-    return run;
   }
 
   Setup setup_of(const Plugin& plugin, const Method& method, double dt, int threads) const {
@@ -191,7 +168,7 @@ private:
 
   /// Error at the same time with a step that is halved some times.
   double error_of_halved(const Plugin& plugin, const Method& method, int halvings) {
-    const ExpectedRun& expected = expected_run(method, plugin.rotation, halvings);
+    const ExpectedRun& expected = expected_.run(method, equations_of(plugin.rotation), halvings);
     const long steps = steps_ << halvings;
     const auto executor = plugin.create(setup_of(plugin, method, expected.dt, 1));
     write_initial_state(*executor, problem_);
@@ -214,24 +191,10 @@ private:
     return true;
   }
 
-  /// Error of the oracle in the precision that is verified: how much the motion lets rounding grow.
-  template <class T>
-  double rounding_error(const Method& method, Rotation own) {
-    const ExpectedRun& expected = expected_run(method, own);
-    Oracle<T> oracle(problem_, method, expected.dt, equations_of(own));
-    std::vector<double> state = initial_state(problem_);
-    oracle.write(state);
-    oracle.advance(steps_);
-    oracle.read(state);
-    return state_error(problem_, expected.state, state);
-  }
-
   /// True if rounding alone grows beyond the tolerance, as in motions that the model does not
   /// describe.
   bool lets_rounding_grow(const Method& method, Rotation own) {
-    const double error = precision_ == Precision::f64 ? rounding_error<double>(method, own)
-                                                      : rounding_error<float>(method, own);
-    return !(error <= tolerance().run);
+    return !(expected_.rounding_error(method, equations_of(own), precision_) <= tolerance().run);
   }
 
   void judge_run(const Plugin& plugin, const Method& method, double error) {
@@ -247,7 +210,7 @@ private:
   }
 
   void run(const Plugin& plugin, const Method& method) {
-    const ExpectedRun& expected = expected_run(method, plugin.rotation);
+    const ExpectedRun& expected = expected_.run(method, equations_of(plugin.rotation));
     const std::vector<double> signals = signal_rows(problem_, method, expected.dt, 0, steps_);
     const std::string run_name(method.name);
     std::optional<std::uint64_t>
@@ -282,8 +245,7 @@ private:
   std::string device_;
   Model model_ = Model::spatial;
   Precision precision_ = Precision::f64;
-  std::map<const Method*, double> steps_of_;
-  std::map<std::tuple<const Method*, Rotation, int>, ExpectedRun> expected_runs_;
+  ExpectedRuns expected_;
   std::vector<double> random_, expected_rates_;
   std::map<std::string, std::pair<std::string, std::uint64_t>> first_bits_;
 };

@@ -31,7 +31,7 @@ void read_quantity(const Node& node, ContinuumCheck& check) {
   ObjectNode what(object.require(check.quantity));
   object.finish();
   if (check.quantity == "deflection") {
-    check.field = what.require("field").known_name("field", field_names());
+    check.field = field_in(what.require("field"));
     check.element = Formula(what.require("element"));
   } else if (check.quantity == "frequencies") {
     check.count = what.require("count").count(1);

@@ -1,7 +1,6 @@
 #include "experiments/studies/continuum/continuum_study.hpp"
 #include "experiments/base/text_table.hpp"
 #include "experiments/measure/cell_study.hpp"
-#include "experiments/measure/study_names.hpp"
 #include "experiments/studies/continuum/beam_theory.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/statics/eigenmodes.hpp"
@@ -57,8 +56,7 @@ double deflection(const ContinuumCheck& check, const Scene& scene) {
                                  element, problem.lattice.element_count));
   StaticSystem system(problem);
   const std::vector<double> state = system.fields(equilibrium(system));
-  const auto field = std::ranges::find(field_names(), check.field) - field_names().begin();
-  return state[std::size_t(element) * field_count + std::size_t(field)];
+  return state[std::size_t(element) * field_count + std::size_t(check.field)];
 }
 
 std::vector<double> frequencies(const ContinuumCheck& check, const Problem& problem) {

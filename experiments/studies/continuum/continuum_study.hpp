@@ -26,7 +26,8 @@ struct ContinuumCheck {
   /// - critical_load: the value of a parameter at which the smallest eigenvalue of the loaded scene
   /// vanishes
   std::string quantity;
-  std::string field, load_parameter;
+  Field field = ux;
+  std::string load_parameter;
   Formula element;
   int count = 1;
   Formula scale;               ///< figures are multiplied by it

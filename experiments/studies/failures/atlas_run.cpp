@@ -147,8 +147,7 @@ double end_figure(const AtlasCell& cell, const Parameters& parameters, AtlasRefe
     if (!(element >= 0 && element < double(problem.lattice.element_count)))
       throw InputError(fmt::format("case {}: element {} is not one of the scene's {}",
                                    cell.atlas.name, element, problem.lattice.element_count));
-    const auto field = std::ranges::find(field_names(), cell.atlas.field) - field_names().begin();
-    return state[std::size_t(element) * field_count + std::size_t(field)] /
+    return state[std::size_t(element) * field_count + std::size_t(cell.atlas.field)] /
            cell.atlas.scale(parameters);
   }
   return travel_error(initial_state(problem), references.at(cell.dt * double(cell.steps)), state);

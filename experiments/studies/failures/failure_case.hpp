@@ -53,7 +53,7 @@ struct FailureCase {
   bool is_forced = false;
   std::vector<std::string> methods, precisions, rotations;
   std::string model;
-  std::string field; ///< for the metric `value`: field of an element, divided by a scale
+  Field field = ux; ///< for the metric `value`: field of an element, divided by a scale
   Formula element, scale;
   AtlasReference reference;
   /// Bounds of the figure: ok_below and unstable_above for its magnitude, ok_at_least for the

@@ -84,7 +84,7 @@ Expectation read_expectation(const Node& node) {
 void read_value(const Node& node, FailureCase& atlas) {
   if (atlas.metric != "value") node.fail("belongs to the metric \"value\"");
   ObjectNode value(node);
-  atlas.field = value.require("field").known_name("field", field_names());
+  atlas.field = field_in(value.require("field"));
   atlas.element = Formula(value.require("element"));
   atlas.scale = Formula(value.require("scale"));
   value.finish();

@@ -9,8 +9,6 @@
 namespace dss {
 namespace {
 
-constexpr std::array<const char*, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
-
 const char* why_a_dof_stays_zero(Model model) {
   if (model == Model::axial)
     return "nothing pushes or turns across x: links along x have forces along x and no moments";
@@ -118,7 +116,7 @@ std::vector<Need> degrees_of_freedom(const Problem& problem, Model model) {
     std::string why_none =
         has ? "all elements move alike: nothing turns" : why_a_dof_stays_zero(model);
     if (is_held) why_none = "clamped on every element";
-    needs.push_back(need(dof_names[std::size_t(dof)], has && !is_held && !stays,
+    needs.push_back(need(std::string(dof_names[std::size_t(dof)]), has && !is_held && !stays,
                          "nothing proves that it stays zero", why_none));
   }
   return needs;

@@ -8,9 +8,6 @@
 namespace dss {
 namespace {
 
-constexpr std::array<const char*, field_count> field_names{"ux", "uy", "uz", "vx", "vy", "vz", "s",
-                                                           "qx", "qy", "qz", "wx", "wy", "wz"};
-
 const char* unit_of(Field field) {
   if (field <= uz) return " m";
   if (field <= vz) return " m/s";

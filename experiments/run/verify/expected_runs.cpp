@@ -1,0 +1,39 @@
+#include "experiments/run/verify/expected_runs.hpp"
+#include "experiments/run/state/state_access.hpp"
+#include "experiments/run/verify/verified_methods.hpp"
+#include "solver/reference/oracle.hpp"
+
+#include <cmath>
+
+namespace dss {
+
+template <class T>
+std::vector<double> ExpectedRuns::computed(const Method& method, Rotation equations, double dt,
+                                           long steps) const {
+  std::vector<double> state = initial_state(problem_);
+  Oracle<T> oracle(problem_, method, dt, equations);
+  oracle.write(state);
+  oracle.advance(steps);
+  oracle.read(state);
+  return state;
+}
+
+const ExpectedRun& ExpectedRuns::run(const Method& method, Rotation equations, int halvings) {
+  const auto [place, is_new] = runs_.try_emplace({&method, equations, halvings});
+  ExpectedRun& run = place->second;
+  if (is_new) {
+    run.dt = std::ldexp(verified_step(problem_, method), -halvings);
+    run.state = computed<long double>(method, equations, run.dt, steps_ << halvings);
+  }
+  return run;
+}
+
+double ExpectedRuns::rounding_error(const Method& method, Rotation equations, Precision precision) {
+  const ExpectedRun& expected = run(method, equations);
+  return state_error(problem_, expected.state,
+                     precision == Precision::f64
+                         ? computed<double>(method, equations, expected.dt, steps_)
+                         : computed<float>(method, equations, expected.dt, steps_));
+}
+
+} // namespace dss
