@@ -51,6 +51,8 @@ def grids_of(results, ages, missing):
     """(grid, age, command, folder) of Tables 1 to 3, and of Table 3 on other machines."""
     found = []
     for name, title, table, make in paper_tables.TABLES:
+        if not results.expects(table):
+            continue
         grid = attempt(missing, name, title, table, lambda: make(results))
         if grid:
             found.append((grid, ages.line(table), command_of(results, ages, table), ""))
@@ -89,9 +91,10 @@ def by_study(missing):
 
 
 def charts_of(results, ages, missing, has_library):
-    """(charts by name, sections of all charts in order)."""
+    """(charts by name, sections of all charts in order, their ids and titles)."""
     charts, found = {}, []
-    for entry in CHARTS:
+    entries = [entry for entry in CHARTS if results.expects(entry.table)]
+    for entry in entries:
         def make(entry=entry):
             chart = entry.make(results)
             made_by = elements.code(command_of(results, ages, entry.table))
@@ -101,7 +104,7 @@ def charts_of(results, ages, missing, has_library):
         if made:
             charts[entry.name] = made[0]
         found.append(made[1] if made else sections.missing_section(missing[-1]))
-    return charts, found
+    return charts, found, [(entry.name, entry.title) for entry in entries]
 
 
 def build(results, plotly):
@@ -109,7 +112,7 @@ def build(results, plotly):
     ages, missing = Ages(results.directory), []
     grids = grids_of(results, ages, missing)
     missing_grids = list(map(sections.missing_section, missing))
-    charts, chart_sections = charts_of(results, ages, missing, bool(plotly))
+    charts, chart_sections, chart_titles = charts_of(results, ages, missing, bool(plotly))
     sentences, groups = summary.sentences(results, missing, ages), by_study(missing)
     body = [sections.summary_section(sentences),
             sections.old_and_missing_section(groups, ages),
@@ -122,7 +125,7 @@ def build(results, plotly):
             sections.environment_section(ages),
             sections.tables_section(results, ages)]
     contents = [("summary", "Summary"), ("old-and-missing", "Old and missing"),
-                ("tables", "Tables 1-3"), *[(entry.name, entry.title) for entry in CHARTS],
+                ("tables", "Tables 1-3"), *chart_titles,
                 ("pictures", "Pictures"), ("environment", "Environment"),
                 ("all-tables", "All tables")]
     text = markdown.write(sentences, [grid[:3] for grid in grids], results.figures(), groups, ages)

@@ -86,12 +86,9 @@ CommandLine::CommandLine() : app_("", "dssbench") {
   app_.footer(
       "Example: dssbench run plate_paper --set n=100 --steps 500 --threads 2\n"
       "Help of a command: dssbench run --help; the manual page: dssbench help --man | man -l -");
-  for (const auto add :
-       {add_list_command, add_run_command, add_explain_command, add_advise_command,
-        add_verify_command, add_experiment_command, add_sweep_command, add_stability_command,
-        add_compare_command, add_decompose_command, add_simulate_command, add_bench_command,
-        add_completion_command, add_help_command})
-    add(app_, chosen_);
+#define DSS_ADD(name) add_##name##_command(app_, chosen_);
+  DSS_EACH_COMMAND(DSS_ADD)
+#undef DSS_ADD
   // they accept --variant-path too
   for (CLI::App* command : app_.get_subcommands(nullptr)) command->fallthrough();
 }

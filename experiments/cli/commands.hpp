@@ -16,20 +16,15 @@ using Chosen = std::function<int()>;
 std::vector<std::string> command_names(const CLI::App& app);
 const CLI::App* find_command(const CLI::App& app, const std::string& name);
 
-/// Each function adds one command.
-void add_list_command(CLI::App& app, Chosen& chosen);
-void add_run_command(CLI::App& app, Chosen& chosen);
-void add_advise_command(CLI::App& app, Chosen& chosen);
-void add_verify_command(CLI::App& app, Chosen& chosen);
-void add_experiment_command(CLI::App& app, Chosen& chosen);
-void add_sweep_command(CLI::App& app, Chosen& chosen);
-void add_stability_command(CLI::App& app, Chosen& chosen);
-void add_compare_command(CLI::App& app, Chosen& chosen);
-void add_simulate_command(CLI::App& app, Chosen& chosen);
-void add_decompose_command(CLI::App& app, Chosen& chosen);
-void add_explain_command(CLI::App& app, Chosen& chosen);
-void add_bench_command(CLI::App& app, Chosen& chosen);
-void add_completion_command(CLI::App& app, Chosen& chosen);
-void add_help_command(CLI::App& app, Chosen& chosen);
+// A command NAME is the file NAME_command.cpp, which defines add_NAME_command, and one word here,
+// in the order of the help.
+#define DSS_EACH_COMMAND(command)                                                                  \
+  command(list) command(run) command(explain) command(advise) command(verify) command(experiment)  \
+      command(sweep) command(stability) command(compare) command(decompose) command(simulate)      \
+          command(bench) command(completion) command(help)
+
+#define DSS_DECLARE(name) void add_##name##_command(CLI::App& app, Chosen& chosen);
+DSS_EACH_COMMAND(DSS_DECLARE)
+#undef DSS_DECLARE
 
 } // namespace dss

@@ -31,9 +31,6 @@ std::string shown(const std::optional<double>& value, double scale, const char* 
   return value ? fmt::format(fmt::runtime(form), *value * scale) : std::string();
 }
 
-/// A result repeats itself if at least so many of its speed-ups do.
-constexpr double repeating_share = 0.95;
-
 std::string shown(const std::optional<Speedup>& speedup) {
   return speedup ? fmt::format("{:.4g} [{:.4g}, {:.4g}]", speedup->median, speedup->interval.low,
                                speedup->interval.high)
@@ -46,40 +43,73 @@ const char* verdict(const SpeedupPair& pair) {
   return pair.do_intervals_overlap() ? "intervals overlap" : "apart";
 }
 
-/// A speed-up that only OLD has did not repeat itself.
-int compare_tables(const CompareArguments& arguments, const Table& before, const Table& after) {
-  const std::vector<SpeedupPair> pairs = pair_speedups(before, after);
-  std::vector<std::vector<std::string>> rows;
-  std::vector<double> differences;
-  long count = 0, within = 0, overlapping = 0;
-  for (const SpeedupPair& pair : pairs) {
-    count += pair.before.has_value();
-    within += pair.is_within();
-    overlapping += pair.do_intervals_overlap();
-    std::string ratio;
-    if (pair.is_in_both()) {
-      differences.push_back(std::abs(pair.after->median / pair.before->median - 1));
-      ratio = fmt::format("{:.3f}", pair.after->median / pair.before->median);
-    }
-    rows.push_back(
-        {pair.row, pair.column, shown(pair.before), shown(pair.after), ratio, verdict(pair)});
-  }
-  if (differences.empty())
+using Rows = std::vector<std::vector<std::string>>;
+
+std::vector<std::string> shown(const SpeedupPair& pair) {
+  return {pair.row,
+          pair.column,
+          shown(pair.before),
+          shown(pair.after),
+          pair.is_in_both() ? fmt::format("{:.3f}", pair.after->median / pair.before->median) : "",
+          verdict(pair)};
+}
+
+/// Ends the output of a comparison of speed-ups.
+int conclude(const CompareArguments& arguments, const Repetition& repetition) {
+  if (repetition.differences.empty())
     throw InputError(fmt::format("{} and {} have no speed-up with an interval in common; compare "
-                                 "two tables of one study at one scale",
+                                 "two tables, or two results, of the same studies at one scale",
                                  arguments.before, arguments.after));
-  const bool repeats = double(overlapping) >= repeating_share * double(count);
-  fmt::print("{}", text_table({"row", "column", "old", "new", "new/old", "verdict"}, rows));
-  fmt::print("{} of {} medians lie in each other's intervals, {} of {} intervals overlap; medians "
-             "differ by {:.1f} % (median), at most by {:.1f} %: the result {}.\n",
-             within, count, overlapping, count, 100 * median(differences),
-             100 * std::ranges::max(differences),
+  const bool repeats = repetition.does_repeat();
+  fmt::print("{}: the result {}.\n", repetition.sentence(),
              repeats ? "repeats itself"
                      : "does not repeat itself (19 of 20 intervals should overlap)");
   return repeats ? exit_success : exit_check_failed;
 }
 
+int compare_tables(const CompareArguments& arguments, const Table& before, const Table& after) {
+  Rows rows;
+  Repetition repetition;
+  for (const SpeedupPair& pair : pair_speedups(before, after)) {
+    repetition.add(pair);
+    rows.push_back(shown(pair));
+  }
+  if (!repetition.differences.empty())
+    fmt::print("{}", text_table({"row", "column", "old", "new", "new/old", "verdict"}, rows));
+  return conclude(arguments, repetition);
+}
+
+/// Shows how many speed-ups of each table repeat themselves, and which do not.
+int compare_results(const CompareArguments& arguments) {
+  Rows tables, others;
+  Repetition whole;
+  for (const auto& [name, pairs] : pair_results(arguments.before, arguments.after)) {
+    Repetition repetition;
+    for (const SpeedupPair& pair : pairs) {
+      repetition.add(pair);
+      if (pair.before && !pair.do_intervals_overlap()) {
+        others.push_back(shown(pair));
+        others.back().insert(others.back().begin(), name);
+      }
+    }
+    whole.add(repetition);
+    const std::string of = fmt::format(" of {}", repetition.count);
+    tables.push_back({name, std::to_string(repetition.within) + of,
+                      std::to_string(repetition.overlapping) + of});
+  }
+  if (!whole.differences.empty()) {
+    fmt::print("{}", text_table({"table", "medians within", "intervals overlap"}, tables));
+    if (!others.empty())
+      fmt::print(
+          "{}", text_table({"table", "row", "column", "old", "new", "new/old", "verdict"}, others));
+  }
+  return conclude(arguments, whole);
+}
+
 int compare(const CompareArguments& arguments) {
+  if (std::filesystem::is_directory(arguments.before) &&
+      std::filesystem::is_directory(arguments.after))
+    return compare_results(arguments);
   const Table old_table = read_csv(arguments.before), new_table = read_csv(arguments.after);
   if (!speedup_columns(old_table).empty() && !speedup_columns(new_table).empty())
     return compare_tables(arguments, old_table, new_table);
@@ -121,14 +151,17 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<CompareArguments>();
   command
       ->add_option("OLD", arguments->before,
-                   "Raw records, results/raw/NAME.csv, or a table of speed-ups or of a chain")
+                   "Raw records, results/raw/NAME.csv, a table of speed-ups or of a chain, or the "
+                   "directory of a whole result")
       ->required();
   command->add_option("NEW", arguments->after, "The same of another result")->required();
-  command->footer("Example: dssbench compare before/raw/table1_host.csv "
-                  "results/raw/table1_host.csv\nExit code 1 if a cell is slower by more than the "
-                  "resolution, or if it is wrong, failed or missing in NEW, or if fewer than 19 of "
-                  "20 intervals of "
-                  "speed-ups overlap.");
+  command->footer(
+      "Example: dssbench compare before/raw/table1_host.csv "
+      "results/raw/table1_host.csv\n         dssbench compare results_of_monday results\nExit "
+      "code 1 if a cell is slower by more than the "
+      "resolution, or if it is wrong, failed or missing in NEW, or if fewer than 19 of "
+      "20 intervals of "
+      "speed-ups overlap.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return compare(*arguments); }; });
 }
 

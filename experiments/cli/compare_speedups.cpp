@@ -10,6 +10,9 @@
 namespace dss {
 namespace {
 
+/// A result repeats itself if at least so many of its speed-ups do.
+constexpr double repeating_share = 0.95;
+
 using Keys = std::array<std::string, 2>; ///< of a row, and of a column
 using Speedups = std::map<Keys, Speedup>;
 
@@ -56,6 +59,32 @@ bool SpeedupPair::do_intervals_overlap() const {
          after->interval.low <= before->interval.high;
 }
 
+void Repetition::add(const SpeedupPair& pair) {
+  count += pair.before.has_value();
+  within += pair.is_within();
+  overlapping += pair.do_intervals_overlap();
+  if (pair.is_in_both())
+    differences.push_back(std::abs(pair.after->median / pair.before->median - 1));
+}
+
+void Repetition::add(const Repetition& other) {
+  count += other.count;
+  within += other.within;
+  overlapping += other.overlapping;
+  differences.insert(differences.end(), other.differences.begin(), other.differences.end());
+}
+
+bool Repetition::does_repeat() const {
+  return double(overlapping) >= repeating_share * double(count);
+}
+
+std::string Repetition::sentence() const {
+  return fmt::format("{} of {} medians lie in each other's intervals, {} of {} intervals overlap; "
+                     "medians differ by {:.1f} % (median), at most by {:.1f} %",
+                     within, count, overlapping, count, 100 * median(differences),
+                     100 * std::ranges::max(differences));
+}
+
 std::vector<std::string> speedup_columns(const Table& table) {
   std::vector<std::string> columns;
   for (const std::string& column : table.columns)
@@ -71,6 +100,27 @@ std::vector<SpeedupPair> pair_speedups(const Table& before, const Table& after) 
     pairs.push_back({keys[0], keys[1], speedup, in(of_after, keys)});
   for (const auto& [keys, speedup] : of_after)
     if (!of_before.contains(keys)) pairs.push_back({keys[0], keys[1], {}, speedup});
+  return pairs;
+}
+
+std::vector<std::pair<std::string, std::vector<SpeedupPair>>>
+pair_results(const std::filesystem::path& before, const std::filesystem::path& after) {
+  std::vector<std::pair<std::string, std::vector<SpeedupPair>>> pairs;
+  std::error_code no_folder;
+  for (const auto& entry : std::filesystem::directory_iterator(before / "tables", no_folder)) {
+    if (entry.path().extension() != ".csv") continue;
+    const Table old_table = read_csv(entry.path().string());
+    if (speedup_columns(old_table).empty()) continue;
+    const std::filesystem::path other = after / "tables" / entry.path().filename();
+    pairs.emplace_back(
+        entry.path().stem().string(),
+        pair_speedups(old_table, exists(other) ? read_csv(other.string()) : Table{}));
+  }
+  if (pairs.empty())
+    throw InputError(fmt::format("{}: has no tables/NAME.csv with speed-ups; give two directories "
+                                 "that studies wrote (--out), or two files",
+                                 before.string()));
+  std::ranges::sort(pairs, {}, &decltype(pairs)::value_type::first);
   return pairs;
 }
 

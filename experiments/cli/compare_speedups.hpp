@@ -1,10 +1,13 @@
 #pragma once
-/// Compares the speed-ups of two tables of the same study: how well a result repeats itself.
+/// Compares the speed-ups of two tables of the same study, or of two results of many studies: how
+/// well a result repeats itself.
 #include "experiments/base/records.hpp"
 #include "experiments/base/statistics.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dss {
@@ -25,6 +28,18 @@ struct SpeedupPair {
   bool do_intervals_overlap() const;
 };
 
+/// How well speed-ups repeat themselves. One that only OLD has did not.
+struct Repetition {
+  long count = 0, within = 0, overlapping = 0; ///< of OLD's speed-ups
+  std::vector<double> differences;             ///< |NEW/OLD - 1| of those that both have
+  void add(const SpeedupPair& pair);
+  void add(const Repetition& other);
+  /// True if 19 of 20 intervals overlap.
+  bool does_repeat() const;
+  /// "18 of 20 medians lie in each other's intervals, ..."; both must have a speed-up
+  std::string sentence() const;
+};
+
 /// Columns of speed-ups and factors, which have columns with the ends of their intervals.
 std::vector<std::string> speedup_columns(const Table& table);
 
@@ -32,5 +47,10 @@ std::vector<std::string> speedup_columns(const Table& table);
 /// precision and method. A base has no speed-up over itself.
 /// @throws InputError if two rows of a table are the same and both have a speed-up
 std::vector<SpeedupPair> pair_speedups(const Table& before, const Table& after);
+
+/// The same of all tables below `before`/tables that hold speed-ups, in the order of their names.
+/// @throws InputError as above, or if `before` has no such table
+std::vector<std::pair<std::string, std::vector<SpeedupPair>>>
+pair_results(const std::filesystem::path& before, const std::filesystem::path& after);
 
 } // namespace dss

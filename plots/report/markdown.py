@@ -16,8 +16,8 @@ def cell_text(cell):
 
 def grid_lines(grid, age, made_by):
     """A grid as a table of Markdown, with its age and its notes."""
-    heads = [f"{kind}: {column}" if kind else column
-             for kind, _, columns in grid.groups for column in columns]
+    heads = [f"{heading}: {column}" if heading else column
+             for _, heading, columns in grid.groups for column in columns]
     lines = [f"### {grid.title}", "", age[1], "",
              "| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     lines += ["| " + " | ".join(cell_text(cell) for cell in row) + " |" for row in grid.rows]

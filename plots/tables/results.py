@@ -15,6 +15,10 @@ class NotMeasured(Exception):
 FAULTS = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError)
 
 
+# Tables of studies for users, which `make reproduce` leaves out.
+ON_DEMAND = ("table1_host",)
+
+
 @dataclasses.dataclass(frozen=True)
 class Lack:
     """A section that is missing. is_fault: its table is there, but cannot be drawn."""
@@ -69,6 +73,10 @@ class Results:
     def names(self):
         """Names of all tables."""
         return sorted(path.stem for path in (self.directory / "tables").glob("*.csv"))
+
+    def expects(self, table):
+        """False if a table is not there and no reproduction makes it."""
+        return table not in ON_DEMAND or self.has(table)
 
     def others(self):
         """Results of other machines, in folders of this one such as results/h100."""

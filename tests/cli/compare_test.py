@@ -1,4 +1,5 @@
 """`compare`: what became slower, and where it makes no claim."""
+import os
 import unittest
 
 from program import ProgramTest, dssbench
@@ -83,6 +84,34 @@ class Compare(ProgramTest):
                             self.write("empty.csv", head))
         self.assert_refused(2, ["two rows are"], "compare", first,
                             table("twice.csv", 2, more="cell,n=5,f0,ok,2,1.9,2.1,,,\n"))
+
+    def test_results_are_compared_as_a_whole(self):
+        columns = "label,speedup_vs_x,speedup_vs_x_low,speedup_vs_x_high\n"
+
+        def result(name, *tables):
+            os.makedirs(self.path(f"{name}/tables"))
+            for number, apart in enumerate(tables):
+                speedups = [4 if place < apart else 2 for place in range(20)]
+                self.write(f"{name}/tables/t{number}.csv", columns + "".join(
+                    f"cell {place},{s},{0.9 * s},{1.1 * s}\n" for place, s in enumerate(speedups)))
+            self.write(f"{name}/tables/other.csv", "a,b\n1,2\n")  # without speed-ups
+            return self.path(name)
+
+        # one table alone would not repeat itself: 18 of 20
+        first = result("first", 0, 0)
+        whole = dssbench("compare", first, result("second", 2, 0))
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        self.assertIn("38 of 40 intervals overlap", whole.stdout)
+        self.assertIn("18 of 20", whole.stdout)
+        self.assertEqual(whole.stdout.count("apart"), 2)
+        # a table that is missing in NEW did not repeat itself
+        missing = dssbench("compare", first, result("third", 0))
+        self.assertEqual(missing.returncode, 1, missing.stderr)
+        self.assertIn("20 of 40 intervals overlap", missing.stdout)
+        self.assertEqual(missing.stdout.count("only in OLD"), 20)
+        os.mkdir(self.path("none"))
+        self.assert_refused(2, ["tables/NAME.csv with speed-ups"], "compare", self.path("none"),
+                            first)
 
     def test_compare_refuses_what_is_no_result(self):
         self.assert_refused(2, ["x.csv", '"cell"'], "compare", self.write("x.csv", "a,b\n1,2\n"),

@@ -95,6 +95,19 @@ class ReportTest(unittest.TestCase):
         self.assertIn("tables/advise.csv is of another version", self.pages["sample"])
         self.assertIn("tables/statics.csv has no rows", self.pages["sample"])
 
+    def test_a_study_that_no_reproduction_measures_is_not_missing(self):
+        self.assertIn('id="table-1-host"', self.pages["sample"])
+        self.assertNotIn('id="table-1-host"', self.pages["committed"])
+        self.assertNotIn("experiment table1_host", self.pages["committed"])
+
+    def test_columns_of_the_papers_tables_have_names_of_their_own(self):
+        text = read(self.directory / "committed" / "REPORT.md")
+        heads = [line.strip("| ").split(" | ") for line in text.splitlines()
+                 if line.startswith("| row |")]
+        self.assertEqual(len(heads), 3)
+        for names in heads:
+            self.assertEqual(len(set(names)), len(names), names)
+
     def test_old_records_are_named_with_their_date_and_reason(self):
         self.assertIn('<strong class="old">old</strong>: of 2029-12-30 12:00 UTC; made by commit '
                       "000000000", self.section("roofline"))
