@@ -1,0 +1,218 @@
+"""Tables that pages quote, by the name in their marks (quotes.py).
+
+A function takes Results, and returns the heads and the lines of texts.
+"""
+from tables.results import Results
+from tables.words import speedup_over, with_interval
+
+
+def disturbed(row):
+    """How many repetitions other programs disturbed."""
+    return f"{int(row['contaminated'])} of {int(row['repetitions'])}"
+
+
+def chain_table(results):
+    """The chain of factors, a line for each stage."""
+    ratios = [f"{name}{end}" for name in ("factor_of_stage", "factor_vs_base")
+              for end in ("", "_low", "_high")]
+    frame = results.table("chain", "stage", "role", "label", "variant", "threads", "model",
+                          "precision", "integrator", "dt_s", "error_max", "contaminated",
+                          "repetitions", optional=ratios)
+    keys = ["variant", "threads", "model", "precision", "integrator", "dt_s"]
+    lines, before = [], None
+    for _, row in frame.iterrows():
+        new = [key for key in keys if before is None or row[key] != before[key]]
+        threads = f"{row['threads']} thread{'s' if row['threads'] > 1 else ''}"
+        run = ", ".join({"threads": threads, "dt_s": f"{row['dt_s']:.3g} s"}
+                        .get(key, f"`{row[key]}`") for key in new)
+        factor = with_interval(row["factor_of_stage"], row["factor_of_stage_low"],
+                               row["factor_of_stage_high"])
+        in_all = with_interval(row["factor_vs_base"], row["factor_vs_base_low"],
+                               row["factor_vs_base_high"])
+        beside = "*beside:* " if row["role"] == "neighbour" else ""
+        lines.append([beside + row["label"], run, factor, in_all, disturbed(row),
+                      f"{row['error_max']:.1e}"])
+        before = row
+    return ["stage of the chain", "run", "factor", "in all", "contaminated", "error"], lines
+
+
+def first_table(results):
+    """Table 1 of the paper on this machine: one process."""
+    frame = results.table("table1", "source", "label", "variant", "threads", "ranks", "status",
+                          "contaminated", "repetitions")
+    frame = frame[(frame["source"] == "measured") & (frame["ranks"] == 1)
+                  & ~frame["label"].str.contains("A/A") & (frame["status"] == "ok")]
+    bases = ("as_published", "reference", "scalar")
+
+    lines = [[row["label"], *(speedup_over(row, base) for base in bases),
+              disturbed(row)] for _, row in frame.iterrows()]
+    return ["variant", *(f"over `{base}`" for base in bases), "contaminated"], lines
+
+
+def gpu_table(results):
+    """The paper's CPU and its GPU, all cores of a CPU and an H100: seconds of 10,000 steps."""
+    frame = Results(results.directory / "h100").table(
+        "table3", "label", "set", "measured_wall_s", "measured_wall_low_s", "measured_wall_high_s",
+        "steps", "threads", "variant", optional=["paper_wall_s"])
+    lines = []
+    for plate in ("n=50", "n=100", "n=200"):
+        rows = frame[frame["set"] == plate]
+        paper = rows.set_index("label")["paper_wall_s"]
+        cpu = rows[rows["variant"] == "avx512"].nlargest(1, "threads").iloc[0]
+        gpu = rows[rows["label"] == "opencl on gpu, 1 thread"].iloc[0]
+        times = [with_interval(*(row[f"measured_wall{end}_s"] / row["steps"] * 10000
+                                 for end in ("", "_low", "_high"))) for row in (cpu, gpu)]
+        lines.append([plate, f"{paper['two CPU processes']:.2f}", f"{paper['P100 alone']:.2f}",
+                      *times])
+    return ["plate", "paper: two CPU processes", "P100", "`avx512`, 16 threads", "H100"], lines
+
+
+def network_table(results):
+    """The paper's times beside simulated ones with the speed of its own nodes."""
+    lines = []
+    for table in ("table1", "table2"):
+        frame = results.table(f"{table}_simulated", "label", "ranks", "network", "halo",
+                              "paper_wall_s", "simulated_paper_node_wall_s")
+        frame = frame[frame["label"].str.startswith("the paper's cluster")
+                      & (frame["halo"] == "sendrecv") & (frame["ranks"] > 1)]
+        for ranks, rows in frame.groupby("ranks"):
+            paper = rows["paper_wall_s"].iloc[0]
+            times = rows.set_index("network")["simulated_paper_node_wall_s"]
+            lines.append([f"Table {table[-1]}, {ranks} processes", f"{paper:g}",
+                          *(f"{times[name]:.1f} ({100 * (times[name] / paper - 1):+.0f} %)"
+                            for name in ("gigabit", "ten_gigabit", "fdr"))])
+    return ["", "published", "1 GbE", "10 GbE", "FDR"], lines
+
+
+def sizes_table(results):
+    """Efficiency of six simulated nodes over the size of the plate."""
+    frame = results.table("cluster_simulated", "label", "set", "network", "halo",
+                          "simulated_own_node_efficiency")
+    frame = frame[(frame["label"] == "sizes") & (frame["halo"] == "auto")]
+    sizes = list(dict.fromkeys(frame["set"]))
+    lines = []
+    for network, name in (("gigabit", "1 GbE"), ("ten_gigabit", "10 GbE"), ("fdr", "FDR")):
+        rows = frame[frame["network"] == network].set_index("set")
+        lines.append([name, *(f"{rows.loc[size, 'simulated_own_node_efficiency']:.2f}"
+                              for size in sizes)])
+    return ["elements a side", *(size.removeprefix("n=") for size in sizes)], lines
+
+
+def mix_table(results):
+    """Instructions of a pack of the spatial row, and its time beside that of these alone."""
+    variants = ["scalar", "avx2", "avx512"]
+    frame = results.table("attribution", "variant", "model", "precision", "part", "fma",
+                          "peak_bound_ns", "mix_bound_ns", "measured_in_l1_ns")
+    frame = frame[(frame["model"] == "spatial") & (frame["precision"] == "f64")
+                  & (frame["part"] == "stage_row")].set_index("variant")
+    rows = [frame.loc[variant] for variant in variants]
+    texts = (
+        ("fused multiply-adds", lambda row: f"{row['fma']:.0f}"),
+        ("sums and products", lambda row: f"{row['sums'] + row['products']:.0f}"),
+        ("lane shifts", lambda row: f"{row['shuffles']:.0f}"),
+        ("loads (of them of spilled registers)",
+         lambda row: f"{row['loads']:.0f} ({row['stack_loads']:.0f})"),
+        ("stores (of them of spilled registers)",
+         lambda row: f"{row['stores']:.0f} ({row['stack_stores']:.0f})"),
+        ("time of the fused multiply-adds alone (scalar: sums and products)",
+         lambda row: f"{row['peak_bound_ns']:.1f}"),
+        ("time of the mix without spilled registers",
+         lambda row: f"{row['mix_without_stack_bound_ns']:.1f}"),
+        ("**time of the mix as executed**", lambda row: f"{row['mix_bound_ns']:.1f}"),
+        ("**measured time of the row**", lambda row: f"{row['measured_in_l1_ns']:.1f}"),
+        ("time of the mix over measured time",
+         lambda row: f"{row['share_of_ceiling_in_l1']:.2f}"))
+    lines = [[name, *(text(row) for row in rows)] for name, text in texts]
+    return ["", "scalar", "AVX2", "AVX-512"], lines
+
+
+def continuum_table(results):
+    """Errors of the finest grids and of the limits of grids, over all modes of a check."""
+    frame = results.table("continuum", "check", "mode", "value", "error",
+                          optional=["set", "limit_error"])
+    lines = []
+    for check, rows in frame.groupby("check", sort=False):
+        finest = rows.loc[rows.groupby("mode")["value"].idxmax()]
+        ends = [[f"{column.min():+.0e}", f"{column.max():+.0e}"]
+                for column in (finest["error"], finest["limit_error"])]
+        lines.append([f"`{check}`", *(" to ".join(dict.fromkeys(pair)) for pair in ends)])
+    return ["check", "finest grid against theory", "limit by Richardson against theory"], lines
+
+
+def geometry_table(results):
+    """Rates of the bodies of many shapes, and those of a link over those of the plate n = 100."""
+    frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "elements",
+                          "links", "element_steps_per_s", "link_steps_per_s", "label", "status",
+                          optional=["speedup_vs_scalar", "speedup_vs_scalar_low",
+                                    "speedup_vs_scalar_high", "extrapolated_speedup_vs_scalar",
+                                    "extrapolated_speedup_vs_scalar_low",
+                                    "extrapolated_speedup_vs_scalar_high"])
+    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
+    frame["set"] = frame["set"].fillna("")
+    rates = ["scalar", "avx2", "avx512"]
+
+    def row_of(rows, variant, is_on_all_cores=False):
+        rows = rows[(rows["variant"] == variant) & (rows["status"] == "ok")
+                    & ((rows["threads"] > 1) == is_on_all_cores)]
+        return None if rows.empty else rows.iloc[0]
+
+    def rate(row):
+        return "" if row is None else f"{1e-6 * row['element_steps_per_s']:.3g}"
+
+    plate = row_of(frame[(frame["scene"] == "plate_paper") & (frame["set"] == "n=100")], "avx512")
+    lines = []
+    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
+        fastest, cores = row_of(rows, "avx512"), row_of(rows, "avx512", True)
+        per_link = "" if fastest is None or plate is None else (
+            f"{fastest['link_steps_per_s'] / plate['link_steps_per_s']:.2f}")
+        first = rows.iloc[0]
+        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), f"{int(first['elements'])}",
+                      f"{first['links'] / first['elements']:.2f}",
+                      *(rate(row_of(rows, variant)) for variant in rates), rate(cores),
+                      rate(row_of(rows, "opencl", True)), per_link,
+                      "" if fastest is None else speedup_over(fastest, "scalar")])
+    return ["body", "elements", "links an element", *(f"`{name}`" for name in rates),
+            "`avx512`, all cores", "`opencl`, all cores", "per link, over the plate n = 100",
+            "`avx512` over `scalar`"], lines
+
+
+def models_table(results):
+    """Rates of whole steps by model and precision, over those of spatial in f64."""
+    models = [("spatial", "f64"), ("planar", "f64"), ("planar", "f32"), ("membrane", "f64")]
+    frame = results.table("kernels", "kernel", "model", "precision", "variant", "threads", "n",
+                          "flops_per_element", "measured_ns_per_element")
+    frame = frame[(frame["kernel"] == "rk4_step") & (frame["variant"] == "avx512")
+                  & (frame["threads"] == 1)].set_index(["n", "model", "precision"])
+    lanes = {"f64": 1, "f32": 2}
+
+    def over_spatial(column, n, by_lanes):
+        base = frame.loc[(n, *models[0])][column]
+        return [f"{base / frame.loc[(n, *model)][column] * by_lanes(model):.2f}"
+                for model in models]
+
+    lines = [["predicted: ratio of flops",
+              *over_spatial("flops_per_element", 100, lambda model: lanes[model[1]])]]
+    lines += [[f"n = {n}", *over_spatial("measured_ns_per_element", n, lambda model: 1)]
+              for n in (100, 300)]
+    return ["", *(f"{model}, {precision}" for model, precision in models)], lines
+
+
+def statics_table(results):
+    """Times to a linear state of rest by solver, of the largest case of each scene."""
+    solvers = ["direct", "cg, incomplete Cholesky", "cg, block Jacobi"]
+    frame = results.table("statics", "scene", "loads", "elements", "unknowns", "solver", "wall_s",
+                          optional=["set"])
+    frame = frame[frame["solver"].isin(solvers) & (frame["loads"] == 1)]
+    lines = []
+    for scene, rows in frame.groupby("scene", sort=False):
+        rows = rows[rows["unknowns"] == rows["unknowns"].max()].set_index("solver")
+        first = rows.iloc[0]
+        lines.append([f"`{scene}`", f"{int(first['elements'])}", f"{int(first['unknowns'])}",
+                      *(f"{1e3 * rows.loc[solver, 'wall_s']:.1f} ms" for solver in solvers)])
+    return ["scene", "elements", "unknowns", "factors", *solvers[1:]], lines
+
+
+TABLES = {"chain": chain_table, "continuum": continuum_table, "first": first_table,
+          "geometry": geometry_table, "gpu": gpu_table, "mix": mix_table,
+          "models": models_table, "networks": network_table, "sizes": sizes_table,
+          "statics": statics_table}
