@@ -15,7 +15,7 @@ export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
-.PHONY: verify-cpu verify-devices test-aarch64 fuzz mutants faults restarts flips
+.PHONY: verify-cpu verify-devices pages test-aarch64 fuzz mutants faults restarts flips
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -34,6 +34,16 @@ test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium uni
   librapidcheck-dev
 test: build
 	@ctest --preset $(PRESET)
+
+# Writes what is generated from the program and from results: the schema of names, the page of
+# columns, and the figures that pages quote. Tests fail if one of them is not current.
+pages: TARGETS := --target dssbench schema_names
+pages: build
+	@$(BUILD)/tests/schemas/schema_names >$(BUILD)/names.json
+	@mv $(BUILD)/names.json solver/json/names.schema.json
+	@$(BUILD)/dssbench list columns --json | tests/docs/columns_page.py >$(BUILD)/columns.md
+	@mv $(BUILD)/columns.md results/columns.md
+	@/usr/bin/python3 plots/fill_pages.py
 
 # The same bits on another processor: cross-built, and run under an emulator.
 test-aarch64: TARGETS := --target dssbench

@@ -1,6 +1,7 @@
 #include "experiments/cli/command_files.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/json/parse.hpp"
 #include "solver/scene/scene_text.hpp"
 
 #include <filesystem>
@@ -38,7 +39,35 @@ std::string escaped(const std::string& text) {
   return pattern;
 }
 
+/// Adds the voxel files that a scene names: values of {"voxels": {"file": ...}}, at any depth.
+void add_voxel_files(const nlohmann::json& value, const fs::path& folder,
+                     std::vector<std::string>& files) {
+  if (!value.is_structured()) return;
+  if (value.is_object() && value.contains("voxels")) {
+    const nlohmann::json& voxels = value["voxels"];
+    if (voxels.is_object() && voxels.contains("file") && voxels["file"].is_string())
+      files.push_back((folder / voxels["file"].get<std::string>()).string());
+  }
+  for (const nlohmann::json& inner : value) add_voxel_files(inner, folder, files);
+}
+
+/// None of a scene that cannot be read: the command will say what is wrong with it.
+std::vector<std::string> voxel_files(const std::string& scene) {
+  std::vector<std::string> files;
+  try {
+    add_voxel_files(parse_json_file(scene, {"layers"}), fs::path(scene).parent_path(), files);
+  } catch (const InputError&) {
+  }
+  return files;
+}
+
 } // namespace
+
+void CommandFiles::read_scene(const std::string& scene) {
+  const std::string path = scene_path(scene);
+  read("SCENE", path);
+  for (const std::string& file : voxel_files(path)) read("SCENE", file);
+}
 
 void CommandFiles::read(const std::string& option, const std::string& path) {
   if (is_named(path)) entries_.push_back({option, path, false, "", ""});
@@ -99,7 +128,7 @@ void CommandFiles::require_distinct() const {
 
 void require_sound_output(const std::string& scene, const std::string& json) {
   CommandFiles files;
-  files.read("SCENE", scene_path(scene));
+  files.read_scene(scene);
   files.write("--json", json);
   files.require_distinct();
   if (is_named(json)) require_writable(json);

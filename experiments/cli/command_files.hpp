@@ -9,8 +9,11 @@ namespace dss {
 /// left out.
 class CommandFiles {
 public:
-  /// A file that the command reads. `option` names it in messages, such as "SCENE" or "--from".
+  /// A file that the command reads. `option` names it in messages, such as "--from".
   void read(const std::string& option, const std::string& path);
+  /// A scene by name or path, and the voxel files that it names.
+  /// @throws InputError if there is no such scene
+  void read_scene(const std::string& scene);
   /// A file that the command writes.
   void write(const std::string& option, const std::string& path);
   /// A series: F.vtu stands for F_0000.vtu, F_0001.vtu, ... and F.pvd (see FrameSeries).

@@ -255,7 +255,7 @@ std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments,
 int verify(VerifyArguments arguments) {
   if (arguments.ranks.empty() && job_rank().is_started) arguments.ranks = {job_rank().ranks};
   CommandFiles files;
-  for (const std::string& scene : arguments.scenes) files.read("SCENE", scene_path(scene));
+  for (const std::string& scene : arguments.scenes) files.read_scene(scene);
   files.write("--json", arguments.json);
   files.require_distinct();
   if (!arguments.json.empty() && arguments.json != "-") require_writable(arguments.json);

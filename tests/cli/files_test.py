@@ -1,4 +1,5 @@
 """No output replaces a file that the command reads, or another output."""
+import json
 import os
 import pathlib
 import shutil
@@ -45,6 +46,17 @@ class Files(ProgramTest):
         detour = os.path.join(self.directory, "..", os.path.basename(self.directory), "own.json")
         for other in (self.path("link.json"), self.path("hard.json"), detour):
             self.assert_nothing_written(["SCENE reads this file"], *self.run_own("--json", other))
+
+    def test_no_output_replaces_the_voxels_of_a_scene(self):
+        with open(SCENES / "l_bracket.json", encoding="utf-8") as file:
+            scene = json.load(file)
+        voxels = self.write("body.txt", "###\n###\n")
+        scene["bodies"][0]["geometry"] = {"voxels": {"file": "body.txt"}}
+        path = self.write("voxels.json", json.dumps(scene))
+        for command in (("run", path, "--json", voxels), ("run", path, "--state", voxels),
+                        ("explain", path, "--json", voxels), ("verify", path, "--json", voxels),
+                        ("decompose", path, "--parts", "2", "--output", voxels)):
+            self.assert_nothing_written([voxels, "SCENE reads this file"], *command)
 
     def test_no_output_replaces_another(self):
         one = self.path("one")

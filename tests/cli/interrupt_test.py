@@ -26,6 +26,15 @@ def processes_of(session):
     return found
 
 
+def does_catch(process, number):
+    """True if a process has a handler for a signal: before, a signal only ends it."""
+    try:
+        status = pathlib.Path(f"/proc/{process}/status").read_text()
+    except OSError:
+        return False
+    return bool(int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16) >> (number - 1) & 1)
+
+
 class Interrupts(TinyStudyTest):
     def start(self, *arguments):
         os.makedirs(self.path("tmp"), exist_ok=True)
@@ -36,6 +45,7 @@ class Interrupts(TinyStudyTest):
 
     def end(self, run, number=signal.SIGINT, after_s=0.5):
         """Interrupts the terminal's foreground group, as Ctrl-C does. Returns the line."""
+        self.wait_for(lambda: run.poll() is not None or does_catch(run.pid, number))
         time.sleep(after_s)
         self.assertIsNone(run.poll(), "it ended before it was interrupted")
         os.killpg(run.pid, number)
@@ -65,6 +75,8 @@ class Interrupts(TinyStudyTest):
         for command in (("run", *LONG, "--json", "run.json", "--state", "end.csv"),
                         ("advise", "plate_paper", "--set", "n=60", "--tolerance", "1e-8"),
                         ("verify",),
+                        ("simulate", "plate_paper", "--set", "n=600", "--ranks", "256",
+                         "--node-speed", "1e7", "--steps", "2000"),
                         ("bench", "--out", "bench", "--min-time", "2")):
             for number in (signal.SIGINT, signal.SIGTERM):
                 line = self.end(self.start(*command), number)
