@@ -37,7 +37,9 @@ def main():
         if new == old:
             continue
         if not arguments.check:
-            page.write_text(new, encoding="utf-8")
+            beside = page.with_suffix(".md.new")
+            beside.write_text(new, encoding="utf-8")
+            beside.replace(page)
             continue
         for number, (was, now) in enumerate(zip(old.split("\n"), new.split("\n")), 1):
             if was != now:

@@ -183,32 +183,29 @@ def models_table(results):
                           "flops_per_element", "measured_ns_per_element")
     frame = frame[(frame["kernel"] == "rk4_step") & (frame["variant"] == "avx512")
                   & (frame["threads"] == 1)].set_index(["n", "model", "precision"])
-    lanes = {"f64": 1, "f32": 2}
+    lanes = [2 if precision == "f32" else 1 for *_, precision in frame.index]
+    frame = frame.assign(flops_by_lanes=frame["flops_per_element"] / lanes)
 
-    def over_spatial(column, n, by_lanes):
-        base = frame.loc[(n, *models[0])][column]
-        return [f"{base / frame.loc[(n, *model)][column] * by_lanes(model):.2f}"
-                for model in models]
+    def over_spatial(column, n):
+        costs = [frame.loc[(n, *model), column] for model in models]
+        return [f"{costs[0] / cost:.2f}" for cost in costs]
 
-    lines = [["predicted: ratio of flops",
-              *over_spatial("flops_per_element", 100, lambda model: lanes[model[1]])]]
-    lines += [[f"n = {n}", *over_spatial("measured_ns_per_element", n, lambda model: 1)]
-              for n in (100, 300)]
+    lines = [["predicted: ratio of flops", *over_spatial("flops_by_lanes", 100)]]
+    lines += [[f"n = {n}", *over_spatial("measured_ns_per_element", n)] for n in (100, 300)]
     return ["", *(f"{model}, {precision}" for model, precision in models)], lines
 
 
 def statics_table(results):
     """Times to a linear state of rest by solver, of the largest case of each scene."""
     solvers = ["direct", "cg, incomplete Cholesky", "cg, block Jacobi"]
-    frame = results.table("statics", "scene", "loads", "elements", "unknowns", "solver", "wall_s",
-                          optional=["set"])
+    frame = results.table("statics", "scene", "loads", "elements", "unknowns", "solver", "wall_s")
     frame = frame[frame["solver"].isin(solvers) & (frame["loads"] == 1)]
     lines = []
     for scene, rows in frame.groupby("scene", sort=False):
         rows = rows[rows["unknowns"] == rows["unknowns"].max()].set_index("solver")
         first = rows.iloc[0]
         lines.append([f"`{scene}`", f"{int(first['elements'])}", f"{int(first['unknowns'])}",
-                      *(f"{1e3 * rows.loc[solver, 'wall_s']:.1f} ms" for solver in solvers)])
+                      *(f"{1e3 * rows.loc[solver, 'wall_s']:.3g} ms" for solver in solvers)])
     return ["scene", "elements", "unknowns", "factors", *solvers[1:]], lines
 
 

@@ -16,7 +16,7 @@ import re
 import tomllib
 
 from page_tables import TABLES
-from tables.results import ROOT, NotMeasured, Results
+from tables.results import FAULTS, ROOT, NotMeasured, Results
 from tables.words import is_missing, shown
 
 MARK = re.compile(r"<!--(?!table |/)([a-z0-9_]+)-->(.*?)<!--/-->", re.DOTALL)
@@ -93,6 +93,9 @@ def filled(text, results, quotes):
             return make()
         except (Unknown, NotMeasured) as fault:
             faults.append(f"{name}: {fault}")
+            return old
+        except (*FAULTS, NameError) as fault:  # a table without the rows or columns
+            faults.append(f"{name}: {type(fault).__name__}: {fault}")
             return old
 
     def quotation(match):

@@ -70,8 +70,8 @@ int fail_check(const std::string& scene, const std::string& failure) {
 
 int advise_scene(const AdviseArguments& arguments) {
   AdviseRequest request = checked_request(arguments);
-  require_sound_output(arguments.scene, arguments.json);
   std::vector<Override> overrides = parse_overrides(arguments.set);
+  require_sound_output(arguments.scene, overrides, arguments.json);
   const auto note = [&](const std::string& what) {
     if (arguments.is_verbose) fmt::print(stderr, "{}\n", what);
   };

@@ -1,8 +1,6 @@
 #include "experiments/cli/command_files.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
-#include "solver/json/parse.hpp"
-#include "solver/scene/scene_text.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -51,11 +49,14 @@ void add_voxel_files(const nlohmann::json& value, const fs::path& folder,
   for (const nlohmann::json& inner : value) add_voxel_files(inner, folder, files);
 }
 
-/// None of a scene that cannot be read: the command will say what is wrong with it.
-std::vector<std::string> voxel_files(const std::string& scene) {
+/// None of a scene that cannot be read: the command will say what is wrong with it. A pipe can be
+/// read only once.
+std::vector<std::string> voxel_files(const std::string& scene,
+                                     const std::vector<Override>& overrides) {
   std::vector<std::string> files;
+  if (is_stream(scene)) return files;
   try {
-    add_voxel_files(parse_json_file(scene, {"layers"}), fs::path(scene).parent_path(), files);
+    add_voxel_files(read_scene_text(scene, overrides).root, fs::path(scene).parent_path(), files);
   } catch (const InputError&) {
   }
   return files;
@@ -63,10 +64,10 @@ std::vector<std::string> voxel_files(const std::string& scene) {
 
 } // namespace
 
-void CommandFiles::read_scene(const std::string& scene) {
+void CommandFiles::read_scene(const std::string& scene, const std::vector<Override>& overrides) {
   const std::string path = scene_path(scene);
   read("SCENE", path);
-  for (const std::string& file : voxel_files(path)) read("SCENE", file);
+  for (const std::string& file : voxel_files(path, overrides)) read("SCENE", file);
 }
 
 void CommandFiles::read(const std::string& option, const std::string& path) {
@@ -126,9 +127,10 @@ void CommandFiles::require_distinct() const {
     }
 }
 
-void require_sound_output(const std::string& scene, const std::string& json) {
+void require_sound_output(const std::string& scene, const std::vector<Override>& overrides,
+                          const std::string& json) {
   CommandFiles files;
-  files.read_scene(scene);
+  files.read_scene(scene, overrides);
   files.write("--json", json);
   files.require_distinct();
   if (is_named(json)) require_writable(json);

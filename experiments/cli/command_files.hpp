@@ -1,5 +1,7 @@
 #pragma once
 /// The files that a command reads and writes. No output may replace an input or another output.
+#include "solver/scene/scene_text.hpp"
+
 #include <string>
 #include <vector>
 
@@ -11,9 +13,9 @@ class CommandFiles {
 public:
   /// A file that the command reads. `option` names it in messages, such as "--from".
   void read(const std::string& option, const std::string& path);
-  /// A scene by name or path, and the voxel files that it names.
+  /// A scene by name or path, and the voxel files that it names with these overrides.
   /// @throws InputError if there is no such scene
-  void read_scene(const std::string& scene);
+  void read_scene(const std::string& scene, const std::vector<Override>& overrides = {});
   /// A file that the command writes.
   void write(const std::string& option, const std::string& path);
   /// A series: F.vtu stands for F_0000.vtu, F_0001.vtu, ... and F.pvd (see FrameSeries).
@@ -43,6 +45,7 @@ private:
 /// For a command that reads a scene, by name or path, and writes `--json` in the end.
 /// @throws InputError if both are one file, if there is no such scene, or if the file cannot be
 /// written
-void require_sound_output(const std::string& scene, const std::string& json);
+void require_sound_output(const std::string& scene, const std::vector<Override>& overrides,
+                          const std::string& json);
 
 } // namespace dss

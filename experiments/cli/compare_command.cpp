@@ -6,7 +6,7 @@
 #include "solver/error.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -81,35 +81,42 @@ int compare_tables(const CompareArguments& arguments, const Table& before, const
 
 /// Shows how many speed-ups of each table repeat themselves, and which do not.
 int compare_results(const CompareArguments& arguments) {
-  Rows tables, others;
+  Rows tables, apart;
   Repetition whole;
-  for (const auto& [name, pairs] : pair_results(arguments.before, arguments.after)) {
+  for (const TablePairs& table : pair_results(arguments.before, arguments.after)) {
     Repetition repetition;
-    for (const SpeedupPair& pair : pairs) {
+    for (const SpeedupPair& pair : table.pairs) {
       repetition.add(pair);
-      if (pair.before && !pair.do_intervals_overlap()) {
-        others.push_back(shown(pair));
-        others.back().insert(others.back().begin(), name);
-      }
+      if (!table.is_in_after || !pair.before || pair.do_intervals_overlap()) continue;
+      apart.push_back(shown(pair));
+      apart.back().insert(apart.back().begin(), table.name);
     }
     whole.add(repetition);
     const std::string of = fmt::format(" of {}", repetition.count);
-    tables.push_back({name, std::to_string(repetition.within) + of,
-                      std::to_string(repetition.overlapping) + of});
+    tables.push_back({table.name, std::to_string(repetition.within) + of,
+                      std::to_string(repetition.overlapping) + of,
+                      !table.is_in_after    ? "only in OLD"
+                      : !table.is_in_before ? "only in NEW"
+                                            : ""});
   }
   if (!whole.differences.empty()) {
-    fmt::print("{}", text_table({"table", "medians within", "intervals overlap"}, tables));
-    if (!others.empty())
-      fmt::print(
-          "{}", text_table({"table", "row", "column", "old", "new", "new/old", "verdict"}, others));
+    fmt::print("{}", text_table({"table", "medians within", "intervals overlap", ""}, tables));
+    if (!apart.empty())
+      fmt::print("{}",
+                 text_table({"table", "row", "column", "old", "new", "new/old", "verdict"}, apart));
   }
   return conclude(arguments, whole);
 }
 
 int compare(const CompareArguments& arguments) {
-  if (std::filesystem::is_directory(arguments.before) &&
-      std::filesystem::is_directory(arguments.after))
-    return compare_results(arguments);
+  const bool is_old_whole = std::filesystem::is_directory(arguments.before),
+             is_new_whole = std::filesystem::is_directory(arguments.after);
+  if (is_old_whole && is_new_whole) return compare_results(arguments);
+  if (is_old_whole || is_new_whole)
+    throw InputError(fmt::format("{}: is a directory, and {} is none; give two files, or two "
+                                 "directories",
+                                 is_old_whole ? arguments.before : arguments.after,
+                                 is_old_whole ? arguments.after : arguments.before));
   const Table old_table = read_csv(arguments.before), new_table = read_csv(arguments.after);
   if (!speedup_columns(old_table).empty() && !speedup_columns(new_table).empty())
     return compare_tables(arguments, old_table, new_table);
@@ -147,7 +154,8 @@ int compare(const CompareArguments& arguments) {
 } // namespace
 
 void add_compare_command(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("compare", "Compare two results of a study, cell by cell");
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare two results: times of cells, or speed-ups");
   const auto arguments = std::make_shared<CompareArguments>();
   command
       ->add_option("OLD", arguments->before,
@@ -156,12 +164,11 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
       ->required();
   command->add_option("NEW", arguments->after, "The same of another result")->required();
   command->footer(
-      "Example: dssbench compare before/raw/table1_host.csv "
-      "results/raw/table1_host.csv\n         dssbench compare results_of_monday results\nExit "
-      "code 1 if a cell is slower by more than the "
-      "resolution, or if it is wrong, failed or missing in NEW, or if fewer than 19 of "
-      "20 intervals of "
-      "speed-ups overlap.");
+      "Example: dssbench compare before/raw/table1_host.csv results/raw/table1_host.csv\n"
+      "         dssbench compare results_of_monday results\n"
+      "Of two directories, all tables with speed-ups are compared. Exit code 1 if a cell is slower "
+      "by more than the resolution, or if it is wrong, failed or missing in NEW, or if fewer than "
+      "19 of 20 intervals of speed-ups overlap.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return compare(*arguments); }; });
 }
 

@@ -42,6 +42,18 @@ Speedups speedups_of(const Table& table) {
   return found;
 }
 
+/// Tables below `result`/tables by their names.
+std::map<std::string, Table> tables_with_speedups(const std::filesystem::path& result) {
+  std::map<std::string, Table> tables;
+  std::error_code no_folder;
+  for (const auto& entry : std::filesystem::directory_iterator(result / "tables", no_folder)) {
+    if (entry.path().extension() != ".csv") continue;
+    Table table = read_csv(entry.path().string());
+    if (!speedup_columns(table).empty()) tables[entry.path().stem().string()] = std::move(table);
+  }
+  return tables;
+}
+
 std::optional<Speedup> in(const Speedups& speedups, const Keys& keys) {
   const auto found = speedups.find(keys);
   return found == speedups.end() ? std::nullopt : std::optional(found->second);
@@ -103,25 +115,28 @@ std::vector<SpeedupPair> pair_speedups(const Table& before, const Table& after) 
   return pairs;
 }
 
-std::vector<std::pair<std::string, std::vector<SpeedupPair>>>
-pair_results(const std::filesystem::path& before, const std::filesystem::path& after) {
-  std::vector<std::pair<std::string, std::vector<SpeedupPair>>> pairs;
-  std::error_code no_folder;
-  for (const auto& entry : std::filesystem::directory_iterator(before / "tables", no_folder)) {
-    if (entry.path().extension() != ".csv") continue;
-    const Table old_table = read_csv(entry.path().string());
-    if (speedup_columns(old_table).empty()) continue;
-    const std::filesystem::path other = after / "tables" / entry.path().filename();
-    pairs.emplace_back(
-        entry.path().stem().string(),
-        pair_speedups(old_table, exists(other) ? read_csv(other.string()) : Table{}));
-  }
-  if (pairs.empty())
+std::vector<TablePairs> pair_results(const std::filesystem::path& before,
+                                     const std::filesystem::path& after) {
+  const std::map<std::string, Table> old_tables = tables_with_speedups(before),
+                                     new_tables = tables_with_speedups(after);
+  if (old_tables.empty())
     throw InputError(fmt::format("{}: has no tables/NAME.csv with speed-ups; give two directories "
                                  "that studies wrote (--out), or two files",
                                  before.string()));
-  std::ranges::sort(pairs, {}, &decltype(pairs)::value_type::first);
-  return pairs;
+  std::vector<TablePairs> results;
+  for (const auto& [name, table] : old_tables) {
+    const auto other = new_tables.find(name);
+    const bool is_in_after = other != new_tables.end();
+    try {
+      results.push_back(
+          {name, true, is_in_after, pair_speedups(table, is_in_after ? other->second : Table{})});
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("tables/{}.csv: {}", name, error.what()));
+    }
+  }
+  for (const auto& [name, table] : new_tables)
+    if (!old_tables.contains(name)) results.push_back({name, false, true, {}});
+  return results;
 }
 
 } // namespace dss

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace dss {
@@ -48,9 +47,16 @@ std::vector<std::string> speedup_columns(const Table& table);
 /// @throws InputError if two rows of a table are the same and both have a speed-up
 std::vector<SpeedupPair> pair_speedups(const Table& before, const Table& after);
 
-/// The same of all tables below `before`/tables that hold speed-ups, in the order of their names.
+/// The speed-ups of one table of two results.
+struct TablePairs {
+  std::string name;
+  bool is_in_before = true, is_in_after = true;
+  std::vector<SpeedupPair> pairs; ///< empty if it is only in `after`
+};
+
+/// The same of all tables NAME.csv below tables/ that hold speed-ups, in the order of their names.
 /// @throws InputError as above, or if `before` has no such table
-std::vector<std::pair<std::string, std::vector<SpeedupPair>>>
-pair_results(const std::filesystem::path& before, const std::filesystem::path& after);
+std::vector<TablePairs> pair_results(const std::filesystem::path& before,
+                                     const std::filesystem::path& after);
 
 } // namespace dss

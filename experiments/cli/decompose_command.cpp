@@ -131,7 +131,7 @@ void require_sound(const DecomposeArguments& arguments) {
 
 void require_distinct_files(const DecomposeArguments& arguments) {
   CommandFiles files;
-  files.read_scene(arguments.scene);
+  files.read_scene(arguments.scene, parse_overrides(arguments.set));
   files.read("--from", arguments.from);
   files.write("--output", arguments.output);
   files.write("--json", arguments.json);

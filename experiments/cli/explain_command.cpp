@@ -62,8 +62,9 @@ void print_models(const ModelChoice& choice, const std::string& scene_model) {
 }
 
 int explain(const ExplainArguments& arguments) {
-  require_sound_output(arguments.scene, arguments.json);
-  const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
+  const std::vector<Override> overrides = parse_overrides(arguments.set);
+  require_sound_output(arguments.scene, overrides, arguments.json);
+  const Scene scene = load_scene(arguments.scene, overrides);
   const Problem& problem = scene.problem;
   const auto precision = require_precision_name(arguments.precision);
   const double tolerance = require_model_tolerance(arguments.model_tolerance.value_or(

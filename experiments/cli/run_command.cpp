@@ -61,7 +61,7 @@ void require_no_tile_of_parts(const RunRequest& request) {
 /// No output may replace a file that the run reads, or another output.
 void require_distinct_files(const RunRequest& request, const std::string& analysis) {
   CommandFiles files;
-  files.read_scene(request.scene);
+  files.read_scene(request.scene, request.overrides);
   const bool has_members = !request.ensemble.empty();
   if (request.ensemble.ends_with(".json") || request.ensemble.ends_with(".csv"))
     files.read("--ensemble", request.ensemble);

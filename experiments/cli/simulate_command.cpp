@@ -9,6 +9,7 @@
 #include "solver/io/atomic_file.hpp"
 #include "solver/nearest_name.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -112,8 +113,14 @@ void print_simulated(const SimulateArguments& arguments, const SimulatedProblem&
 }
 
 int simulate_scene(const SimulateArguments& arguments) {
-  require_sound_output(arguments.scene, arguments.json);
-  const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
+  const std::vector<Override> overrides = parse_overrides(arguments.set);
+  require_sound_output(arguments.scene, overrides, arguments.json);
+  CommandFiles files;
+  if (std::filesystem::is_regular_file(arguments.platform)) // a name is no file
+    files.read("--platform", arguments.platform);
+  files.write("--json", arguments.json);
+  files.require_distinct();
+  const Scene scene = load_scene(arguments.scene, overrides);
   const Precision precision = require_precision_name(arguments.precision);
   const Method& method = require_method(arguments.integrator.empty() ? scene.problem.integrator
                                                                      : arguments.integrator);

@@ -110,8 +110,9 @@ void print_all(const Scene& scene, const StabilityArguments& arguments,
 }
 
 int stability(const StabilityArguments& arguments) {
-  require_sound_output(arguments.scene, arguments.json);
-  const Scene scene = load_scene(arguments.scene, parse_overrides(arguments.set));
+  const std::vector<Override> overrides = parse_overrides(arguments.set);
+  require_sound_output(arguments.scene, overrides, arguments.json);
+  const Scene scene = load_scene(arguments.scene, overrides);
   flush_denormals();
   const std::vector<LimitComparison> rows = comparisons(arguments, scene);
   if (!arguments.json.empty()) {

@@ -112,11 +112,11 @@ class Advise(ProgramTest):
         self.assertEqual([float(row["tolerance"]) for row in rows], [1e-2, 1e-5])
         for row in rows:
             self.assertEqual(row["status"], "ok")
-            self.assertIn(row["verdict"], ("ok", "slower"))
             self.assertLessEqual(float(row["true_error"]), float(row["tolerance"]))
             self.assertLessEqual(float(row["cheapest_true_error"]), float(row["tolerance"]))
             self.assertGreater(int(row["brute_force_runs"]), 10)
-            self.assertGreater(float(row["time_over_cheapest"]), 0)  # the machine may be busy
+            over = float(row["time_over_cheapest"])  # any: the machine may be busy
+            self.assertEqual(row["verdict"], "ok" if over <= 1.5 else "slower")
 
     def test_a_study_that_is_wrong_is_refused(self):
         for change, words in (

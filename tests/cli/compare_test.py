@@ -108,7 +108,11 @@ class Compare(ProgramTest):
         missing = dssbench("compare", first, result("third", 0))
         self.assertEqual(missing.returncode, 1, missing.stderr)
         self.assertIn("20 of 40 intervals overlap", missing.stdout)
-        self.assertEqual(missing.stdout.count("only in OLD"), 20)
+        self.assertEqual(missing.stdout.count("only in OLD"), 1)
+        more = dssbench("compare", result("less", 0), first)
+        self.assertEqual(more.returncode, 0, more.stderr)
+        self.assertIn("only in NEW", more.stdout)
+        self.assert_refused(2, ["is a directory"], "compare", first, f"{first}/tables/t0.csv")
         os.mkdir(self.path("none"))
         self.assert_refused(2, ["tables/NAME.csv with speed-ups"], "compare", self.path("none"),
                             first)

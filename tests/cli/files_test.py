@@ -57,6 +57,17 @@ class Files(ProgramTest):
                         ("explain", path, "--json", voxels), ("verify", path, "--json", voxels),
                         ("decompose", path, "--parts", "2", "--output", voxels)):
             self.assert_nothing_written([voxels, "SCENE reads this file"], *command)
+        other = self.write("other.txt", "##\n##\n")
+        changed = ("--set", "bodies/0/geometry/voxels/file=other.txt")
+        for command in ("run", "explain", "stability"):
+            self.assert_nothing_written([other, "SCENE reads this file"], command, path, *changed,
+                                        "--json", other)
+
+    def test_no_output_replaces_the_platform_of_a_simulation(self):
+        platform = self.path("own.xml")
+        shutil.copy(SCENES.parent / "platforms" / "ten_gigabit.xml", platform)
+        self.assert_nothing_written(["--platform reads this file"], "simulate", self.scene,
+                                    "--ranks", "2", "--platform", platform, "--json", platform)
 
     def test_no_output_replaces_another(self):
         one = self.path("one")

@@ -8,6 +8,7 @@ import time
 import unittest
 
 from program import PROGRAM, dssbench, why_no_variant
+from simulate_test import WITHOUT
 from tiny_study import STUDY, TinyStudyTest
 
 LONG = ("plate_paper", "--set", "n=60", "--steps", "50000000")
@@ -75,14 +76,21 @@ class Interrupts(TinyStudyTest):
         for command in (("run", *LONG, "--json", "run.json", "--state", "end.csv"),
                         ("advise", "plate_paper", "--set", "n=60", "--tolerance", "1e-8"),
                         ("verify",),
-                        ("simulate", "plate_paper", "--set", "n=600", "--ranks", "256",
-                         "--node-speed", "1e7", "--steps", "2000"),
                         ("bench", "--out", "bench", "--min-time", "2")):
             for number in (signal.SIGINT, signal.SIGTERM):
                 line = self.end(self.start(*command), number)
                 self.assertIn("dssbench: interrupted", line)
         self.assertEqual([path for path in pathlib.Path(self.directory).rglob("*")
                           if path.name.endswith((".part", ".lock"))], [])
+
+    @unittest.skipIf(WITHOUT, WITHOUT)
+    def test_a_simulation_leaves_nothing_behind(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            run = self.start("simulate", "plate_paper", "--set", "n=600", "--ranks", "256",
+                             "--node-speed", "1e7", "--steps", "10000", "--json", "cluster.json")
+            self.wait_for(lambda: len(processes_of(run.pid)) > 1 or run.poll() is not None)
+            self.assertIn("dssbench: interrupted", self.end(run, number))
+        self.assertFalse(os.path.exists(self.path("cluster.json")))
 
     @unittest.skipIf(why_no_variant("mpi"), why_no_variant("mpi") or "")
     def test_ranks_leave_no_shared_memory(self):

@@ -8,9 +8,9 @@ import sys
 
 HEAD = """# Columns of records and of timed cells
 
-Made by `dssbench list columns --json | tests/docs/columns_page.py`; a test compares it with the
-program. `run --json`: key in the record of a run. `raw`: column of `raw/NAME.csv`. `in tables`: how
-the repetitions of a cell become one value of its table. [README.md](README.md) explains the columns
+Made by `make pages` from `dssbench list columns`; a test compares it with the program.
+`run --json`: key in the record of a run. `raw`: column of `raw/NAME.csv`. `in tables`: how the
+repetitions of a cell become one value of its table. [README.md](README.md) explains the columns
 that only tables have.
 
 """

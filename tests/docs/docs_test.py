@@ -35,7 +35,7 @@ class Columns(unittest.TestCase):
         listed = json.loads(workplace.asked("list", "columns", "--json")[1])
         self.assertGreater(len(listed), 100)
         self.assertEqual(pages.read_page(workplace.SOURCE, "results/columns.md"),
-                         columns_page.page(listed), "make it again: see its first lines")
+                         columns_page.page(listed), "run make pages")
 
 
 class Pages(unittest.TestCase):

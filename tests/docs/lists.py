@@ -19,6 +19,7 @@ VALUES = (
     (r"--variant-path build/variants", "--variant-path .", "a folder of the reader's"),
     (r"verify NAME\b", "verify two_elements", "a scene"),
     (r"experiment NAME\b", "experiment continuum", "a study"),
+    (r"compare results build/mine", "compare results results", "one result"),
     (r"\S+/NAME.csv \S+/NAME.csv", "results/raw/table1.csv results/raw/table1.csv", "one table"),
 )
 

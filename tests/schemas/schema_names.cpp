@@ -55,7 +55,6 @@ int main(int count, char** arguments) {
     return 0;
   }
   if (dss::read_text(arguments[1]) == right) return 0;
-  fmt::print(stderr, "{1}: is not what the program lists; write it anew: {0} > {1}\n", arguments[0],
-             arguments[1]);
+  fmt::print(stderr, "{}: is not what the program lists; run make pages\n", arguments[1]);
   return 1;
 }
