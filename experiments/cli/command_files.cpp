@@ -127,13 +127,17 @@ void CommandFiles::require_distinct() const {
     }
 }
 
+void require_sound_output(CommandFiles inputs, const std::string& json) {
+  inputs.write("--json", json);
+  inputs.require_distinct();
+  if (is_named(json)) require_writable(json);
+}
+
 void require_sound_output(const std::string& scene, const std::vector<Override>& overrides,
                           const std::string& json) {
-  CommandFiles files;
-  files.read_scene(scene, overrides);
-  files.write("--json", json);
-  files.require_distinct();
-  if (is_named(json)) require_writable(json);
+  CommandFiles inputs;
+  inputs.read_scene(scene, overrides);
+  require_sound_output(std::move(inputs), json);
 }
 
 } // namespace dss

@@ -42,9 +42,12 @@ private:
   std::vector<Entry> entries_;
 };
 
-/// For a command that reads a scene, by name or path, and writes `--json` in the end.
-/// @throws InputError if both are one file, if there is no such scene, or if the file cannot be
-/// written
+/// For a command that reads these files and writes `--json` in the end.
+/// @throws InputError if it would replace one of them, or cannot be written
+void require_sound_output(CommandFiles inputs, const std::string& json);
+
+/// The same for a command that reads a scene alone, by name or path.
+/// @throws InputError if there is no such scene
 void require_sound_output(const std::string& scene, const std::vector<Override>& overrides,
                           const std::string& json);
 

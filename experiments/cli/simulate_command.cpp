@@ -114,12 +114,11 @@ void print_simulated(const SimulateArguments& arguments, const SimulatedProblem&
 
 int simulate_scene(const SimulateArguments& arguments) {
   const std::vector<Override> overrides = parse_overrides(arguments.set);
-  require_sound_output(arguments.scene, overrides, arguments.json);
-  CommandFiles files;
+  CommandFiles inputs;
+  inputs.read_scene(arguments.scene, overrides);
   if (std::filesystem::is_regular_file(arguments.platform)) // a name is no file
-    files.read("--platform", arguments.platform);
-  files.write("--json", arguments.json);
-  files.require_distinct();
+    inputs.read("--platform", arguments.platform);
+  require_sound_output(std::move(inputs), arguments.json);
   const Scene scene = load_scene(arguments.scene, overrides);
   const Precision precision = require_precision_name(arguments.precision);
   const Method& method = require_method(arguments.integrator.empty() ? scene.problem.integrator

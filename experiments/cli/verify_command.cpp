@@ -7,7 +7,6 @@
 #include "experiments/run/plan/job.hpp"
 #include "experiments/run/verify/verify.hpp"
 #include "solver/error.hpp"
-#include "solver/io/atomic_file.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/scene/scene_text.hpp"
 #include "variants/isa/denormals.hpp"
@@ -254,11 +253,9 @@ std::vector<VerifyRow> rows_of_variants(const VerifyArguments& arguments,
 
 int verify(VerifyArguments arguments) {
   if (arguments.ranks.empty() && job_rank().is_started) arguments.ranks = {job_rank().ranks};
-  CommandFiles files;
-  for (const std::string& scene : arguments.scenes) files.read_scene(scene);
-  files.write("--json", arguments.json);
-  files.require_distinct();
-  if (!arguments.json.empty() && arguments.json != "-") require_writable(arguments.json);
+  CommandFiles inputs;
+  for (const std::string& scene : arguments.scenes) inputs.read_scene(scene);
+  require_sound_output(std::move(inputs), arguments.json);
   if (job_rank().is_started && arguments.ranks != std::vector<int>{job_rank().ranks})
     throw InputError(fmt::format("--ranks: this job has {}; give that, or none", job_rank().ranks));
   if (!arguments.ranks.empty() && arguments.variants.size() > 1)
