@@ -35,12 +35,14 @@ test: export DSS_EXTRA_PACKAGES += chromium chromium-driver python3-selenium uni
 test: build
 	@ctest --preset $(PRESET)
 
-# Writes what is generated from the program and from results: the schema of names, the page of
-# columns, and the figures that pages quote. Tests fail if one of them is not current.
+# Writes what is generated from the program and from results: the schema of names, the joined schema
+# of studies, the page of columns, and the figures that pages quote. Tests fail if one of them is not
+# current.
 pages: TARGETS := --target dssbench schema_names
 pages: build
 	@$(BUILD)/tests/schemas/schema_names >$(BUILD)/names.json
 	@mv $(BUILD)/names.json solver/json/names.schema.json
+	@tests/schemas/study_schema.py
 	@$(BUILD)/dssbench list columns --json | tests/docs/columns_page.py >$(BUILD)/columns.md
 	@mv $(BUILD)/columns.md results/columns.md
 	@/usr/bin/python3 plots/fill_pages.py

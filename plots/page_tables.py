@@ -2,6 +2,7 @@
 
 A function takes Results, and returns the heads and the lines of texts.
 """
+from body_tables import bodies_table, geometry_table, schedules_table
 from tables.results import Results
 from tables.words import speedup_over, with_interval
 
@@ -139,43 +140,6 @@ def continuum_table(results):
     return ["check", "finest grid against theory", "limit by Richardson against theory"], lines
 
 
-def geometry_table(results):
-    """Rates of the bodies of many shapes, and those of a link over those of the plate n = 100."""
-    frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "elements",
-                          "links", "element_steps_per_s", "link_steps_per_s", "label", "status",
-                          optional=["speedup_vs_scalar", "speedup_vs_scalar_low",
-                                    "speedup_vs_scalar_high", "extrapolated_speedup_vs_scalar",
-                                    "extrapolated_speedup_vs_scalar_low",
-                                    "extrapolated_speedup_vs_scalar_high"])
-    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
-    frame["set"] = frame["set"].fillna("")
-    rates = ["scalar", "avx2", "avx512"]
-
-    def row_of(rows, variant, is_on_all_cores=False):
-        rows = rows[(rows["variant"] == variant) & (rows["status"] == "ok")
-                    & ((rows["threads"] > 1) == is_on_all_cores)]
-        return None if rows.empty else rows.iloc[0]
-
-    def rate(row):
-        return "" if row is None else f"{1e-6 * row['element_steps_per_s']:.3g}"
-
-    plate = row_of(frame[(frame["scene"] == "plate_paper") & (frame["set"] == "n=100")], "avx512")
-    lines = []
-    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
-        fastest, cores = row_of(rows, "avx512"), row_of(rows, "avx512", True)
-        per_link = "" if fastest is None or plate is None else (
-            f"{fastest['link_steps_per_s'] / plate['link_steps_per_s']:.2f}")
-        first = rows.iloc[0]
-        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), f"{int(first['elements'])}",
-                      f"{first['links'] / first['elements']:.2f}",
-                      *(rate(row_of(rows, variant)) for variant in rates), rate(cores),
-                      rate(row_of(rows, "opencl", True)), per_link,
-                      "" if fastest is None else speedup_over(fastest, "scalar")])
-    return ["body", "elements", "links an element", *(f"`{name}`" for name in rates),
-            "`avx512`, all cores", "`opencl`, all cores", "per link, over the plate n = 100",
-            "`avx512` over `scalar`"], lines
-
-
 def models_table(results):
     """Rates of whole steps by model and precision, over those of spatial in f64."""
     models = [("spatial", "f64"), ("planar", "f64"), ("planar", "f32"), ("membrane", "f64")]
@@ -209,7 +173,7 @@ def statics_table(results):
     return ["scene", "elements", "unknowns", "factors", *solvers[1:]], lines
 
 
-TABLES = {"chain": chain_table, "continuum": continuum_table, "first": first_table,
-          "geometry": geometry_table, "gpu": gpu_table, "mix": mix_table,
-          "models": models_table, "networks": network_table, "sizes": sizes_table,
-          "statics": statics_table}
+TABLES = {"bodies": bodies_table, "chain": chain_table, "continuum": continuum_table,
+          "first": first_table, "geometry": geometry_table, "gpu": gpu_table, "mix": mix_table,
+          "models": models_table, "networks": network_table, "schedules": schedules_table,
+          "sizes": sizes_table, "statics": statics_table}

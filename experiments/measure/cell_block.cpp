@@ -8,6 +8,7 @@
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
 #include "variants/api/distribution.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +58,8 @@ bool is_threaded(const VariantStatus& status) {
 }
 
 /// The oracle's loop computes whole problems only; all other variants can compute a part.
-bool can_distribute(const std::string& variant) {
-  return variant != "reference" && variant != "as_published";
+bool can_distribute(const VariantStatus& status) {
+  return !status.is_usable() || !load_variant(status.name).has_all;
 }
 
 /// Problems that grow with the ranks. A parameter is multiplied by ranks^(1 / power). The number of
@@ -89,7 +90,7 @@ void read_ranks(ObjectNode& object, int cores, Block& block) {
                                                names_of("DECOMPOSITION"), {"strips"});
   block.halos = object.known_names_or("halos", "halo strategy", names_of("HALO"), {"auto"});
   for (const std::string& variant : block.variants)
-    if (block.ranks.back() > 1 && !can_distribute(variant))
+    if (block.ranks.back() > 1 && !can_distribute(known_variant(variant, object.node())))
       object.require("ranks").fail(fmt::format(
           "variant \"{}\" cannot compute parts, and runs on 1 rank; give it a block of its own",
           variant));

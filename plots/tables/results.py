@@ -16,7 +16,7 @@ FAULTS = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError)
 
 
 # Tables of studies for users, which `make reproduce` leaves out.
-ON_DEMAND = ("table1_host",)
+ON_DEMAND = ("table1_host", "bodies")
 
 
 @dataclasses.dataclass(frozen=True)

@@ -266,7 +266,7 @@ const RunField fields[] = {
      "ranks",
      [](R r) { return of_state(r, fmt::format("{:016x}", r.digest)); }, last},
     {"schedule", "schedule", "", "how the executor orders rows and stages",
-     [](R r) { return Json(r.schedule); }},
+     [](R r) { return Json(r.schedule); }, last},
     {"bytes", "bytes", "B", "memory for state, halos, rings and masks",
      [](R r) { return Json(r.bytes); }},
     {"device", "", "", "device that computed", [](R r) { return device(r); }},

@@ -22,7 +22,8 @@ const ExpectedRun& ExpectedRuns::run(const Method& method, Rotation equations, i
   const auto [place, is_new] = runs_.try_emplace({&method, equations, halvings});
   ExpectedRun& run = place->second;
   if (is_new) {
-    run.dt = std::ldexp(verified_step(problem_, method), -halvings);
+    run.dt = halvings == 0 ? verified_step(problem_, method)
+                           : std::ldexp(this->run(method, equations).dt, -halvings);
     run.state = computed<long double>(method, equations, run.dt, steps_ << halvings);
   }
   return run;

@@ -179,16 +179,24 @@ private:
 
   /// Kernels and oracle have equal equations for |q| = 1 alone. Runge-Kutta methods keep that
   /// length to their order. So a difference at a given time that falls by this order, as the step
-  /// is halved, is the method's own. With a wrong force it would stay. (Long steps may fall short
-  /// of the order by one.)
+  /// is halved, is the method's own. With a wrong force it would stay. All falls together may fall
+  /// short of the order by one, as long steps do. A single one may by two where two terms of the
+  /// error cancel, but not below one. Errors above `asymptotic` say nothing of the order: the step
+  /// is halved until they are below.
   bool falls_by_order(const Plugin& plugin, const Method& method, double error) {
-    constexpr int most_halvings = 5;
-    if (method.family != Method::Family::runge_kutta || !std::isfinite(error)) return false;
-    for (int halvings = 1; halvings <= most_halvings && error > tolerance().run; ++halvings) {
+    constexpr int most_halvings = 9, most_falls = 5;
+    constexpr double asymptotic = 0.1;
+    if (method.family != Method::Family::runge_kutta) return false;
+    const double least = std::ldexp(1, std::max(1, method.order - 2));
+    double allowed = 0; // after all falls so far
+    for (int halvings = 1, falls = 0; halvings <= most_halvings && falls < most_falls; ++halvings) {
       const double before = std::exchange(error, error_of_halved(plugin, method, halvings));
-      if (!(error * std::pow(2, method.order - 1) <= before)) return false;
+      if (!(before <= asymptotic)) continue;
+      if (!(error * least <= before)) return false;
+      allowed = std::ldexp(falls++ == 0 ? before : allowed, 1 - method.order);
+      if (error <= std::min(allowed, tolerance().run)) return true;
     }
-    return true;
+    return error <= allowed;
   }
 
   /// True if rounding alone grows beyond the tolerance, as in motions that the model does not

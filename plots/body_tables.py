@@ -1,0 +1,124 @@
+"""Tables of bodies of many shapes that pages quote (page_tables.py)."""
+import json
+from pathlib import Path
+
+from tables.words import speedup_over, with_interval
+
+
+def row_kernels(results):
+    """Time of a link in steps of rk4 [ns], by law: avx512, one core, rows of a plate (two links an
+    element) whose operands are in the L1 cache."""
+    frame = results.table("kernels", "kernel", "level", "variant", "model", "precision", "threads",
+                          "measured_ns_per_element")
+    frame = frame[(frame["level"] == "L1") & (frame["variant"] == "avx512")
+                  & (frame["model"] == "spatial") & (frame["precision"] == "f64")
+                  & (frame["threads"] == 1)].set_index("kernel")["measured_ns_per_element"]
+    return {law: (3 * frame[row] + frame[f"{row}_last"]) / 2
+            for law, row in (("paper", "stage_row"), ("material", "stage_row_material"))}
+
+
+def law_of(scene):
+    """The law of the first body of a shipped scene."""
+    path = Path(__file__).resolve().parents[1] / "experiments" / "scenes" / f"{scene}.json"
+    return json.loads(path.read_text())["bodies"][0]["constants"]["law"]
+
+
+def schedules_table(results):
+    """What the records of `geometry` say of the order of rows: avx512 on one core, and OpenCL."""
+    frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "schedule",
+                          "label")
+    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
+    frame["set"] = frame["set"].fillna("")
+    lines = []
+    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
+        ours = rows[(rows["variant"] == "avx512") & (rows["threads"] == 1)]["schedule"]
+        device = rows[rows["variant"] == "opencl"]["schedule"]
+        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), *ours.iloc[:1],
+                      *(device.iloc[:1].str.replace(r"^.*?; ", "", regex=True)
+                        if len(device) else [""])])
+    return ["body", "`avx512`, one core", "`opencl`"], lines
+
+
+def geometry_table(results):
+    """Rates of the bodies of many shapes; those of a link over those of the plate n = 100 and of
+    the law's row kernel in the L1 cache."""
+    frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "elements",
+                          "links", "element_steps_per_s", "link_steps_per_s", "label", "status",
+                          optional=["speedup_vs_scalar", "speedup_vs_scalar_low",
+                                    "speedup_vs_scalar_high", "extrapolated_speedup_vs_scalar",
+                                    "extrapolated_speedup_vs_scalar_low",
+                                    "extrapolated_speedup_vs_scalar_high"])
+    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
+    frame["set"] = frame["set"].fillna("")
+    rates, in_l1 = ["scalar", "avx2", "avx512"], row_kernels(results)
+
+    def row_of(rows, variant, is_on_all_cores=False):
+        rows = rows[(rows["variant"] == variant) & (rows["status"] == "ok")
+                    & ((rows["threads"] > 1) == is_on_all_cores)]
+        return None if rows.empty else rows.iloc[0]
+
+    def rate(row):
+        return "" if row is None else f"{1e-6 * row['element_steps_per_s']:.3g}"
+
+    plate = row_of(frame[(frame["scene"] == "plate_paper") & (frame["set"] == "n=100")], "avx512")
+    lines = []
+    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
+        fastest, cores = row_of(rows, "avx512"), row_of(rows, "avx512", True)
+        per_link = "" if fastest is None or plate is None else (
+            f"{fastest['link_steps_per_s'] / plate['link_steps_per_s']:.2f}")
+        of_kernel = "" if fastest is None else (
+            f"{1e-9 * in_l1[law_of(scene)] * fastest['link_steps_per_s']:.2f}")
+        first = rows.iloc[0]
+        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), f"{int(first['elements'])}",
+                      f"{first['links'] / first['elements']:.2f}",
+                      *(rate(row_of(rows, variant)) for variant in rates), rate(cores),
+                      rate(row_of(rows, "opencl", True)), per_link, of_kernel,
+                      "" if fastest is None else speedup_over(fastest, "scalar")])
+    return ["body", "elements", "links an element", *(f"`{name}`" for name in rates),
+            "`avx512`, all cores", "`opencl`, all cores", "per link, over the plate n = 100",
+            "per link, over its row in L1", "`avx512` over `scalar`"], lines
+
+
+def bodies_table(results):
+    """The study `bodies`: rates of a link over that of the plate n = 100 of the same precision and
+    method, on one core, and two threads over one."""
+    frame = results.table("bodies", "scene", "set", "variant", "threads", "precision",
+                          "integrator", "elements", "links", "measured_wall_s",
+                          "measured_wall_low_s", "measured_wall_high_s", "link_steps_per_s",
+                          "label", "status",
+                          optional=["speedup_vs_avx512", "speedup_vs_avx512_low",
+                                    "speedup_vs_avx512_high"])
+    frame = frame[~frame["label"].str.contains("A/A") & (frame["status"] == "ok")
+                  & (frame["variant"] == "avx512")].copy()
+    frame["set"] = frame["set"].fillna("")
+    kinds = [(precision, method) for method in ("rk4", "velocity_verlet")
+             for precision in ("f64", "f32")]
+
+    def of_kind(rows, precision, method, threads=1):
+        rows = rows[(rows["precision"] == precision) & (rows["integrator"] == method)
+                    & (rows["threads"] == threads)]
+        return None if rows.empty else rows.iloc[0]
+
+    def over_plate(rows, kind):
+        row, plate = of_kind(rows, *kind), of_kind(plates, *kind)
+        if row is None or plate is None:
+            return ""
+        ratio = row["link_steps_per_s"] / plate["link_steps_per_s"]
+        # Of the medians; the ends of the interval are those of both times.
+        spread = [(row["measured_wall_s"] / row[f"measured_wall_{end}_s"])
+                  * (plate[f"measured_wall_{other}_s"] / plate["measured_wall_s"])
+                  for end, other in (("high", "low"), ("low", "high"))]
+        return with_interval(ratio, *(ratio * each for each in spread))
+
+    plates = frame[(frame["scene"] == "plate_paper") & frame["set"].str.match(r"n=100( |$)")]
+    lines = []
+    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
+        first, both = rows.iloc[0], of_kind(rows, "f64", "rk4", 2)
+        values = values.replace(" run.dt=2e-07", "")
+        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), f"{int(first['elements'])}",
+                      f"{first['links'] / first['elements']:.2f}",
+                      *(over_plate(rows, kind) for kind in kinds),
+                      "" if both is None else speedup_over(both, "avx512")])
+    return ["body", "elements", "links an element",
+            *(f"{method}, {precision}" for precision, method in kinds),
+            "2 threads over 1, rk4, f64"], lines
