@@ -38,7 +38,10 @@ function(digest out)
   set(${out} ${sum} PARENT_SCOPE)
 endfunction()
 
-digest(core kernels solver variants experiments/base experiments/run experiments/measure)
+# What `verify` finds is in no record.
+file(GLOB run_folders RELATIVE ${SOURCE} ${SOURCE}/experiments/run/*)
+list(REMOVE_ITEM run_folders experiments/run/verify)
+digest(core kernels solver variants experiments/base ${run_folders} experiments/measure)
 set(sources "{\"core\", \"${core}\"}")
 file(GLOB kinds RELATIVE ${SOURCE}/experiments ${SOURCE}/experiments/studies/*/study.cpp)
 foreach(kind IN LISTS kinds)

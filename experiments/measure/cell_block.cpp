@@ -57,7 +57,8 @@ bool is_threaded(const VariantStatus& status) {
   return status.is_usable() && load_variant(status.name).is_threaded;
 }
 
-/// The oracle's loop computes whole problems only; all other variants can compute a part.
+/// True if a variant can compute a part, or cannot be opened. Variants with all features are the
+/// oracle's loop, which computes whole problems only.
 bool can_distribute(const VariantStatus& status) {
   return !status.is_usable() || !load_variant(status.name).has_all;
 }

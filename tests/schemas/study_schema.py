@@ -2,13 +2,14 @@
 """Joins the schemas of the kinds of studies into experiments/studies/study.schema.json.
 
 A kind is a schema experiments/studies/KIND/KIND.schema.json with the title "The key KEY of a
-study". The joined schema offers the key, accepts a study that has it, and takes the scales from
-`$defs/scale` of the kind. Keys that go with others (cells, simulation, work_precision) are joined
-by hand in that file; their parts stay as they are.
+study" and a description. The joined schema offers the key, accepts a study that has it, and takes
+the scales from `$defs/scale` of the kind. Keys that go with others (cells, simulation,
+work_precision) are joined by hand in that file; here they get only their description. The file is
+written anew in the layout of json.dumps.
 
-    study_schema.py          writes the file anew
-    study_schema.py --check  exits with 1 if it is not current
+Example: tests/schemas/study_schema.py --check
 """
+import argparse
 import json
 import re
 import sys
@@ -23,9 +24,11 @@ def kinds(folder):
     """Yields (key, path of its schema in `folder`, description), in the order of the folders."""
     for path in sorted(folder.glob("*/*.schema.json")):
         schema = json.loads(path.read_text())
-        title = re.fullmatch(r"The key (\w+) of a study", schema["title"])
+        title = re.fullmatch(r"The key (\w+) of a study", schema.get("title", ""))
         if not title:
-            raise SystemExit(f'{path}: the title is not "The key KEY of a study"')
+            sys.exit(f'{path}: the title is not "The key KEY of a study"')
+        if not schema.get("description"):
+            sys.exit(f"{path}: has no description")
         yield title[1], str(path.relative_to(folder)), schema["description"]
 
 
@@ -34,7 +37,7 @@ def joined(schema, found):
     found = list(found)
     paths = {key: path for key, path, _ in found}
     former = [key for key, part in schema["properties"].items()
-              if re.fullmatch(r"(\w+)/\1.schema.json", part.get("$ref", ""))
+              if re.fullmatch(r"(\w+)/\1\.schema\.json", part.get("$ref", ""))
               and key not in BY_HAND]
     simple = [key for key in paths if key not in BY_HAND]
     dropped = set(former + simple)
@@ -52,9 +55,12 @@ def joined(schema, found):
 
 
 if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description="Writes " + str(JOINED))
+    parser.add_argument("--check", action="store_true",
+                        help="write nothing; exit with 1 if the file is not current")
     present = JOINED.read_text()
     text = json.dumps(joined(json.loads(present), kinds(STUDIES)), indent=2) + "\n"
-    if sys.argv[1:] != ["--check"]:
+    if not parser.parse_args().check:
         JOINED.write_text(text)
     elif text != present:
-        sys.exit(f"{JOINED}: does not join the schemas of all kinds; run make pages")
+        sys.exit(f"{JOINED}: is not what the kinds give; run make pages")

@@ -1,6 +1,6 @@
 #include "experiments/run/stability/stability_limit.hpp"
+#include "experiments/run/state/random_state.hpp"
 #include "experiments/run/state/state_access.hpp"
-#include "experiments/run/verify/verify.hpp"
 #include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-#include "experiments/run/verify/verify.hpp"
-#include "kernels/model.hpp"
+#include "experiments/run/state/random_state.hpp"
 
 #include <algorithm>
 #include <cmath>

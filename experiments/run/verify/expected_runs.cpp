@@ -20,13 +20,14 @@ std::vector<double> ExpectedRuns::computed(const Method& method, Rotation equati
 
 const ExpectedRun& ExpectedRuns::run(const Method& method, Rotation equations, int halvings) {
   const auto [place, is_new] = runs_.try_emplace({&method, equations, halvings});
-  ExpectedRun& run = place->second;
+  ExpectedRun& expected = place->second;
   if (is_new) {
-    run.dt = halvings == 0 ? verified_step(problem_, method)
-                           : std::ldexp(this->run(method, equations).dt, -halvings);
-    run.state = computed<long double>(method, equations, run.dt, steps_ << halvings);
+    // The step of the run that is not halved is kept: to find it takes long in large scenes.
+    expected.dt = halvings == 0 ? verified_step(problem_, method)
+                                : std::ldexp(run(method, equations).dt, -halvings);
+    expected.state = computed<long double>(method, equations, expected.dt, steps_ << halvings);
   }
-  return run;
+  return expected;
 }
 
 double ExpectedRuns::rounding_error(const Method& method, Rotation equations, Precision precision) {

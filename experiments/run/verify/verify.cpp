@@ -1,5 +1,6 @@
 #include "experiments/run/verify/verify.hpp"
 #include "experiments/run/plan/run_plan.hpp"
+#include "experiments/run/state/random_state.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/verify/expected_runs.hpp"
 #include "experiments/run/verify/verified_methods.hpp"
@@ -179,24 +180,30 @@ private:
 
   /// Kernels and oracle have equal equations for |q| = 1 alone. Runge-Kutta methods keep that
   /// length to their order. So a difference at a given time that falls by this order, as the step
-  /// is halved, is the method's own. With a wrong force it would stay. All falls together may fall
-  /// short of the order by one, as long steps do. A single one may by two where two terms of the
-  /// error cancel, but not below one. Errors above `asymptotic` say nothing of the order: the step
-  /// is halved until they are below.
+  /// is halved, is the method's own. With a wrong force it would stay. Five falls are judged, or
+  /// those to the tolerance. Together they may be one order short, as long steps are. A single one
+  /// may be two orders short, because terms of the error can cancel, but it must be of first order
+  /// at least. Errors above `asymptotic` say nothing of the order: first the step is halved until
+  /// they are below.
   bool falls_by_order(const Plugin& plugin, const Method& method, double error) {
-    constexpr int most_halvings = 9, most_falls = 5;
+    constexpr int most_long_steps = 4, judged_falls = 5;
     constexpr double asymptotic = 0.1;
-    if (method.family != Method::Family::runge_kutta) return false;
-    const double least = std::ldexp(1, std::max(1, method.order - 2));
-    double allowed = 0; // after all falls so far
-    for (int halvings = 1, falls = 0; halvings <= most_halvings && falls < most_falls; ++halvings) {
-      const double before = std::exchange(error, error_of_halved(plugin, method, halvings));
-      if (!(before <= asymptotic)) continue;
-      if (!(error * least <= before)) return false;
-      allowed = std::ldexp(falls++ == 0 ? before : allowed, 1 - method.order);
-      if (error <= std::min(allowed, tolerance().run)) return true;
+    if (method.family != Method::Family::runge_kutta || !std::isfinite(error)) return false;
+    const double least_fall = std::ldexp(1, std::max(1, method.order - 2));
+    double allowed_error = 0; // after all falls so far
+    int long_steps = 0, falls = 0;
+    while (falls < judged_falls) {
+      const double before =
+          std::exchange(error, error_of_halved(plugin, method, long_steps + falls + 1));
+      if (before > asymptotic) {
+        if (++long_steps > most_long_steps) return false;
+        continue;
+      }
+      if (!(error * least_fall <= before)) return false;
+      allowed_error = std::ldexp(falls++ == 0 ? before : allowed_error, 1 - method.order);
+      if (error <= std::min(allowed_error, tolerance().run)) return true;
     }
-    return error <= allowed;
+    return error <= allowed_error;
   }
 
   /// True if rounding alone grows beyond the tolerance, as in motions that the model does not
