@@ -2,8 +2,10 @@
 
 A function takes Results, and returns the heads and the lines of texts.
 """
+import json
+
 from body_tables import bodies_table, geometry_table, schedules_table
-from tables.results import Results
+from tables.results import NotMeasured, Results
 from tables.words import speedup_over, with_interval
 
 
@@ -40,14 +42,30 @@ def chain_table(results):
 def first_table(results):
     """Table 1 of the paper on this machine: one process."""
     frame = results.table("table1", "source", "label", "variant", "threads", "ranks", "status",
-                          "contaminated", "repetitions")
+                          "contaminated", "repetitions", "measured_wall_s", "steps")
     frame = frame[(frame["source"] == "measured") & (frame["ranks"] == 1)
                   & ~frame["label"].str.contains("A/A") & (frame["status"] == "ok")]
     bases = ("as_published", "reference", "scalar")
 
-    lines = [[row["label"], *(speedup_over(row, base) for base in bases),
-              disturbed(row)] for _, row in frame.iterrows()]
-    return ["variant", *(f"over `{base}`" for base in bases), "contaminated"], lines
+    lines = [[row["label"], f"{1e3 * row['measured_wall_s'] / row['steps']:.3g}",
+              *(speedup_over(row, base) for base in bases), disturbed(row)]
+             for _, row in frame.iterrows()]
+    return ["variant", "ms a step", *(f"over `{base}`" for base in bases), "contaminated"], lines
+
+
+def machine_table(results):
+    """The machine and the build of Table 1, as its circumstances have them."""
+    path = results.directory / "raw" / "table1.json"
+    if not path.exists():
+        raise NotMeasured(f"{path} is missing")
+    context = json.loads(path.read_text())["context"]
+    caches = {(each["level"], each["type"]): each["size"] for each in context["caches"]}
+    l2 = caches.get((2, "Unified"))
+    return ["CPU", "cores", "L2 of a core", "memory", "compiler", "commit", "date"], [[
+        context["cpu_model"], str(context["num_cpus"]),
+        "" if l2 is None else f"{l2 / 2**20:.3g} MiB", f"{context['memory_bytes'] / 2**30:.0f} GiB",
+        f"{context['compiler']}, {context['compiler_flags']}", context["git_commit"][:7],
+        context["date"][:10]]]
 
 
 def gpu_table(results):
@@ -174,6 +192,7 @@ def statics_table(results):
 
 
 TABLES = {"bodies": bodies_table, "chain": chain_table, "continuum": continuum_table,
-          "first": first_table, "geometry": geometry_table, "gpu": gpu_table, "mix": mix_table,
-          "models": models_table, "networks": network_table, "schedules": schedules_table,
-          "sizes": sizes_table, "statics": statics_table}
+          "first": first_table, "geometry": geometry_table, "gpu": gpu_table,
+          "machine": machine_table, "mix": mix_table, "models": models_table,
+          "networks": network_table, "schedules": schedules_table, "sizes": sizes_table,
+          "statics": statics_table}
