@@ -2,7 +2,7 @@
 import json
 from pathlib import Path
 
-from tables.words import speedup_over, with_interval
+from tables.words import speedup_over
 
 
 def row_kernels(results):
@@ -77,48 +77,3 @@ def geometry_table(results):
     return ["body", "elements", "links an element", *(f"`{name}`" for name in rates),
             "`avx512`, all cores", "`opencl`, all cores", "per link, over the plate n = 100",
             "per link, over its row in L1", "`avx512` over `scalar`"], lines
-
-
-def bodies_table(results):
-    """The study `bodies`: rates of a link over that of the plate n = 100 by the same method in the
-    same precision, on one core, and all cores over one."""
-    frame = results.table("bodies", "scene", "set", "variant", "threads", "precision",
-                          "integrator", "elements", "links", "measured_wall_s",
-                          "measured_wall_low_s", "measured_wall_high_s", "link_steps_per_s",
-                          "label", "status",
-                          optional=["speedup_vs_avx512", "speedup_vs_avx512_low",
-                                    "speedup_vs_avx512_high"])
-    frame = frame[~frame["label"].str.contains("A/A") & (frame["status"] == "ok")
-                  & (frame["variant"] == "avx512")].copy()
-    frame["set"] = frame["set"].fillna("")
-    kinds = [(precision, method) for method in ("rk4", "velocity_verlet")
-             for precision in ("f64", "f32")]
-
-    def of_kind(rows, precision, method, threads=1):
-        rows = rows[(rows["precision"] == precision) & (rows["integrator"] == method)
-                    & (rows["threads"] == threads)]
-        return None if rows.empty else rows.iloc[0]
-
-    def over_plate(rows, kind):
-        row, plate = of_kind(rows, *kind), of_kind(plates, *kind)
-        if row is None or plate is None:
-            return ""
-        ratio = row["link_steps_per_s"] / plate["link_steps_per_s"]
-        # The ends of both intervals together: wider than the interval of pairs.
-        spread = [(row["measured_wall_s"] / row[f"measured_wall_{end}_s"])
-                  * (plate[f"measured_wall_{other}_s"] / plate["measured_wall_s"])
-                  for end, other in (("high", "low"), ("low", "high"))]
-        return with_interval(ratio, *(ratio * each for each in spread))
-
-    plates = frame[(frame["scene"] == "plate_paper") & frame["set"].str.match(r"n=100( |$)")]
-    lines = []
-    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
-        first, on_all = rows.iloc[0], of_kind(rows, "f64", "rk4", frame["threads"].max())
-        values = values.replace(" run.dt=2e-07", "")
-        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), f"{int(first['elements'])}",
-                      f"{first['links'] / first['elements']:.2f}",
-                      *(over_plate(rows, kind) for kind in kinds),
-                      "" if on_all is None else speedup_over(on_all, "avx512")])
-    return ["body", "elements", "links an element",
-            *(f"{method}, {precision}" for precision, method in kinds),
-            "all cores over one, rk4, f64"], lines

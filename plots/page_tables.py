@@ -4,7 +4,7 @@ A function takes Results, and returns the heads and the lines of texts.
 """
 import json
 
-from body_tables import bodies_table, geometry_table, schedules_table
+from body_tables import geometry_table, schedules_table
 from tables.results import NotMeasured, Results
 from tables.words import speedup_over, with_interval
 
@@ -191,7 +191,7 @@ def statics_table(results):
     return ["scene", "elements", "unknowns", "factors", *solvers[1:]], lines
 
 
-TABLES = {"bodies": bodies_table, "chain": chain_table, "continuum": continuum_table,
+TABLES = {"chain": chain_table, "continuum": continuum_table,
           "first": first_table, "geometry": geometry_table, "gpu": gpu_table,
           "machine": machine_table, "mix": mix_table, "models": models_table,
           "networks": network_table, "schedules": schedules_table, "sizes": sizes_table,
