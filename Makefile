@@ -15,7 +15,7 @@ export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
-.PHONY: verify-cpu verify-devices pages test-aarch64 fuzz mutants faults restarts flips valgrind sanitize
+.PHONY: verify-cpu verify-devices pages test-aarch64 fuzz mutants faults restarts flips valgrind
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -96,12 +96,6 @@ valgrind: export DSS_EXTRA_PACKAGES += valgrind
 valgrind: TARGETS := --target dssbench
 valgrind: build
 	@tests/faults/valgrind_ranks.sh $(BUILD)/dssbench
-
-# The whole suite under each sanitizer, and ranks under valgrind: some two hours.
-sanitize:
-	@$(MAKE) --no-print-directory test PRESET=asan
-	@$(MAKE) --no-print-directory test PRESET=tsan
-	@$(MAKE) --no-print-directory valgrind
 
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.
