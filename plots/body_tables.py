@@ -1,8 +1,18 @@
 """Tables of bodies of many shapes that pages quote (page_tables.py)."""
 import json
-from pathlib import Path
 
+from tables.results import ROOT
 from tables.words import speedup_over
+
+
+def bodies_of(results, *needed, optional=()):
+    """Yields (name, scene, rows) of each body of `geometry` on one rank, in its order."""
+    frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "label",
+                          *needed, optional=optional)
+    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
+    frame["set"] = frame["set"].fillna("")
+    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
+        yield f"`{scene.split('/')[-1]}` {values}".strip(), scene, rows
 
 
 def row_kernels(results):
@@ -19,37 +29,29 @@ def row_kernels(results):
 
 def law_of(scene):
     """The law of the first body of a shipped scene."""
-    path = Path(__file__).resolve().parents[1] / "experiments" / "scenes" / f"{scene}.json"
+    path = ROOT / "experiments" / "scenes" / f"{scene}.json"
     return json.loads(path.read_text())["bodies"][0]["constants"]["law"]
 
 
 def schedules_table(results):
     """What the records of `geometry` say of the order of rows: avx512 on one core, and OpenCL."""
-    frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "schedule",
-                          "label")
-    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
-    frame["set"] = frame["set"].fillna("")
     lines = []
-    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
+    for name, _, rows in bodies_of(results, "schedule"):
         on_core = rows[(rows["variant"] == "avx512") & (rows["threads"] == 1)]["schedule"]
         # A record of OpenCL begins with the device, its bands of rows and lanes.
         on_device = rows[rows["variant"] == "opencl"]["schedule"].str.split("; ").str[-1]
-        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(),
-                      *(found.iloc[0] if len(found) else "" for found in (on_core, on_device))])
+        lines.append([name, *(found.iloc[0] if len(found) else ""
+                              for found in (on_core, on_device))])
     return ["body", "`avx512`, one core", "`opencl`"], lines
 
 
 def geometry_table(results):
     """Rates of the bodies of many shapes; those of a link over those of the plate n = 100 and of
     the law's row kernel in the L1 cache."""
-    frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "elements",
-                          "links", "element_steps_per_s", "link_steps_per_s", "label", "status",
-                          optional=["speedup_vs_scalar", "speedup_vs_scalar_low",
-                                    "speedup_vs_scalar_high", "extrapolated_speedup_vs_scalar",
-                                    "extrapolated_speedup_vs_scalar_low",
-                                    "extrapolated_speedup_vs_scalar_high"])
-    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
-    frame["set"] = frame["set"].fillna("")
+    speedups = [f"{form}speedup_vs_scalar{end}" for form in ("", "extrapolated_")
+                for end in ("", "_low", "_high")]
+    bodies = list(bodies_of(results, "elements", "links", "element_steps_per_s",
+                            "link_steps_per_s", "status", optional=speedups))
     rates, in_l1 = ["scalar", "avx2", "avx512"], row_kernels(results)
 
     def row_of(rows, variant, is_on_all_cores=False):
@@ -60,16 +62,17 @@ def geometry_table(results):
     def rate(row):
         return "" if row is None else f"{1e-6 * row['element_steps_per_s']:.3g}"
 
-    plate = row_of(frame[(frame["scene"] == "plate_paper") & (frame["set"] == "n=100")], "avx512")
+    plate = next((row_of(rows, "avx512") for name, _, rows in bodies
+                  if name == "`plate_paper` n=100"), None)
     lines = []
-    for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
+    for name, scene, rows in bodies:
         fastest, cores = row_of(rows, "avx512"), row_of(rows, "avx512", True)
         per_link = "" if fastest is None or plate is None else (
             f"{fastest['link_steps_per_s'] / plate['link_steps_per_s']:.2f}")
         of_kernel = "" if fastest is None else (
             f"{1e-9 * in_l1[law_of(scene)] * fastest['link_steps_per_s']:.2f}")
         first = rows.iloc[0]
-        lines.append([f"`{scene.split('/')[-1]}` {values}".strip(), f"{int(first['elements'])}",
+        lines.append([name, f"{int(first['elements'])}",
                       f"{first['links'] / first['elements']:.2f}",
                       *(rate(row_of(rows, variant)) for variant in rates), rate(cores),
                       rate(row_of(rows, "opencl", True)), per_link, of_kernel,

@@ -3,6 +3,7 @@
 #include "experiments/run/verify/verify.hpp"
 #include "solver/error.hpp"
 #include "tests/fixtures/problems.hpp"
+#include "tests/fixtures/spinning_element.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -73,11 +74,8 @@ TEST(VerifyScene, WithoutDevicesLeavesOutVariantsOnThemAndGivesHybridsNone) {
     EXPECT_FALSE(member.member.starts_with("opencl")) << member.member;
 }
 
-// A free element that turns by 0.6 rad a step. Kernels and oracle differ there by 0.1 and more at
-// order 2, so the order shows only after the step was halved some times.
 TEST(VerifyScene, JudgesFastRotationsByTheOrderThatSmallerStepsShow) {
-  const Scene scene = load_scene(
-      "tumbling_box", {{"nx", "1"}, {"ny", "1"}, {"nz", "1"}, {"spin", "6"}, {"run.dt", "0.05"}});
+  const Scene scene = fixture::spinning_element();
   int by_order = 0;
   for (const VerifyRow& row : verify_scene(scene, 40, {&load_variant("scalar")}, no_device)) {
     EXPECT_NE(row.verdict, VerifyRow::Verdict::failed)
