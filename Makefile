@@ -16,6 +16,7 @@ endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
 .PHONY: verify-cpu verify-devices pages test-aarch64 fuzz mutants faults restarts flips valgrind
+.PHONY: sanitize coverage
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -68,7 +69,8 @@ MUTANTS ?= 60
 mutants: dependencies
 	@mkdir -p build/mutants
 	@git ls-files -z | xargs -0 cp --parents -t build/mutants
-	@cmake --preset debug -S build/mutants -DDSS_UNITY=OFF -DDSS_VARIANTS=reference >/dev/null
+	@cmake --preset debug -S build/mutants -DDSS_UNITY=OFF -DDSS_FEWER_KERNELS=ON -DDSS_WERROR=OFF \
+	  "-DDSS_VARIANTS=reference;scalar;avx2" >/dev/null
 	@tests/mutants/mutate.py --tree build/mutants --count $(MUTANTS) --json build/mutants.json
 
 # Kills, stops and failing writes, KILLS and WRITES of them (tests/faults/campaign.py).
@@ -96,6 +98,19 @@ valgrind: export DSS_EXTRA_PACKAGES += valgrind
 valgrind: TARGETS := --target dssbench
 valgrind: build
 	@tests/faults/valgrind_ranks.sh $(BUILD)/dssbench
+
+# The whole suite with each sanitizer, and ranks under valgrind: some two hours.
+sanitize:
+	@$(MAKE) --no-print-directory test PRESET=asan
+	@$(MAKE) --no-print-directory test PRESET=tsan
+	@$(MAKE) --no-print-directory valgrind
+
+# Which lines and branches the suite runs (tests/coverage/coverage.py). A test that fails in this
+# build does not hide what the others ran.
+coverage: export DSS_EXTRA_PACKAGES += gcovr
+coverage:
+	@-$(MAKE) --no-print-directory test PRESET=coverage
+	@tests/coverage/coverage.py build/coverage
 
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.

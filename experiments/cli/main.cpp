@@ -1,5 +1,6 @@
 /// The program `dssbench`: exit codes, and one line for every error.
 #include "experiments/base/interrupt.hpp"
+#include "experiments/base/thread_stacks.hpp"
 #include "experiments/cli/command_line.hpp"
 #include "experiments/cli/completion.hpp"
 #include "experiments/run/plan/job.hpp"
@@ -101,6 +102,7 @@ int run_program(const std::vector<std::string>& words) {
     return line.app().exit(help_or_version);
   }
   require_alone(line.command());
+  require_thread_stacks();
   add_variant_path(line.variant_path());
   const int exit_code = line.run();
   end_variants(exit_code, true);

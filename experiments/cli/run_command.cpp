@@ -58,13 +58,25 @@ void require_no_tile_of_parts(const RunRequest& request) {
                                  request.tile));
 }
 
+/// The file of members, and the voxel files that members name.
+void read_ensemble_files(const RunRequest& request, CommandFiles& files) {
+  files.read("--ensemble", request.ensemble);
+  for (const MemberSet& member : read_members(request.ensemble)) {
+    const auto is_of_voxels = [](const Override& item) { return item.key.find("voxels") != std::string::npos; };
+    if (std::ranges::none_of(member.set, is_of_voxels)) continue;
+    std::vector<Override> overrides = request.overrides;
+    overrides.insert(overrides.end(), member.set.begin(), member.set.end());
+    files.read_scene(request.scene, overrides);
+  }
+}
+
 /// No output may replace a file that the run reads, or another output.
 void require_distinct_files(const RunRequest& request, const std::string& analysis) {
   CommandFiles files;
   files.read_scene(request.scene, request.overrides);
   const bool has_members = !request.ensemble.empty();
   if (request.ensemble.ends_with(".json") || request.ensemble.ends_with(".csv"))
-    files.read("--ensemble", request.ensemble);
+    read_ensemble_files(request, files);
   if (is_file(request.decomposition)) files.read("--decomposition", request.decomposition);
   files.read("--check-state", request.check_state);
   files.read("--reference", request.reference);
@@ -113,9 +125,6 @@ int run(const CLI::App& command, const RunArguments& arguments) {
     throw InputError("--ensemble: give a file that ends in .json or .csv, or a number of members");
   if (analysis != "dynamic" && !request.ensemble.empty())
     throw InputError("--ensemble: members are computed in time; give --analysis dynamic");
-  if (!request.ensemble.empty() && !(request.checkpoint.empty() && request.restart.empty()))
-    throw InputError("--ensemble: ensembles have no checkpoints; leave --checkpoint and --restart "
-                     "out, or run members by themselves");
   if (request.guard == 0 &&
       command.count("--guard") + command.count("--guard-steps") + command.count("--guard-variant") >
           0)

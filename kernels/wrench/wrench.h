@@ -3,7 +3,7 @@
  * of summation is always x, y, z; the upper link before the lower; then ties. */
 
 /* Which terms are compiled in. The flags are constants at every call; C++ has them as Terms
- * (kernels/physics.hpp). */
+ * (kernels/terms.hpp). */
 typedef struct {
   int is_material, is_damped, is_bending, is_gyroscopic, is_tied, is_oblong;
 } term_flags;

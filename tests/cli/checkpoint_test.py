@@ -167,8 +167,6 @@ class Checkpoints(ProgramTest):
         self.assert_refused(2, ["--checkpoint"], "run", *PLATE, "--checkpoint-every", "9")
         for option in ("--checkpoint", "--restart"):
             self.assert_refused(2, [option, "empty"], "run", *PLATE, option, "")
-        self.assert_refused(2, ["--ensemble"], "run", *PLATE, "--ensemble", "3", "--checkpoint",
-                            self.path("c"))
         self.assert_refused(2, ["--checkpoint", "--json"], "run", *PLATE, "--checkpoint",
                             self.path("c"), "--json", self.path("c.previous"))
         self.assert_refused(2, ["no/c"], "run", *PLATE, "--checkpoint", self.path("no/c"))

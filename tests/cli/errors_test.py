@@ -163,6 +163,19 @@ class Errors(ProgramTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("this CPU lacks fma", result.stdout)
 
+    def test_stacks_that_no_thread_can_have_are_refused(self):
+        run = ("run", "two_elements", "--steps", "5", "--threads", "2")
+        for name, size in (("OMP_STACKSIZE", "16k"), ("OMP_STACKSIZE", " 1000000 G"),
+                           ("GOMP_STACKSIZE", "17")):
+            result = dssbench(*run, env={**os.environ, name: size})
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            for word in (f"{name}={size}:", "unset it"):
+                self.assertIn(word, result.stderr)
+        for size in ("1B", "2m", "4096", "1 G"):  # libgomp says that 1B is less than the least
+            result = dssbench(*run, env={**os.environ, "OMP_STACKSIZE": size})
+            self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_a_team_smaller_than_asked_for_is_refused_instead_of_leaving_rows_behind(self):
         limited = {"env": {**os.environ, "OMP_THREAD_LIMIT": "1"}}
         self.assert_refused(2, ["--threads 3", "OMP_THREAD_LIMIT"], *SMALL, "--variant", "scalar",

@@ -62,6 +62,10 @@ class Files(ProgramTest):
         for command in ("run", "explain", "stability"):
             self.assert_nothing_written([other, "SCENE reads this file"], command, path, *changed,
                                         "--json", other)
+        members = self.write("m.json", json.dumps({"members": [
+            {}, {"set": {"bodies/0/geometry/voxels/file": "other.txt"}}]}))
+        self.assert_nothing_written([other, "SCENE reads this file"], "run", path, "--ensemble",
+                                    members, "--json", other)
 
     def test_no_output_replaces_the_platform_of_a_simulation(self):
         platform = self.path("own.xml")

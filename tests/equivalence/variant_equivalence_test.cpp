@@ -136,21 +136,22 @@ TEST_P(EveryVariant, agrees_with_the_oracle_after_one_evaluation_of_a_random_sta
       }
 }
 
-/// One test for all variants, because the oracle's runs take longest.
+/// One test for all variants, because the oracle's runs take longest. All precisions begin at a
+/// state that float32 holds, so they have one run of the oracle.
 TEST(Variants, agree_with_the_oracle_after_a_run_from_a_moderate_state) {
   for (const Case& c : cases()) {
-    std::map<std::tuple<Model, std::string_view, Precision, Rotation>, State> expected;
+    std::map<std::tuple<Model, std::string_view, Rotation>, State> expected;
     for (const std::string& variant : usable_variants()) {
       const TestedVariant tested{load_variant(variant)};
       for (const Model model : tested.tested_models(c))
         for (const auto& [method, precision] : tested.tested_schemes(c, model)) {
           const State state = rounded(
               restricted(fixture::random_state(c.problem, 2, c.gap * 0.01, 0.02, 0.01), model),
-              precision);
+              Precision::f32);
           const State end =
               VariantRun{tested.plugin, c.problem, method, model, precision}.after(state, 30);
           const Rotation finite = tested.plugin.rotation;
-          State& of_oracle = expected[{model, method.name, precision, finite}];
+          State& of_oracle = expected[{model, method.name, finite}];
           if (of_oracle.empty())
             of_oracle = oracle_after(c.problem, method, state, 30, model, finite);
           const bool is_whole = tested.plugin.has_all && !is_common(model);

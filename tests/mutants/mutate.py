@@ -26,11 +26,12 @@ SLOWER = 10
 
 
 class Area:
-    """Sources, and the tests that should notice a mistake in them."""
+    """Sources, and the tests that should notice a mistake in them: pairs of a program and a filter,
+    the nearest first."""
 
     def __init__(self, name, description, tree, build):
         self.name, self.tree, self.build = name, tree, build
-        self.target, self.near, self.whole = (description[k] for k in ("target", "near", "whole"))
+        self.tests = [tuple(test) for test in description["tests"]]
         self.files = sorted(str(path.relative_to(tree)) for pattern in description["files"]
                             for path in tree.glob(pattern))
 
@@ -38,12 +39,14 @@ class Area:
         return [m for path in self.files for m in mutants_of(path, (self.tree / path).read_text())]
 
     def compile(self):
-        return subprocess.run(["cmake", "--build", self.build, "--target", self.target],
+        targets = dict.fromkeys(target for target, _ in self.tests)
+        return subprocess.run(["cmake", "--build", self.build, "--target", *targets],
                               capture_output=True, text=True).returncode == 0
 
-    def tested(self, tests, limit_s):
-        """True if these tests pass in time."""
-        program = next(self.build.glob(f"tests/**/{self.target}"))
+    def passes(self, test, limit_s):
+        """True if the tests of one program that match its filter pass in time."""
+        target, tests = test
+        program = next(self.build.glob(f"tests/**/{target}"))
         try:
             return subprocess.run([program, f"--gtest_filter={tests}", "--gtest_fail_fast"],
                                   capture_output=True, timeout=limit_s).returncode == 0
@@ -55,11 +58,11 @@ class Area:
         if not self.compile():
             sys.exit(f"mutate.py: {self.name}: does not build without a mutant")
         self.limits = {}
-        for tests in (self.near, self.whole):
+        for test in self.tests:
             begin = time.monotonic()
-            if not self.tested(tests, 3600):
-                sys.exit(f"mutate.py: {self.name}: {tests} fails without a mutant")
-            self.limits[tests] = 5 + SLOWER * (time.monotonic() - begin)
+            if not self.passes(test, 3600):
+                sys.exit(f"mutate.py: {self.name}: {' '.join(test)} fails without a mutant")
+            self.limits[test] = 5 + SLOWER * (time.monotonic() - begin)
 
     def judged(self, mutant):
         """killed, survived or invalid"""
@@ -69,8 +72,7 @@ class Area:
             path.write_text(mutant.applied_to(text))
             if not self.compile():
                 return "invalid"
-            passes = all(self.tested(tests, self.limits[tests])
-                         for tests in dict.fromkeys((self.near, self.whole)))
+            passes = all(map(self.passes, self.tests, self.limits.values()))
             return "survived" if passes else "killed"
         finally:
             path.write_text(text)

@@ -62,6 +62,8 @@ DistributedMembers::DistributedMembers(const Setup& setup)
                     std::accumulate(members.begin(), members.end(), 0.0);
   for (const double workers : world_.gather(executor_->workers())) workers_ += int(workers);
   for (const double bytes : world_.gather(double(executor_->bytes()))) bytes_ += std::size_t(bytes);
+  const int kept = dss::kept_fields(*executor_);
+  kept_fields_ = world_.least(kept) == world_.largest(kept) ? kept : 0;
 }
 
 void DistributedMembers::make_own(const Setup& setup) {
@@ -93,38 +95,57 @@ void DistributedMembers::make_own(const Setup& setup) {
                              ensemble_ ? &*ensemble_ : nullptr});
 }
 
-void DistributedMembers::write(std::size_t first, std::span<const double> fields) {
+std::pair<std::size_t, std::vector<double>>
+DistributedMembers::own_of(const Elements& elements, std::span<const double> whole) const {
+  const auto [first, numbers] = elements;
   const std::size_t begin = slice_.own_before(first),
-                    end = slice_.own_before(first + fields.size() / field_count);
-  std::vector<double> own((end - begin) * field_count);
+                    end = slice_.own_before(first + whole.size() / numbers);
+  std::vector<double> own((end - begin) * numbers);
   for (std::size_t n = begin; n < end; ++n)
-    std::copy_n(&fields[(slice_.place_of(n) - first) * field_count], field_count,
-                &own[(n - begin) * field_count]);
+    std::copy_n(&whole[(slice_.place_of(n) - first) * numbers], numbers,
+                &own[(n - begin) * numbers]);
+  return {begin, std::move(own)};
+}
+
+void DistributedMembers::join(const Elements& elements, std::size_t first_own,
+                              std::span<const double> own, std::span<double> whole) {
+  const auto [first, numbers] = elements;
+  std::ranges::fill(whole, 0.0);
+  for (std::size_t n = 0; n < own.size() / numbers; ++n)
+    std::copy_n(&own[n * numbers], numbers,
+                &whole[(slice_.place_of(first_own + n) - first) * numbers]);
+  world_.join(whole);
+}
+
+void DistributedMembers::write(std::size_t first, std::span<const double> fields) {
+  const auto [begin, own] = own_of({first, field_count}, fields);
   executor_->write(begin, own);
   std::ranges::fill(outcomes_, Outcome{});
 }
 
-void DistributedMembers::join(std::size_t first, std::size_t first_own, std::span<const double> own,
-                              std::span<double> whole) {
-  std::ranges::fill(whole, 0.0);
-  for (std::size_t n = 0; n < own.size() / field_count; ++n)
-    std::copy_n(&own[n * field_count], field_count,
-                &whole[(slice_.place_of(first_own + n) - first) * field_count]);
-  world_.join(whole);
+void DistributedMembers::read(std::size_t first, std::span<double> fields) {
+  auto [begin, own] = own_of({first, field_count}, fields);
+  executor_->read(begin, own);
+  join({first, field_count}, begin, own, fields);
 }
 
-void DistributedMembers::read(std::size_t first, std::span<double> fields) {
-  const std::size_t begin = slice_.own_before(first),
-                    end = slice_.own_before(first + fields.size() / field_count);
-  std::vector<double> own((end - begin) * field_count);
-  executor_->read(begin, own);
-  join(first, begin, own, fields);
+void DistributedMembers::save(std::size_t first, std::span<double> kept) {
+  const Elements elements{first, std::size_t(kept_fields_)};
+  auto [begin, own] = own_of(elements, kept);
+  dss::save(*executor_, begin, own);
+  join(elements, begin, own, kept);
+}
+
+void DistributedMembers::restore(std::size_t first, std::span<const double> kept) {
+  const auto [begin, own] = own_of({first, std::size_t(kept_fields_)}, kept);
+  dss::restore(*executor_, begin, own);
+  std::ranges::fill(outcomes_, Outcome{});
 }
 
 void DistributedMembers::derivative(std::span<const double> signals, std::span<double> rates) {
   std::vector<double> own(own_count_ * field_count);
   executor_->derivative(own_signals(signals), own);
-  join(0, 0, own, rates);
+  join({0, field_count}, 0, own, rates);
 }
 
 std::vector<double> DistributedMembers::own_signals(std::span<const double> signals) const {

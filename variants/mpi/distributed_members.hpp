@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace dss {
@@ -30,9 +31,12 @@ struct MemberSlice {
 };
 
 /// Rank r computes the members [r w, (r + 1) w), where w is the number of lanes of its variant. All
-/// calls are collective, except write, rank_info, traffic, outcomes, workers, bytes, schedule and
-/// work_alone.
-class DistributedMembers final : public Executor, public RankGroup, public MemberOutcomes {
+/// calls are collective, except write, restore, rank_info, traffic, outcomes, workers, bytes,
+/// schedule and work_alone.
+class DistributedMembers final : public Executor,
+                                 public StateTransfer,
+                                 public RankGroup,
+                                 public MemberOutcomes {
 public:
   explicit DistributedMembers(const Setup& setup);
   void write(std::size_t first, std::span<const double> fields) override;
@@ -42,6 +46,10 @@ public:
   std::string schedule() const override;
   int workers() const override { return workers_; }
   std::size_t bytes() const override { return bytes_; }
+  StateTransfer* state_transfer() override { return this; }
+  int kept_fields() const override { return kept_fields_; }
+  void save(std::size_t first, std::span<double> kept) override;
+  void restore(std::size_t first, std::span<const double> kept) override;
   RankGroup* rank_group() override { return this; }
   RankInfo rank_info() const override { return info_; }
   Traffic traffic() const override { return {}; }
@@ -54,8 +62,16 @@ private:
   /// Makes the executor of this rank's members.
   void make_own(const Setup& setup);
   std::vector<double> own_signals(std::span<const double> signals) const;
-  /// Puts rows of own elements from `first` on into those of the whole, and joins all ranks'.
-  void join(std::size_t first, std::size_t first_own, std::span<const double> own,
+  /// Elements of the whole from `first` on, each of so many numbers.
+  struct Elements {
+    std::size_t first, numbers;
+  };
+  /// The own elements among them: the index of the first, and their numbers.
+  std::pair<std::size_t, std::vector<double>> own_of(const Elements& elements,
+                                                     std::span<const double> whole) const;
+  /// Puts numbers of the own elements, from `first_own` on, into those of the whole, and joins all
+  /// ranks'.
+  void join(const Elements& elements, std::size_t first_own, std::span<const double> own,
             std::span<double> whole);
   bool is_own_alive() const;
   Outcome advance_own(long steps, const std::vector<double>& signals);
@@ -70,7 +86,7 @@ private:
   std::optional<Ensemble> ensemble_; ///< of this rank, if it has lanes
   std::unique_ptr<Executor> executor_;
   std::vector<Outcome> outcomes_; ///< of all members
-  int workers_ = 0;
+  int workers_ = 0, kept_fields_ = 0;
   std::size_t bytes_ = 0;
 };
 

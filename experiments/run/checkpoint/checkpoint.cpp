@@ -10,7 +10,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <optional>
 
 namespace dss {
 namespace {
@@ -23,6 +22,8 @@ struct Fact {
 };
 constexpr Fact known_facts[] = {
     {"program", "version of the program", "go on with the program that wrote it"},
+    {"members", "number of members (0: a run by itself)",
+     "give the --ensemble of the interrupted run"},
     {"problem", "scene", "give the scene and --set of the interrupted run"},
     {"elements", "number of elements", "give the scene and --set of the interrupted run"},
     {"model_asked", "--model", "give that --model"},
@@ -60,6 +61,7 @@ RunIdentity::RunIdentity(const RunRequest& request, const RunPlan& plan, bool is
                          bool has_fma, int kept_fields, std::span<const long> stops) {
   const ModelChoice& choice = plan.model_choice;
   facts["program"] = build_info().sources.at("core");
+  facts["members"] = 0;
   facts["problem"] = problem_digest(request, plan);
   facts["elements"] = plan.scene.problem.lattice.element_count;
   facts["model_asked"] = choice.asked;
@@ -78,6 +80,33 @@ RunIdentity::RunIdentity(const RunRequest& request, const RunPlan& plan, bool is
   facts["kept_fields"] = kept_fields;
 }
 
+CheckpointFile::CheckpointFile(std::string path, const nlohmann::ordered_json& head,
+                               Executor& executor, bool is_root)
+    : path_(std::move(path)), executor_(executor), is_root_(is_root) {
+  try_to([&] { file_.emplace(path_, head); });
+}
+
+template <class Act>
+void CheckpointFile::try_to(Act&& act) {
+  if (!is_root_ || !failure_.empty()) return;
+  work_alone(executor_, true);
+  try {
+    act();
+  } catch (const std::exception& error) {
+    failure_ = error.what();
+  }
+  work_alone(executor_, false);
+}
+
+void CheckpointFile::write(std::span<const double> numbers) {
+  try_to([&] { file_->write(numbers); });
+}
+
+std::string CheckpointFile::commit() {
+  try_to([&] { file_->commit(earlier_checkpoint(path_)); });
+  return failure_;
+}
+
 std::string write_checkpoint(const std::string& path, const RunIdentity& identity,
                              const Standing& standing, Executor& executor, std::size_t elements,
                              bool is_root) {
@@ -86,22 +115,9 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
   head["model"] = name(standing.model);
   head["steps_kept"] = standing.steps_kept.size();
   head["watch_kept"] = standing.watch_kept.size();
-  std::optional<BlockWriter> file;
-  std::string failure;
-  // The root goes on after a failure, because saving elements is collective. Others wait for it.
-  const auto try_to = [&](auto&& act) {
-    if (!is_root || !failure.empty()) return;
-    work_alone(executor, true);
-    try {
-      act();
-    } catch (const std::exception& error) {
-      failure = error.what();
-    }
-    work_alone(executor, false);
-  };
-  try_to([&] { file.emplace(path, head); });
+  CheckpointFile file(path, head, executor, is_root);
   for (const auto* list : {&standing.steps_kept, &standing.watch_kept})
-    if (!list->empty()) try_to([&] { file->write(*list); });
+    if (!list->empty()) file.write(*list);
   const std::size_t width = std::size_t(kept_fields(executor));
   std::vector<double> kept(std::min(elements, piece) * width);
   bool is_finite = true;
@@ -109,11 +125,10 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
     const std::span<double> part(kept.data(), std::min(piece, elements - first) * width);
     save(executor, first, part);
     is_finite &= std::ranges::all_of(part, [](double value) { return std::isfinite(value); });
-    try_to([&] { file->write(part); });
+    file.write(part);
   }
   if (!is_finite) return fmt::format("{}: the state is not finite, so it was not saved", path);
-  try_to([&] { file->commit(earlier_checkpoint(path)); });
-  return failure;
+  return file.commit();
 }
 
 SavedRun::SavedRun(std::string path) : path_(std::move(path)), reader_(path_) {
@@ -122,6 +137,8 @@ SavedRun::SavedRun(std::string path) : path_(std::move(path)), reader_(path_) {
     const auto found = head.find(key);
     return found != head.end() && found->is_number_unsigned() ? found->get<long>() : -1;
   };
+  if (head.value("members", nlohmann::json()) > 0)
+    throw InputError(fmt::format("{}: it is of an ensemble; give its --ensemble", path_));
   const auto model = head.find("model");
   standing_.step = whole("step");
   const std::optional<Model> found = model != head.end() && model->is_string()
@@ -134,10 +151,9 @@ SavedRun::SavedRun(std::string path) : path_(std::move(path)), reader_(path_) {
   if (whole("watch_kept") > 0) standing_.watch_kept = reader_.next();
 }
 
-void SavedRun::require_same(const RunIdentity& identity) const {
-  const nlohmann::json& head = reader_.head();
+void RunIdentity::require_same(const std::string& path, const nlohmann::json& head) const {
   for (const Fact& fact : known_facts) {
-    const nlohmann::json here = identity.facts.at(fact.name),
+    const nlohmann::json here = facts.at(fact.name),
                          there = head.value(fact.name, nlohmann::json());
     if (here == there) continue;
     // Digests tell nobody anything.
@@ -146,7 +162,7 @@ void SavedRun::require_same(const RunIdentity& identity) const {
     const std::string values = is_digest || !there.is_primitive()
                                    ? ""
                                    : fmt::format(": {} there, {} here", there.dump(), here.dump());
-    throw InputError(fmt::format("{}: the checkpoint is of another run, {} differs{}; {}", path_,
+    throw InputError(fmt::format("{}: the checkpoint is of another run, {} differs{}; {}", path,
                                  fact.what, values, fact.advice));
   }
 }

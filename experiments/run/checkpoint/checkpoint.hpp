@@ -5,6 +5,7 @@
 #include "experiments/run/plan/run_plan.hpp"
 #include "solver/io/block_file.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,12 +23,37 @@ struct Standing {
   std::vector<double> watch_kept; ///< of the watch over a model, or empty
 };
 
-/// The run that a checkpoint belongs to: what must agree so that bits do.
+/// The run, or the ensemble, that a checkpoint belongs to: what must agree so that bits do.
 struct RunIdentity {
   /// @param is_watched  the error of a small model is watched (ModelMonitor)
   RunIdentity(const RunRequest& request, const RunPlan& plan, bool is_watched, bool has_fma,
               int kept_fields, std::span<const long> stops);
+  /// @throws InputError if the file's head is of another run; the line names what differs and what
+  /// to give
+  void require_same(const std::string& path, const nlohmann::json& head) const;
   nlohmann::ordered_json facts; ///< name -> value
+};
+
+/// A checkpoint that the root writes. Others wait for it. After a failure they go on, because
+/// saving elements is collective.
+class CheckpointFile {
+public:
+  CheckpointFile(std::string path, const nlohmann::ordered_json& head, Executor& executor,
+                 bool is_root);
+  void write(std::span<const double> numbers);
+  /// Moves it to its place, and the one before to earlier_checkpoint().
+  /// @return one line if the root could not write it, else empty
+  std::string commit();
+
+private:
+  template <class Act>
+  void try_to(Act&& act);
+
+  std::string path_;
+  Executor& executor_;
+  bool is_root_;
+  std::optional<BlockWriter> file_;
+  std::string failure_;
 };
 
 /// Writes a checkpoint. Collective: all ranks give their elements, the root writes.
@@ -43,8 +69,10 @@ public:
   /// Reads all but the elements. @throws InputError if the file is none or is damaged
   explicit SavedRun(std::string path);
   const Standing& standing() const { return standing_; }
-  /// @throws InputError if it belongs to another run; the line names what differs and what to give
-  void require_same(const RunIdentity& identity) const;
+  /// @throws InputError as RunIdentity::require_same
+  void require_same(const RunIdentity& identity) const {
+    identity.require_same(path_, reader_.head());
+  }
   /// Gives each executor its elements. Collective.
   /// @throws InputError if a block is damaged
   void restore(Executor& executor, std::size_t elements);

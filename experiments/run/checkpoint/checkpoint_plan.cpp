@@ -37,9 +37,19 @@ void require_sound_checkpoints(const RunRequest& request, const RunPlan& plan) {
     refuse("a run that is repeated for its time has none; leave --samples and --repeat-for out");
   if (!request.reference.empty())
     refuse("errors against a solution are of the whole run; leave --reference out");
-  if (plan.plugin->has_all)
-    refuse(fmt::format("variant {} cannot save what its methods keep; give another --variant",
-                       plan.plugin->name));
+  if (plan.plugin->has_all) refuse_saving(request, plan.plugin->name);
+}
+
+void refuse_saving(const RunRequest& request, std::string_view variant) {
+  throw InputError(fmt::format("{}: variant {} cannot save what its methods keep; give another "
+                               "--variant",
+                               request.restart.empty() ? "--checkpoint" : "--restart", variant));
+}
+
+void refuse_passed_state(const RunRequest& request, long step) {
+  throw InputError(fmt::format("{}: the state of --check-state, at step {}, was passed; leave it "
+                               "out",
+                               request.restart, step));
 }
 
 } // namespace dss

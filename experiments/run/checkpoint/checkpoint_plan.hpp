@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 namespace dss {
 
@@ -20,6 +21,11 @@ CheckpointInterval parse_checkpoint_interval(const std::string& text);
 /// Refuses what cannot be continued, before anything is computed.
 /// @throws InputError with the reason and what to give
 void require_sound_checkpoints(const RunRequest& request, const RunPlan& plan);
+
+/// For a variant that cannot save what its methods keep. @throws InputError
+[[noreturn]] void refuse_saving(const RunRequest& request, std::string_view variant);
+/// For a state of --check-state that the interrupted run passed. @throws InputError
+[[noreturn]] void refuse_passed_state(const RunRequest& request, long step);
 
 /// Tells when the next checkpoint is due.
 class CheckpointClock {

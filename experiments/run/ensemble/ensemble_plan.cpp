@@ -1,5 +1,6 @@
 #include "experiments/run/ensemble/ensemble_plan.hpp"
 
+#include "experiments/run/checkpoint/checkpoint_plan.hpp"
 #include "experiments/run/timed/verdict.hpp"
 #include "solver/decomposition/decomposition_file.hpp"
 #include "solver/error.hpp"
@@ -110,6 +111,7 @@ EnsemblePlan plan_ensemble(const RunRequest& request) {
         plugin.ensemble_lanes(plan.plans.front().precision, plan.plans.front().distribution);
   plan.batches = group_members(plan.plans, plan.lanes, request.ranks);
   require_division(request, plan);
+  require_sound_checkpoints(request, plan.plans.front());
   return plan;
 }
 

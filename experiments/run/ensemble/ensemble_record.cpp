@@ -31,7 +31,7 @@ static void keep_common(const RunResult& own, RunResult& all) {
 }
 
 void add_member(const RunResult& member, RunResult& whole) {
-  *whole.element_steps += double(member.elements) * double(member.steps);
+  *whole.element_steps += double(member.elements) * double(member.steps - member.resumed_step);
   whole.max_displacement_m = std::max(whole.max_displacement_m, member.max_displacement_m);
   whole.files.insert(whole.files.end(), member.files.begin(), member.files.end());
   add_check(member.check, whole.check);

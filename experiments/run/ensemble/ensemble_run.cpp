@@ -1,66 +1,16 @@
 #include "experiments/run/ensemble/ensemble_run.hpp"
 
 #include "experiments/base/clock.hpp"
-#include "experiments/base/parallel.hpp"
-#include "experiments/run/ensemble/ensemble_plan.hpp"
-#include "experiments/run/ensemble/member_batch.hpp"
-#include "experiments/run/ensemble/member_run.hpp"
+#include "experiments/run/ensemble/ensemble_passes.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/rank_sums.hpp"
 #include "experiments/run/timed/timed_run.hpp"
 #include "experiments/run/timed/verdict.hpp"
-#include "variants/isa/denormals.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <memory>
 
 namespace dss {
-namespace {
-
-/// All batches of an ensemble and what they are timed with.
-class EnsembleRun {
-public:
-  explicit EnsembleRun(const RunRequest& request);
-  void run();
-  EnsembleResult result() const;
-
-private:
-  void make_batches();
-  void describe_executors();
-  void warm_up();
-  enum class Looks { none, at_stops, at_steps };
-  /// Runs a batch from the start to the end. @return the time in advance() [s]
-  double run_batch(std::size_t b, Looks looks);
-  double run_to(MemberBatch& batch, long stop);
-  void look(std::size_t b, Looks looks);
-  std::vector<long> stops(std::size_t b, Looks looks) const;
-  /// Runs all batches. @return the time of the busiest thread [s]
-  double pass(Looks looks);
-  /// Work of one thread is metered as it is timed; of several threads with all that they do.
-  Usage metered(const std::function<void()>& work);
-  /// What this rank exchanged for all batches so far.
-  Traffic sent() const;
-  void take_samples(double first_s);
-  std::uint64_t digest_of_all();
-  bool is_balanced_by_steps() const;
-  bool are_all_ok() const {
-    return std::ranges::all_of(members_, [](const auto& member) { return member->is_ok(); });
-  }
-  template <class Visit>
-  void each_member(Visit&& visit);
-  /// Steps that all batches together have taken since their start.
-  double steps_of_batches() const;
-
-  const RunRequest& request_;
-  const EnsemblePlan plan_;
-  std::vector<std::unique_ptr<MemberRun>> members_;
-  std::vector<std::unique_ptr<MemberBatch>> batches_;
-  std::vector<MemberBatch*> batch_of_; ///< each member
-  int team_ = 1;                       ///< threads that take batches
-  Usage usage_;                        ///< of the timed steps of a team of one
-  RunResult whole_;
-};
 
 EnsembleRun::EnsembleRun(const RunRequest& request)
     : request_(request), plan_(plan_ensemble(request)) {
@@ -129,84 +79,6 @@ void EnsembleRun::describe_executors() {
   if (alone > 0) whole_.schedule += fmt::format(", {} of one member by itself", alone);
 }
 
-std::vector<long> EnsembleRun::stops(std::size_t b, Looks looks) const {
-  const RunPlan& plan = plan_.plans[plan_.batches[b].members.front()];
-  std::vector<long> steps{plan.steps};
-  if (looks == Looks::at_steps)
-    for (long step = 1; step < plan.steps; ++step) steps.push_back(step);
-  if (looks == Looks::at_stops) {
-    const MemberRun& member = *members_[plan_.batches[b].members.front()];
-    const std::vector<long> checks = member.oracle_check().stops();
-    steps.insert(steps.end(), checks.begin(), checks.end());
-    steps.insert(steps.end(), plan.frame_steps.begin(), plan.frame_steps.end());
-    const long between = energy_look_interval(plan.scene.problem.lattice.element_count, plan.steps);
-    for (long step = between; step < plan.steps && member.has_balance(); step += between)
-      steps.push_back(step);
-  }
-  std::ranges::sort(steps);
-  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
-  std::erase(steps, 0);
-  return steps;
-}
-
-double EnsembleRun::run_to(MemberBatch& batch, long stop) {
-  double wall_s = 0;
-  std::optional<UsageMeter> meter;
-  if (team_ == 1) meter.emplace();
-  while (batch.step() < stop && batch.is_alive()) {
-    batch.prepare(std::min(signal_steps, stop - batch.step()));
-    if (plan_.plans.front().plugin->is_distributed) gather(batch.executor(), 0); // all start
-    const auto start = Clock::now();
-    batch.advance();
-    wall_s += seconds_since(start);
-  }
-  if (meter) usage_ += meter->read();
-  return wall_s;
-}
-
-void EnsembleRun::look(std::size_t b, Looks looks) {
-  MemberBatch& batch = *batches_[b];
-  batch.read(); // all ranks take part
-  const WorkAlone alone(batch.executor(), request_.is_root);
-  for (std::size_t n = 0; n < batch.size(); ++n) {
-    MemberRun& member = *members_[plan_.batches[b].members[n]];
-    if (!member.is_ok()) continue;
-    if (batch.failure(n)) {
-      member.fail(*batch.failure(n));
-      continue;
-    }
-    const std::span<const double> state = batch.state(n);
-    // Numbers that overflow in the last step before a pause.
-    if (const auto element = first_not_finite(state))
-      member.fail({false, batch.step() - 1, *element});
-    else if (looks == Looks::at_steps)
-      member.look_at_step(state, batch.step());
-    else
-      member.look(state, batch.step());
-  }
-}
-
-double EnsembleRun::run_batch(std::size_t b, Looks looks) {
-  const FlushDenormals guard;
-  MemberBatch& batch = *batches_[b];
-  batch.restart();
-  if (looks == Looks::at_stops) look(b, looks);
-  double wall_s = 0;
-  for (const long stop : stops(b, looks)) {
-    wall_s += run_to(batch, stop);
-    if (looks != Looks::none) look(b, looks);
-  }
-  return wall_s;
-}
-
-double EnsembleRun::pass(Looks looks) {
-  std::vector<double> busy_s(std::size_t(team_), 0.0);
-  for_each_on_team(team_, batches_.size(), [&](std::size_t b, std::size_t thread) {
-    busy_s[thread] += run_batch(b, looks);
-  });
-  return std::ranges::max(busy_s);
-}
-
 Usage EnsembleRun::metered(const std::function<void()>& work) {
   const UsageMeter meter;
   usage_ = {};
@@ -227,21 +99,6 @@ Traffic EnsembleRun::sent() const {
     all = {all.messages + own.messages, all.bytes + own.bytes, all.wait_s + own.wait_s};
   }
   return all;
-}
-
-void EnsembleRun::warm_up() {
-  const long steps = request_.warmup_steps;
-  const double least_s = whole_.workers > 1 ? request_.warmup_s : 0;
-  const auto start = Clock::now();
-  const auto is_more_wanted = [&] { // all ranks decide by the clock of the first
-    return gather(batches_.front()->executor(), seconds_since(start)).front() < least_s;
-  };
-  for (bool is_wanted = steps > 0; is_wanted; is_wanted = is_more_wanted())
-    for_each_on_team(team_, batches_.size(), [&](std::size_t b, std::size_t) {
-      const FlushDenormals guard;
-      batches_[b]->restart();
-      run_to(*batches_[b], steps);
-    });
 }
 
 template <class Visit>
@@ -266,24 +123,27 @@ bool EnsembleRun::is_balanced_by_steps() const {
 }
 
 void EnsembleRun::run() {
+  const bool is_saved = !request_.checkpoint.empty() || !request_.restart.empty();
   try {
     warm_up();
     const Traffic before = sent();
-    whole_.usage = metered([&] { whole_.wall_s = pass(Looks::at_stops); });
+    whole_.usage =
+        metered([&] { whole_.wall_s = is_saved ? saved_pass() : pass(Looks::at_stops); });
     put_traffic(batches_.front()->executor(), since(before, sent()), steps_of_batches(), whole_);
     whole_.digest = digest_of_all();
     each_member([](MemberRun& member, std::span<const double> state, bool) {
       if (member.is_ok()) member.end(state);
     });
-    if (are_all_ok() && is_balanced_by_steps()) {
+    if (are_all_ok() && is_balanced_by_steps() && whole_.resumed_step == 0) {
       for (const auto& member : members_) member->begin_steps();
       pass(Looks::at_steps);
     }
     each_member([](MemberRun& member, std::span<const double> state, bool) {
       if (member.is_ok()) member.judge(state);
     });
-  } catch (...) { // no partial results
-    for (const auto& member : members_) member->discard_files();
+  } catch (...) { // no partial results, unless the run can go on with them
+    for (const auto& member : members_)
+      if (!is_saved) member->discard_files();
     throw;
   }
   if (are_all_ok()) take_samples(whole_.wall_s);
@@ -342,8 +202,6 @@ EnsembleResult EnsembleRun::result() const {
     whole.reason = fmt::format("{} of {} members failed{}", failed, members_.size(), failures);
   return result;
 }
-
-} // namespace
 
 EnsembleResult run_ensemble(const RunRequest& request) {
   EnsembleRun ensemble(request);

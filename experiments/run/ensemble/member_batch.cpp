@@ -1,10 +1,12 @@
 #include "experiments/run/ensemble/member_batch.hpp"
 
 #include "experiments/run/state/state_access.hpp"
+#include "solver/error.hpp"
 #include "solver/model/needed_terms.hpp"
 #include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <tuple>
 
@@ -120,13 +122,69 @@ bool MemberBatch::is_alive() const {
 }
 
 void MemberBatch::read() {
-  const std::size_t elements = members_.front()->scene.problem.lattice.element_count;
-  const std::vector<double> all = whole_state(*executor_, elements * lanes());
+  const std::vector<double> all = whole_state(*executor_, elements() * lanes());
   for (std::size_t m = 0; m < members_.size(); ++m) {
-    states_[m].resize(elements * field_count);
+    states_[m].resize(elements() * field_count);
     for (std::size_t n = 0; n < states_[m].size(); n += field_count)
       std::copy_n(&all[n * lanes() + m * field_count], field_count, &states_[m][n]);
   }
+}
+
+template <class Visit>
+void MemberBatch::each_piece(std::size_t width, Visit&& visit) {
+  constexpr std::size_t piece = 512; // elements
+  std::vector<double> kept(std::min(elements(), piece) * lanes() * width);
+  for (std::size_t first = 0; first < elements(); first += piece) {
+    const std::size_t count = std::min(piece, elements() - first);
+    visit(first * lanes(), std::span(kept).first(count * lanes() * width));
+  }
+}
+
+std::vector<std::vector<double>> MemberBatch::save() {
+  const std::size_t width = std::size_t(kept_fields(*executor_));
+  std::vector<std::vector<double>> members(members_.size());
+  each_piece(width, [&](std::size_t first, std::span<double> kept) {
+    dss::save(*executor_, first, kept);
+    for (std::size_t n = 0; n < kept.size(); n += lanes() * width)
+      for (std::size_t m = 0; m < members.size(); ++m)
+        members[m].insert(members[m].end(), &kept[n + m * width], &kept[n + m * width] + width);
+  });
+  return members;
+}
+
+void MemberBatch::restore(std::span<const MemberStanding* const> members) {
+  restart();
+  const MemberStanding* alive = nullptr;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    failures_[m] = members[m]->failure;
+    if (failures_[m]) continue;
+    if (alive == nullptr) alive = members[m];
+    if (members[m]->step != alive->step)
+      throw InputError(
+          fmt::format("members of one batch stood at steps {} and {}; give the --steps "
+                      "of the interrupted run",
+                      alive->step, members[m]->step));
+  }
+  step_ = (alive == nullptr ? members.front() : alive)->step;
+  if (alive == nullptr) return;
+  if (is_done()) {
+    if (alive->end.empty())
+      throw InputError(fmt::format("members that end at step {} were saved there before their end; "
+                                   "give more --steps",
+                                   step_));
+    for (std::size_t m = 0; m < members.size(); ++m) states_[m] = members[m]->end;
+    return;
+  }
+  const std::size_t width = std::size_t(kept_fields(*executor_));
+  each_piece(width, [&](std::size_t first, std::span<double> kept) {
+    for (std::size_t n = 0; n < kept.size() / width; ++n) {
+      const std::size_t element = (first + n) / lanes(), lane = n % lanes();
+      const bool has_own = lane < members.size() && !failures_[lane];
+      const std::vector<double>& from = (has_own ? members[lane] : alive)->kept;
+      std::copy_n(&from[element * width], width, &kept[n * width]);
+    }
+    dss::restore(*executor_, first, kept);
+  });
 }
 
 std::span<const double> MemberBatch::state(std::size_t member) {

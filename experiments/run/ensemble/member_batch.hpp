@@ -10,6 +10,16 @@
 
 namespace dss {
 
+/// Where a member stands.
+struct MemberStanding {
+  long step = 0;
+  std::optional<Outcome> failure; ///< the step counts from the start
+  std::vector<double> kept;       ///< numbers of its elements (kept_state.hpp); empty if it failed
+  /// Of a member that has done all of its steps: the state, since a leapfrog cannot give its
+  /// velocities at the end anew (StateTransfer::restore). Else empty
+  std::vector<double> end;
+};
+
 /// Members that advance together. Lanes without a member compute the first one once more.
 class MemberBatch {
 public:
@@ -29,10 +39,16 @@ public:
   /// Where a member failed: the step counts from the start. Empty while it is alive.
   const std::optional<Outcome>& failure(std::size_t member) const { return failures_[member]; }
   bool is_alive() const;
+  bool is_done() const { return step_ >= members_.front()->steps; }
   /// Reads the present state of all members. Collective; state() does so too if it must.
   void read();
   /// The present state of a member, 13 numbers an element. It is valid until the next advance().
   std::span<const double> state(std::size_t member);
+  /// What each member keeps, as in MemberStanding. Collective.
+  std::vector<std::vector<double>> save();
+  /// Puts all members where they stood. Collective.
+  /// @throws InputError if they stood at different steps, or at an end that was none
+  void restore(std::span<const MemberStanding* const> members);
   Executor& executor() { return *executor_; }
 
 private:
@@ -40,6 +56,10 @@ private:
     return *members_[lane < members_.size() ? lane : 0];
   }
   std::size_t lanes() const { return ensemble_ ? ensemble_->size() : 1; }
+  std::size_t elements() const { return members_.front()->scene.problem.lattice.element_count; }
+  /// Calls visit(first, numbers) for pieces of what the executor keeps; `width` numbers an element.
+  template <class Visit>
+  void each_piece(std::size_t width, Visit&& visit);
 
   std::vector<const RunPlan*> members_;
   std::optional<Ensemble> ensemble_;

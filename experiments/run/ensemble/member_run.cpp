@@ -31,13 +31,24 @@ void MemberRun::guarded(const std::function<void()>& act) {
 void MemberRun::look(std::span<const double> state, long step) {
   const Problem& problem = plan_.scene.problem;
   const double time = double(step) * plan_.dt;
-  if (step == 0 && has_balance()) balance_.emplace(problem, equations(), state, time, false);
   const long between = energy_look_interval(problem.lattice.element_count, plan_.steps);
-  if (balance_ && step > 0 && (step % between == 0 || step == plan_.steps))
+  if (balance_ && (step % between == 0 || step == plan_.steps))
     balance_->look(state, time);
+  else if (has_balance() && step % between == 0 &&
+           step < plan_.steps) // a continued run begins here
+    balance_.emplace(problem, equations(), state, time, false);
   if (oracle_check_.is_wanted(step)) oracle_check_.look(step, state, equations(), result_.check);
   if (std::ranges::binary_search(plan_.frame_steps, step))
     guarded([&] { series_.add(problem, {state.begin(), state.end()}, equations(), time); });
+}
+
+void MemberRun::resume(long step, const std::optional<Outcome>& failure) {
+  result_.resumed_step = step;
+  if (failure) return fail(*failure);
+  std::vector<double> times;
+  for (const long frame : plan_.frame_steps)
+    if (frame <= step) times.push_back(double(frame) * plan_.dt);
+  if (request_.is_root && !request_.output.empty()) series_.go_on(times);
 }
 
 void MemberRun::fail(const Outcome& failure) {

@@ -27,6 +27,10 @@ public:
   /// Takes the state after `step` steps, for everything that wants it. Called at step 0, at all
   /// stops and at the end.
   void look(std::span<const double> state, long step);
+  /// Frames that are written stay if a later one cannot be written: the ensemble is saved.
+  void keep_frames() { series_.keep_finished(); }
+  /// Goes on after `step` steps of an earlier run, in which the member may have failed.
+  void resume(long step, const std::optional<Outcome>& failure);
   /// The member became unstable; steps count from the start.
   void fail(const Outcome& failure);
   /// Takes the final state.

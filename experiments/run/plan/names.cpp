@@ -94,7 +94,7 @@ constexpr std::array kinds = {
          }},
     Kind{"SCALE",
          [] {
-           return Names{"smoke", "host", "paper"};
+           return Names{"smoke", "quick", "host", "full"};
          }},
     Kind{"WHAT",
          [] {

@@ -1,5 +1,5 @@
 /// Saves a run while it computes, and continues a saved one.
-#include "experiments/base/exit_code.hpp"
+#include "experiments/run/checkpoint/saving.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/timed_run.hpp"
 #include "solver/error.hpp"
@@ -13,8 +13,6 @@
 namespace dss {
 namespace {
 
-/// Element-steps of a chunk while a run is saved: less than a second, so that a signal is seen.
-constexpr double chunk_element_steps = 2e7;
 /// With adaptive steps, ranks ask one another every so many steps.
 constexpr long adaptive_chunk = 32;
 constexpr double quiet_s = 2;     ///< Shorter runs show no progress.
@@ -26,8 +24,6 @@ Model model_of(int number) {
   return *found;
 }
 
-enum Wish { none = 0, is_due = 1, is_ended = 2 };
-
 } // namespace
 
 void TimedRun::begin_saving() {
@@ -35,11 +31,7 @@ void TimedRun::begin_saving() {
   shown_ = Clock::now();
   if (request_.checkpoint.empty() && request_.restart.empty()) return;
   const int width = kept_fields(*executor_);
-  if (width == 0)
-    throw InputError(fmt::format("{}: variant {} cannot save what its methods keep; give another "
-                                 "--variant",
-                                 request_.restart.empty() ? "--checkpoint" : "--restart",
-                                 result_.variant));
+  if (width == 0) refuse_saving(request_, result_.variant);
   is_watched_ = plan_.model_choice.is_bounded;
   const auto identify = [&] {
     identity_.emplace(request_, plan_, is_watched_, result_.has_fma, width, stops());
@@ -84,8 +76,7 @@ void TimedRun::resume(SavedRun& saved) {
     refuse(fmt::format("its model {} is none of this run; take an earlier file",
                        name(standing.model)));
   if (plan_.expected && plan_.expected->steps <= standing.step)
-    refuse(fmt::format("the state of --check-state, at step {}, was passed; leave it out",
-                       plan_.expected->steps));
+    refuse_passed_state(request_, plan_.expected->steps);
   if (has_other_model) {
     executor_.reset();
     executor_ = created(standing.model);
@@ -126,30 +117,20 @@ long TimedRun::chunk(long most) const {
 }
 
 long TimedRun::chunk_steps() const {
-  const double elements = double(problem_.lattice.element_count);
-  return std::clamp(long(chunk_element_steps / elements), 1L, signal_steps);
+  return steps_of_pause(double(problem_.lattice.element_count));
 }
 
 void TimedRun::save_or_end() {
   if (steps_done() == result_.resumed_step) return; // nothing new
-  int wish = none;
-  if (saved_->is_due(steps_done())) wish |= is_due;
-  if (interrupts_->is_asked()) wish |= is_ended;
-  const std::vector<double> wishes = gather(*executor_, wish);
-  const bool ends = std::ranges::any_of(wishes, [](double of) { return int(of) & is_ended; });
-  if (!ends && !(int(wishes.front()) & is_due)) return; // the root's clock decides
+  const Saving saving =
+      common_saving(*executor_, saved_->is_due(steps_done()), interrupts_->is_asked());
+  if (saving == Saving::none) return;
   const std::string failure = save();
-  if (!ends) {
-    if (!failure.empty()) progress_->note(failure + "; the run goes on");
-    return;
+  if (saving == Saving::save_and_end) {
+    progress_.reset();
+    end_saved(*interrupts_, failure, steps_done(), request_.checkpoint);
   }
-  progress_.reset();
-  end_variants(exit_success, true); // ranks meet there, after the root has written
-  interrupts_->end(failure.empty()
-                       ? fmt::format("after step {0}; {1} has the state, so give the command again "
-                                     "with --restart {1}",
-                                     steps_done(), request_.checkpoint)
-                       : failure + "; an earlier checkpoint, if there is one, is whole");
+  if (!failure.empty()) progress_->note(failure + "; the run goes on");
 }
 
 std::string TimedRun::save() {

@@ -1,0 +1,174 @@
+"""Saved ensembles go on with other lanes, threads and ranks; each member has its bits."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, ProgramTest, dssbench, why_no_variant
+
+# Five members of a bracket, of two lengths; the last one has another step.
+SETS = [{}, {"loads/0/force/2": -300}, {"run.steps": 500}, {"bodies/0/constants/rho": 1800},
+        {"run.dt": 1e-7}]
+BRACKET = ("l_bracket", "--model", "spatial", "--set", "run.steps=600")
+
+
+def members_of(record):
+    return record["ensemble"]["members"]
+
+
+def digests(record):
+    return [member["state_digest"] for member in members_of(record)]
+
+
+class SavedEnsembles(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.of = (*BRACKET, "--ensemble", self.members(*SETS))
+
+    def members(self, *sets):
+        return self.write("m.json", json.dumps({"members": [{"set": own} for own in sets]}))
+
+    def run_json(self, *arguments, code=0):
+        result = dssbench("run", *arguments, "--json", "-", cwd=self.directory)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return json.loads(result.stdout)
+
+    def save(self, *arguments, every=550, code=0):
+        """@return the record of an ensemble that leaves c.ckpt and c.ckpt.previous."""
+        return self.run_json(*arguments, "--checkpoint", "c.ckpt", "--checkpoint-every", every,
+                             code=code)
+
+    def head(self, name):
+        return json.loads(pathlib.Path(self.path(name)).read_bytes().split(b"\n", 2)[1])
+
+    def test_members_go_on_elsewhere_with_the_bits_of_the_whole(self):
+        here = [name for name in ("avx2", "avx512") if why_no_variant(name) is None]
+        places = [("--threads", "2")] + [("--variant", name) for name in here]
+        if why_no_variant("mpi") is None:
+            places += [("--ranks", "2"), ("--variant", here[0], "--ranks", "3")]
+        for method, precision in (("rk4", "f64"), ("velocity_verlet", "f32"),
+                                  ("smoothed_verlet", "f32c")):
+            run = (*self.of, "--integrator", method, "--precision", precision)
+            whole = self.save(*run)
+            standing = self.head("c.ckpt.previous")["standing"]
+            self.assertEqual({(own["step"], own["is_done"]) for own in standing},
+                             {(500, True), (550, False)})
+            for place in places:
+                again = self.run_json(*run, *place, "--restart", "c.ckpt.previous")
+                self.assertEqual(digests(again), digests(whole), (method, place))
+                self.assertEqual(again["resumed_step"], 550)
+
+    def test_lanes_and_single_members_go_on_for_one_another(self):
+        if why_no_variant("opencl") is not None:
+            self.skipTest("no opencl")
+        run = ("two_elements", "--model", "spatial", "--steps", "60",
+               "--ensemble", self.members({}, {"k": 900}, {"k": 1100}))
+        whole = self.save(*run, every=25)
+        again = self.run_json(*run, "--variant", "opencl", "--restart", "c.ckpt.previous")
+        self.assertEqual(digests(again), digests(whole))
+        self.save(*run, "--variant", "opencl", every=25)
+        again = self.run_json(*run, "--restart", "c.ckpt.previous")
+        self.assertEqual(digests(again), digests(whole))
+
+    def test_a_member_that_failed_stays_failed(self):
+        run = (*BRACKET, "--ensemble", self.members({}, {"run.dt": 2.5e-6}, {}),
+               "--steps", "3000", "--force")
+        whole = self.save(*run, every=1600, code=3)
+        failed = members_of(whole)[1]["steps"]
+        for every in (failed // 2, 2900):
+            self.save(*run, every=every, code=3)
+            for place in ((), ("--threads", "2")):
+                again = self.run_json(*run, *place, "--restart", "c.ckpt.previous", code=3)
+                for key in ("status", "reason", "steps", "state_digest"):
+                    self.assertEqual([m[key] for m in members_of(again)],
+                                     [m[key] for m in members_of(whole)], (every, key))
+
+    def test_a_longer_ensemble_goes_on_from_the_end(self):
+        equal = (*BRACKET, "--ensemble", "5")
+        self.save(*equal, "--steps", "300", every=200)
+        longer = (*equal, "--steps", "1500")
+        whole = self.run_json(*longer)
+        again = self.run_json(*longer, "--restart", "c.ckpt")
+        self.assertEqual(digests(again), digests(whole))
+        computed = 5 * 152 * (1500 - 300)
+        self.assertAlmostEqual(again["element_steps_per_s"] * again["wall_s"] / computed, 1)
+        self.assertIsNotNone(members_of(again)[0]["energy_error"])
+        self.assert_refused(2, ["300 steps", "--steps", "c.ckpt.previous"], "run", *equal,
+                            "--steps", "300", "--restart", self.path("c.ckpt"))
+        for steps in (400, 500):  # members that end there were saved there, or earlier
+            sets = [{}, {}, {"run.steps": steps}]
+            run = (*BRACKET, "--ensemble", self.members(*sets))
+            self.save(*run, every=400)
+            sets[2] = {"run.steps": 400}
+            again = dssbench("run", *BRACKET, "--ensemble", self.members(*sets), "--restart",
+                             self.path("c.ckpt.previous"))
+            self.assertEqual(again.returncode, 0 if steps == 400 else 2, again.stderr)
+
+    def test_frames_go_on(self):
+        run = (*self.of, "--output", "f.vtu", "--frames", "5")
+        self.run_json(*run)
+        names = sorted(name for name in os.listdir(self.directory) if name.startswith("f"))
+        whole = {name: self.read(name) for name in names}
+        self.assertEqual(len(whole), 5 * 7)
+        self.save(*run)
+        for name in names:
+            if name.endswith(("_0005.vtu", ".pvd")) and "f-3" not in name:
+                os.remove(self.path(name))
+        self.run_json(*run, "--restart", "c.ckpt.previous")
+        self.assertEqual({name: self.read(name) for name in names}, whole)
+
+    def test_foreign_and_damaged_ones_are_refused(self):
+        self.save(*self.of)
+        saved = self.path("c.ckpt.previous")
+        self.run_json(*BRACKET, "--steps", "40", "--checkpoint", "one.ckpt")
+        for words, other in ((["scene differs"], (*self.of, "--set", "loads/0/force/1=5")),
+                             (["--precision"], (*self.of, "--precision", "f32")),
+                             (["rounding"], (*self.of, "--variant", "scalar")),
+                             (["cannot save"], (*self.of, "--variant", "reference")),
+                             (["members", "5 there, 3 here"], (*BRACKET, "--ensemble", "3")),
+                             (["give its --ensemble"], BRACKET),
+                             (["--samples"], (*self.of, "--samples", "2"))):
+            self.assert_refused(2, words, "run", *other, "--restart", saved)
+        self.assert_refused(2, ["leave --ensemble out"], "run", *self.of, "--restart",
+                            self.path("one.ckpt"))
+        self.write("m.json", json.dumps({"members": [{"set": own} for own in SETS[::-1]]}))
+        self.assert_refused(2, ["scene differs"], "run", *self.of, "--restart", saved)
+        self.members(*SETS)
+        content = pathlib.Path(saved).read_bytes()
+        for damaged, word in ((content[:-1], "ends within"), (content[:9000], "earlier file"),
+                              (content[:9000] + bytes([content[9000] ^ 1]) + content[9001:],
+                               "damaged")):
+            pathlib.Path(saved).write_bytes(damaged)
+            self.assert_refused(2, [word, saved], "run", *self.of, "--restart", saved)
+
+    def test_a_signal_saves_the_ensemble_and_says_how_to_go_on(self):
+        run = (*BRACKET, "--ensemble", "9", "--steps")
+        for number, options in ((signal.SIGINT, ()), (signal.SIGTERM, ("--threads", "2"))):
+            with subprocess.Popen([PROGRAM, "run", *run, "50000000", *options, "--checkpoint",
+                                   "c.ckpt", "--checkpoint-every", "100"],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                  cwd=self.directory) as process:
+                end = time.monotonic() + 60
+                while not os.path.exists(self.path("c.ckpt")):
+                    self.assertLess(time.monotonic(), end)
+                    time.sleep(0.02)
+                process.send_signal(number)
+                line = process.communicate(timeout=60)[1]
+            self.assertEqual(process.returncode, -number, line)
+            self.assertEqual(line.count("dssbench: "), 1, line)
+            self.assertIn("--restart c.ckpt", line)
+            step = self.head("c.ckpt")["standing"][0]["step"]
+            self.assertIn(f"after step {step};", line)
+            limited = (*run, str(step + 50))
+            again = self.run_json(*limited, "--restart", "c.ckpt")
+            self.assertEqual(digests(again), digests(self.run_json(*limited)))
+            for name in ("c.ckpt", "c.ckpt.previous"):
+                if os.path.exists(self.path(name)):
+                    os.remove(self.path(name))
+
+
+if __name__ == "__main__":
+    unittest.main()
