@@ -13,8 +13,6 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
                                        std::vector<RowStage>& tasks) {
   const std::size_t pack_bytes = std::size_t(fields_ * W) * sizeof(T);
   if (packed_.rows.front().kernels == nullptr) return; // devices fetch nothing
-  // Narrower packs leave the processor time to foresee what comes: fetches cost them 1 to 3 %.
-  if (W * sizeof(T) < Memory::line) return;
   // What stays in L2 from pass to pass needs no fetch.
   if (own().state_bytes() < 2 * l2_bytes()) return;
   std::vector<long> packs;
