@@ -109,6 +109,8 @@ sanitize:
 # build does not hide what the others ran.
 coverage: export DSS_EXTRA_PACKAGES += gcovr
 coverage:
+	@$(MAKE) --no-print-directory build PRESET=coverage
+	@find build/coverage -name '*.gcda' -delete
 	@-$(MAKE) --no-print-directory test PRESET=coverage
 	@tests/coverage/coverage.py build/coverage
 
@@ -156,9 +158,9 @@ MEASURE = start=$$(date +%s); $(BUILD)/dssbench experiment $* --scale $(SCALE) -
 study-%:
 	@$(call MEASURE)
 begin-%:
-	@$(call MEASURE,--rounds 3)
+	@$(call MEASURE,--rounds 4)
 go-on-%:
-	@$(call MEASURE,--rounds 3 --resume)
+	@$(call MEASURE,--rounds 4 --resume)
 end-%:
 	@$(call MEASURE,--resume)
 

@@ -31,7 +31,10 @@ std::optional<std::size_t> parse_stack_size(std::string_view text) {
   const char unit =
       text.empty() ? 'k' : char(std::tolower(static_cast<unsigned char>(text.front())));
   const std::size_t power = units.find(unit);
-  if (power == std::string_view::npos || number >> (64 - 10 * power - 1) != 0) return std::nullopt;
+  if (!text.empty()) text.remove_prefix(1);
+  trim();
+  if (!text.empty() || power == std::string_view::npos || number >> (64 - 10 * power - 1) != 0)
+    return std::nullopt;
   return number << (10 * power);
 }
 
@@ -52,16 +55,18 @@ int try_thread(std::size_t stack) {
 } // namespace
 
 void require_thread_stacks() {
-  for (const char* name : {"OMP_STACKSIZE", "GOMP_STACKSIZE"}) {
+  for (const char* name : {"OMP_STACKSIZE", "GOMP_STACKSIZE"}) { // the first that is sound counts
     const char* text = std::getenv(name);
     const std::optional<std::size_t> stack =
         text == nullptr ? std::nullopt : parse_stack_size(text);
+    if (!stack) continue;
     // In place of a smaller size, libgomp takes the default.
-    if (!stack || *stack < std::size_t(PTHREAD_STACK_MIN)) continue;
+    if (*stack < std::size_t(PTHREAD_STACK_MIN)) return;
     if (const int error = try_thread(*stack); error != 0)
       throw InputError(fmt::format("{}={}: no thread can have such a stack ({}); unset it, or give "
                                    "4M",
                                    name, text, std::strerror(error)));
+    return;
   }
 }
 

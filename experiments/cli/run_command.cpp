@@ -62,8 +62,7 @@ void require_no_tile_of_parts(const RunRequest& request) {
 void read_ensemble_files(const RunRequest& request, CommandFiles& files) {
   files.read("--ensemble", request.ensemble);
   for (const MemberSet& member : read_members(request.ensemble)) {
-    const auto is_of_voxels = [](const Override& item) { return item.key.find("voxels") != std::string::npos; };
-    if (std::ranges::none_of(member.set, is_of_voxels)) continue;
+    if (member.set.empty()) continue;
     std::vector<Override> overrides = request.overrides;
     overrides.insert(overrides.end(), member.set.begin(), member.set.end());
     files.read_scene(request.scene, overrides);

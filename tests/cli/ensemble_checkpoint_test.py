@@ -48,7 +48,8 @@ class SavedEnsembles(ProgramTest):
         here = [name for name in ("avx2", "avx512") if why_no_variant(name) is None]
         places = [("--threads", "2")] + [("--variant", name) for name in here]
         if why_no_variant("mpi") is None:
-            places += [("--ranks", "2"), ("--variant", here[0], "--ranks", "3")]
+            places += [("--ranks", "2")]
+            places += [("--variant", name, "--ranks", "3") for name in here[:1]]
         for method, precision in (("rk4", "f64"), ("velocity_verlet", "f32"),
                                   ("smoothed_verlet", "f32c")):
             run = (*self.of, "--integrator", method, "--precision", precision)
@@ -80,11 +81,34 @@ class SavedEnsembles(ProgramTest):
         failed = members_of(whole)[1]["steps"]
         for every in (failed // 2, 2900):
             self.save(*run, every=every, code=3)
-            for place in ((), ("--threads", "2")):
+            ranks = [("--ranks", "2")] if why_no_variant("mpi") is None else []
+            for place in ((), ("--threads", "2"), *ranks):
                 again = self.run_json(*run, *place, "--restart", "c.ckpt.previous", code=3)
                 for key in ("status", "reason", "steps", "state_digest"):
                     self.assertEqual([m[key] for m in members_of(again)],
                                      [m[key] for m in members_of(whole)], (every, key))
+
+    def test_a_batch_that_is_done_keeps_its_members_and_its_failure(self):
+        sets = [{"run.steps": 50} for _ in range(8)] + [{}]
+        sets[2] = {"run.steps": 50, "run.dt": 1e-5}
+        run = (*BRACKET, "--ensemble", self.members(*sets), "--force")
+        whole = self.save(*run, every=75, code=3)
+        again = self.save(*run, "--restart", "c.ckpt.previous", every=20, code=3)
+        third = self.run_json(*run, "--restart", "c.ckpt.previous", code=3)
+        for later in (again, third):
+            self.assertGreaterEqual(later["element_steps_per_s"], 0)
+            for key in ("status", "reason", "steps", "state_digest", "max_displacement_m"):
+                self.assertEqual([m[key] for m in members_of(later)],
+                                 [m[key] for m in members_of(whole)], key)
+        self.assertEqual(len(set(digests(whole))), 3)
+        # A checkpoint of a run that went on from one has what a longer run needs.
+        sets = [{"run.steps": 700}] + sets[1:]
+        longer = (*BRACKET, "--ensemble", self.members(*sets), "--force")
+        self.assertEqual(digests(self.run_json(*longer, "--restart", "c.ckpt.previous", code=3)),
+                         digests(self.run_json(*longer, code=3)))
+        self.members(*({**own, "run.steps": 40} for own in sets[:8]), {})
+        self.assert_refused(2, ["end at step 40", "at step 50"], "run", *run, "--restart",
+                            self.path("c.ckpt.previous"))
 
     def test_a_longer_ensemble_goes_on_from_the_end(self):
         equal = (*BRACKET, "--ensemble", "5")

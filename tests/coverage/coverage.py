@@ -28,7 +28,7 @@ def measured(build):
                     "--exclude-unreachable-branches", "--gcov-ignore-parse-errors", *filters,
                     "--json-summary", summary, "--html-details", page / "index.html", build],
                    check=True)
-    return json.loads(summary.read_text())["files"]
+    return [file for file in json.loads(summary.read_text())["files"] if file["line_total"]]
 
 
 def share(covered, total):
@@ -61,7 +61,7 @@ def main():
     for folder, *figures in [COLUMNS, *table]:
         print(f"{folder:32}" + "".join(f"{figure:>18}" for figure in figures))
     print("\nfiles of which least is run:")
-    for file in sorted(files, key=lambda f: f["line_percent"] or 100)[:12]:
+    for file in sorted(files, key=lambda f: f["line_percent"])[:12]:
         print(f"{file['line_percent']:6.1f} % of {file['line_total']:4} lines  {file['filename']}")
     if arguments.csv:
         with open(arguments.csv, "w", newline="") as out:

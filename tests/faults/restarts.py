@@ -5,10 +5,10 @@
     tests/faults/restarts.py PROGRAM --runs 24 [--seed 1]      # a short form
 
 Each run has a random shipped scene (of a small size), method, precision, and number of threads and
-ranks, on a random variant. It is interrupted at a random step (its last checkpoint but one), by
-kill -9, or by SIGTERM. Another random combination continues it. Its state must have the bits of an
-uninterrupted run. Runs that no method can compute stably are left out and counted. Exit code 1 if
-anything is wrong.
+ranks, on a random variant; some are ensembles. It is interrupted at a random step (its last
+checkpoint but one), by kill -9, or by SIGTERM. Another random combination continues it. Its state
+must have the bits of an uninterrupted run. Runs that no method can compute stably are left out and
+counted. Exit code 1 if anything is wrong.
 """
 import argparse
 import collections
@@ -34,6 +34,7 @@ SCENES = [
     (("two_bodies",), 400),
     (("two_elements",), 1000),
 ]
+SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "experiments" / "scenes"
 METHODS = ["rk4", "velocity_verlet", "smoothed_verlet", "midpoint", "symplectic_euler", "dopri5",
            "rkc2"]
 PRECISIONS = ["f64", "f32", "f32c"]
@@ -82,7 +83,21 @@ class Restarts:
             options += ["--rtol", self.random.choice(["1e-4", "1e-6"])]
         if self.random.random() < 0.6:
             options += ["--model", "spatial"]
+            if "--rtol" not in options and self.random.random() < 0.4:
+                options += ["--ensemble", self.members(scene[0])]
         return options, steps
+
+    def members(self, scene):
+        """Equal members, or a file of members with steps of their own."""
+        count = self.random.randint(1, 19)
+        if self.random.random() < 0.3:
+            return str(count)
+        dt = json.loads((SHIPPED / f"{scene}.json").read_text(encoding="utf-8"))["run"]["dt"]
+        factors = [round(self.random.uniform(0.5, 1), 6) for _ in range(count)]
+        members = [{"set": {"run.dt": f"{dt}*{f}" if isinstance(dt, str) else dt * f}}
+                   for f in factors]
+        (self.folder / "members.json").write_text(json.dumps({"members": members}))
+        return "members.json"
 
     def run(self, *options):
         return subprocess.run([self.program, "run", *options], capture_output=True, text=True,
@@ -158,7 +173,8 @@ class Restarts:
         elif self.digest(again) != self.digest(whole):
             self.fail([*first, "/", *second], f"{self.digest(again)}, not {self.digest(whole)}")
         else:
-            self.counts[f"continued after {kind}"] += 1
+            of = "ensembles" if "--ensemble" in problem else "runs"
+            self.counts[f"{of} continued after {kind}"] += 1
 
 
 def main():
@@ -173,7 +189,7 @@ def main():
             restarts.one()
     counts = restarts.counts
     print(f"{arguments.runs} runs: {dict(sorted(counts.items()))}")
-    is_empty = not any(key.startswith("continued") for key in counts)
+    is_empty = not any("continued" in key for key in counts)
     return 1 if counts["wrong"] or is_empty else 0
 
 

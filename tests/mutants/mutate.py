@@ -32,8 +32,8 @@ class Area:
     def __init__(self, name, description, tree, build):
         self.name, self.tree, self.build = name, tree, build
         self.tests = [tuple(test) for test in description["tests"]]
-        self.files = sorted(str(path.relative_to(tree)) for pattern in description["files"]
-                            for path in tree.glob(pattern))
+        self.files = sorted({str(path.relative_to(tree)) for pattern in description["files"]
+                             for path in tree.glob(pattern)})
 
     def mutants(self):
         return [m for path in self.files for m in mutants_of(path, (self.tree / path).read_text())]
@@ -43,13 +43,21 @@ class Area:
         return subprocess.run(["cmake", "--build", self.build, "--target", *targets],
                               capture_output=True, text=True).returncode == 0
 
+    def program(self, target):
+        return next(self.build.glob(f"tests/**/{target}"))
+
+    def has(self, test):
+        target, tests = test
+        listed = subprocess.run([self.program(target), f"--gtest_filter={tests}",
+                                 "--gtest_list_tests"], capture_output=True, text=True, check=True)
+        return any(line.startswith("  ") for line in listed.stdout.splitlines())
+
     def passes(self, test, limit_s):
         """True if the tests of one program that match its filter pass in time."""
         target, tests = test
-        program = next(self.build.glob(f"tests/**/{target}"))
         try:
-            return subprocess.run([program, f"--gtest_filter={tests}", "--gtest_fail_fast"],
-                                  capture_output=True, timeout=limit_s).returncode == 0
+            command = [self.program(target), f"--gtest_filter={tests}", "--gtest_fail_fast"]
+            return subprocess.run(command, capture_output=True, timeout=limit_s).returncode == 0
         except subprocess.TimeoutExpired:
             return False
 
@@ -59,6 +67,8 @@ class Area:
             sys.exit(f"mutate.py: {self.name}: does not build without a mutant")
         self.limits = {}
         for test in self.tests:
+            if not self.has(test):
+                sys.exit(f"mutate.py: {self.name}: {' '.join(test)} matches no test")
             begin = time.monotonic()
             if not self.passes(test, 3600):
                 sys.exit(f"mutate.py: {self.name}: {' '.join(test)} fails without a mutant")

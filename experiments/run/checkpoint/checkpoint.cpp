@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -56,6 +57,11 @@ std::string problem_digest(const RunRequest& request, const RunPlan& plan) {
 } // namespace
 
 std::string earlier_checkpoint(const std::string& path) { return path + ".previous"; }
+
+long whole_number(const nlohmann::json& value) {
+  constexpr std::uint64_t most = 1'000'000'000'000'000;
+  return value.is_number_unsigned() && value.get<std::uint64_t>() <= most ? value.get<long>() : -1;
+}
 
 RunIdentity::RunIdentity(const RunRequest& request, const RunPlan& plan, bool is_watched,
                          bool has_fma, int kept_fields, std::span<const long> stops) {
@@ -134,8 +140,7 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
 SavedRun::SavedRun(std::string path) : path_(std::move(path)), reader_(path_) {
   const nlohmann::json& head = reader_.head();
   const auto whole = [&](const char* key) {
-    const auto found = head.find(key);
-    return found != head.end() && found->is_number_unsigned() ? found->get<long>() : -1;
+    return whole_number(head.value(key, nlohmann::json()));
   };
   if (head.value("members", nlohmann::json()) > 0)
     throw InputError(fmt::format("{}: it is of an ensemble; give its --ensemble", path_));

@@ -15,6 +15,9 @@ namespace dss {
 /// Where the checkpoint before the last is kept: `run.ckpt.previous`.
 std::string earlier_checkpoint(const std::string& path);
 
+/// A whole number of a head. @return -1 if it is none from 0 to 1e15
+long whole_number(const nlohmann::json& value);
+
 /// What a checkpoint has beside the numbers of elements.
 struct Standing {
   long step = 0;                  ///< steps done; with adaptive steps, those that were accepted

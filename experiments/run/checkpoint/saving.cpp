@@ -17,10 +17,11 @@ long steps_of_pause(double elements) {
 }
 
 Saving common_saving(Executor& executor, bool is_due, bool is_asked) {
-  const std::vector<double> due = gather(executor, is_due), asked = gather(executor, is_asked);
-  if (std::ranges::any_of(asked, [](double of_rank) { return of_rank != 0; }))
-    return Saving::save_and_end;
-  return due.front() != 0 ? Saving::save : Saving::none;
+  constexpr int due = 1, asked = 2;
+  const std::vector<double> ranks = gather(executor, (is_due ? due : 0) + (is_asked ? asked : 0));
+  const auto has_asked = [](double of_rank) { return (int(of_rank) & asked) != 0; };
+  if (std::ranges::any_of(ranks, has_asked)) return Saving::save_and_end;
+  return (int(ranks.front()) & due) != 0 ? Saving::save : Saving::none;
 }
 
 void end_saved(const InterruptsDeferred& interrupts, const std::string& failure, long step,

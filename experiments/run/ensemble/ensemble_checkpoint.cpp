@@ -12,22 +12,28 @@
 namespace dss {
 namespace {
 
-nlohmann::ordered_json head_of(std::size_t member, const MemberBatch& batch, std::size_t lane) {
+nlohmann::ordered_json head_of(std::size_t member, const MemberRun& run, const MemberBatch& batch) {
   nlohmann::ordered_json head = {
       {"member", member}, {"step", batch.step()}, {"is_done", batch.is_done()}};
-  if (const auto& failure = batch.failure(lane))
-    head["failure"] = {{"step", failure->step}, {"element", failure->element}};
+  if (!run.is_ok())
+    head["failure"] = {{"steps", run.result().steps}, {"reason", run.result().reason}};
   return head;
+}
+
+long whole_of(const nlohmann::json& head, const char* key) {
+  const long number = whole_number(head.at(key));
+  if (number < 0) throw std::out_of_range(key);
+  return number;
 }
 
 /// @throws nlohmann::json::exception, std::out_of_range if a head or a block is of no such member
 void read_member(const nlohmann::json& head, BlockReader& file, std::size_t elements,
                  std::size_t width, std::vector<MemberStanding>& members) {
-  MemberStanding& standing = members.at(head.at("member").get<std::size_t>());
-  standing.step = head.at("step").get<long>();
+  MemberStanding& standing = members.at(std::size_t(whole_of(head, "member")));
+  if (standing.failure || !standing.kept.empty()) throw std::out_of_range("twice");
+  standing.step = whole_of(head, "step");
   if (const auto failure = head.find("failure"); failure != head.end()) {
-    standing.failure = {false, failure->at("step").get<long>(),
-                        failure->at("element").get<std::size_t>()};
+    standing.failure = {whole_of(*failure, "steps"), failure->at("reason").get<std::string>()};
     return;
   }
   standing.kept = file.next();
@@ -45,37 +51,47 @@ bool is_finite(std::span<const double> numbers) {
 
 RunIdentity identity_of(const EnsemblePlan& plan, bool has_fma, int kept_fields) {
   const auto of_member = [&](std::size_t m) {
-    return RunIdentity(plan.requests[m], plan.plans[m], false, has_fma, kept_fields, {});
+    return RunIdentity(plan.requests[m], plan.plans[m], false, has_fma, kept_fields, {}).facts;
   };
-  RunIdentity all = of_member(0);
-  std::string problems;
+  RunIdentity all(plan.requests[0], plan.plans[0], false, has_fma, kept_fields, {});
+  std::string members;
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
-    const bool is_as_first = plan.members[m].set.empty() && plan.members.front().set.empty();
-    const nlohmann::ordered_json facts = is_as_first ? all.facts : of_member(m).facts;
-    problems += fmt::format("{} {} {} ", plan.members[m].name, facts["problem"].dump(),
-                            facts["dt_s"].dump());
+    members += plan.members[m].name + ' ';
+    if (m == 0) members += all.facts["problem"].dump() + all.facts["dt_s"].dump();
+    if (m == 0 || (plan.members[m].set.empty() && plan.members[0].set.empty())) continue;
+    const nlohmann::ordered_json facts = of_member(m);
+    for (const auto& [key, value] : facts.items())
+      if (value != all.facts[key]) members += key + value.dump();
   }
   all.facts["members"] = plan.members.size();
-  all.facts["problem"] = text_digest(problems);
+  all.facts["problem"] = text_digest(members);
   return all;
 }
 
 std::string write_ensemble(const std::string& path, const RunIdentity& identity,
-                           const EnsemblePlan& plan, Batches batches, bool is_root) {
+                           const EnsemblePlan& plan, Batches batches, MemberRuns members,
+                           bool is_root) {
   nlohmann::ordered_json head = identity.facts;
+  const auto members_of = [&](std::size_t b) -> const std::vector<std::size_t>& {
+    return plan.batches[b].members;
+  };
+  long step = 0;
+  for (const auto& batch : batches) step = std::max(step, batch->step());
+  head["step"] = step;
   head["standing"] = nlohmann::ordered_json::array();
   for (std::size_t b = 0; b < batches.size(); ++b)
     for (std::size_t n = 0; n < batches[b]->size(); ++n)
-      head["standing"].push_back(head_of(plan.batches[b].members[n], *batches[b], n));
+      head["standing"].push_back(
+          head_of(members_of(b)[n], *members[members_of(b)[n]], *batches[b]));
   CheckpointFile file(path, head, batches.front()->executor(), is_root);
   bool is_whole = true;
-  for (const auto& batch : batches) {
-    const std::vector<std::vector<double>> kept = batch->save();
+  for (std::size_t b = 0; b < batches.size(); ++b) {
+    const std::vector<std::vector<double>> kept = batches[b]->save();
     for (std::size_t n = 0; n < kept.size(); ++n) {
-      if (batch->failure(n)) continue;
+      if (!members[members_of(b)[n]]->is_ok()) continue;
       is_whole &= is_finite(kept[n]);
       file.write(kept[n]);
-      if (batch->is_done()) file.write(batch->state(n));
+      if (batches[b]->is_done()) file.write(batches[b]->state(n));
     }
   }
   if (!is_whole) return fmt::format("{}: a state is not finite, so it was not saved", path);
@@ -83,8 +99,9 @@ std::string write_ensemble(const std::string& path, const RunIdentity& identity,
 }
 
 EnsembleSaving::EnsembleSaving(const RunRequest& request, const EnsemblePlan& plan,
-                               const RunIdentity& identity, Batches batches, long step)
-    : request_(request), plan_(plan), identity_(identity), batches_(batches),
+                               const RunIdentity& identity, Batches batches, MemberRuns members,
+                               long step)
+    : request_(request), plan_(plan), identity_(identity), batches_(batches), members_(members),
       clock_(parse_checkpoint_interval(request.checkpoint_every), step) {}
 
 void EnsembleSaving::save_or_end(long step) {
@@ -100,11 +117,12 @@ void EnsembleSaving::save_end(long step) { note(save(step)); }
 
 std::string EnsembleSaving::save(long step) {
   clock_.take(step);
-  return write_ensemble(request_.checkpoint, identity_, plan_, batches_, request_.is_root);
+  return write_ensemble(request_.checkpoint, identity_, plan_, batches_, members_,
+                        request_.is_root);
 }
 
 void EnsembleSaving::note(const std::string& failure) const {
-  if (!failure.empty()) Progress().note(failure + "; the run goes on");
+  if (!failure.empty() && request_.is_root) Progress().note(failure + "; the run goes on");
 }
 
 std::vector<MemberStanding> read_ensemble(const std::string& path, const RunIdentity& identity,

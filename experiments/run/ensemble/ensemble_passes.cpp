@@ -49,6 +49,14 @@ double EnsembleRun::run_to(MemberBatch& batch, long stop) {
   return wall_s;
 }
 
+void EnsembleRun::tell_failures(std::size_t b) {
+  for (std::size_t n = 0; n < batches_[b]->size(); ++n) {
+    MemberRun& member = *members_[plan_.batches[b].members[n]];
+    if (const auto& failure = batches_[b]->failure(n); failure && member.is_ok())
+      member.fail(*failure);
+  }
+}
+
 void EnsembleRun::look(std::size_t b, Looks looks) {
   MemberBatch& batch = *batches_[b];
   batch.read(); // all ranks take part
@@ -56,10 +64,6 @@ void EnsembleRun::look(std::size_t b, Looks looks) {
   for (std::size_t n = 0; n < batch.size(); ++n) {
     MemberRun& member = *members_[plan_.batches[b].members[n]];
     if (!member.is_ok()) continue;
-    if (batch.failure(n)) {
-      member.fail(*batch.failure(n));
-      continue;
-    }
     const std::span<const double> state = batch.state(n);
     // Numbers that overflow in the last step before a pause.
     if (const auto element = first_not_finite(state))
@@ -68,6 +72,7 @@ void EnsembleRun::look(std::size_t b, Looks looks) {
       member.look_at_step(state, batch.step());
     else
       member.look(state, batch.step());
+    if (!member.is_ok()) batch.fail(n);
   }
 }
 
@@ -82,7 +87,8 @@ double EnsembleRun::go_on(std::size_t b, Looks looks, long until) {
   for (const long stop : stops(b, looks)) {
     if (stop <= batch.step()) continue;
     wall_s += run_to(batch, std::min(stop, until));
-    if (stop > until) break;
+    if (looks != Looks::none) tell_failures(b);
+    if (stop > until || !batch.is_alive()) break;
     if (looks != Looks::none) look(b, looks);
   }
   return wall_s;
@@ -110,9 +116,11 @@ long EnsembleRun::last_step() const {
 
 double EnsembleRun::saved_pass() {
   const int width = kept_fields(batches_.front()->executor());
-  const auto is_saved = [&](const auto& batch) { return kept_fields(batch->executor()) == width; };
-  if (width == 0 || !std::ranges::all_of(batches_, is_saved))
-    refuse_saving(request_, whole_.variant);
+  if (width == 0) refuse_saving(request_, whole_.variant);
+  const auto is_alike = [&](const auto& batch) { return kept_fields(batch->executor()) == width; };
+  if (!std::ranges::all_of(batches_, is_alike))
+    throw InputError("--checkpoint: members of different methods keep different numbers; run those "
+                     "of each method as an ensemble of their own");
   const RunIdentity identity = identity_of(plan_, whole_.has_fma, width);
   for (const auto& member : members_) member->keep_frames();
   long step = 0;
@@ -121,7 +129,8 @@ double EnsembleRun::saved_pass() {
   else
     on_team([&](std::size_t b) { return begin(b, Looks::at_stops), 0.0; });
   std::optional<EnsembleSaving> saving;
-  if (!request_.checkpoint.empty()) saving.emplace(request_, plan_, identity, batches_, step);
+  if (!request_.checkpoint.empty())
+    saving.emplace(request_, plan_, identity, batches_, members_, step);
   const long pause = steps_of_pause(double(whole_.elements) / double(team_)), last = last_step();
   double wall_s = 0;
   while (step < last) {
@@ -141,8 +150,8 @@ long EnsembleRun::resume(const RunIdentity& identity) {
     batches_[b]->restore(own);
     whole_.resumed_step = std::max(whole_.resumed_step, batches_[b]->step());
   }
-  for (std::size_t m = 0; m < members.size(); ++m)
-    members_[m]->resume(members[m].step, members[m].failure);
+  for (std::size_t m = 0; m < members.size(); ++m) members_[m]->resume(members[m]);
+  steps_before_ = steps_of_batches();
   const std::optional<OracleState>& expected = plan_.plans.front().expected;
   if (expected && expected->steps <= whole_.resumed_step)
     refuse_passed_state(request_, expected->steps);

@@ -32,6 +32,7 @@ private:
   double go_on(std::size_t b, Looks looks, long until);
   double run_to(MemberBatch& batch, long stop);
   void look(std::size_t b, Looks looks);
+  void tell_failures(std::size_t b);
   std::vector<long> stops(std::size_t b, Looks looks) const;
   /// Runs all batches from the start to the end. @return the time of the busiest thread [s]
   double pass(Looks looks);
@@ -54,7 +55,7 @@ private:
   }
   template <class Visit>
   void each_member(Visit&& visit);
-  /// Steps that all batches together have taken since their start.
+  /// Steps of all batches together, from the start on.
   double steps_of_batches() const;
 
   const RunRequest& request_;
@@ -64,6 +65,7 @@ private:
   std::vector<MemberBatch*> batch_of_; ///< each member
   int team_ = 1;                       ///< threads that take batches
   Usage usage_;                        ///< of the timed steps of a team of one
+  double steps_before_ = 0;            ///< of steps_of_batches(), before a restart
   RunResult whole_;
 };
 

@@ -129,7 +129,8 @@ void EnsembleRun::run() {
     const Traffic before = sent();
     whole_.usage =
         metered([&] { whole_.wall_s = is_saved ? saved_pass() : pass(Looks::at_stops); });
-    put_traffic(batches_.front()->executor(), since(before, sent()), steps_of_batches(), whole_);
+    put_traffic(batches_.front()->executor(), since(before, sent()),
+                steps_of_batches() - steps_before_, whole_);
     whole_.digest = digest_of_all();
     each_member([](MemberRun& member, std::span<const double> state, bool) {
       if (member.is_ok()) member.end(state);

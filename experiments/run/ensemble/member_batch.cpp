@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -80,6 +81,7 @@ MemberBatch::MemberBatch(std::vector<const RunPlan*> members, int lanes, const S
 
 void MemberBatch::restart() {
   step_ = 0;
+  kept_.clear();
   std::ranges::fill(failures_, std::nullopt);
   std::ranges::fill(states_, std::vector<double>());
   std::vector<double> all;
@@ -141,6 +143,7 @@ void MemberBatch::each_piece(std::size_t width, Visit&& visit) {
 }
 
 std::vector<std::vector<double>> MemberBatch::save() {
+  if (!kept_.empty()) return kept_;
   const std::size_t width = std::size_t(kept_fields(*executor_));
   std::vector<std::vector<double>> members(members_.size());
   each_piece(width, [&](std::size_t first, std::span<double> kept) {
@@ -152,27 +155,39 @@ std::vector<std::vector<double>> MemberBatch::save() {
   return members;
 }
 
-void MemberBatch::restore(std::span<const MemberStanding* const> members) {
-  restart();
+const MemberStanding* MemberBatch::require_one_step(Standings members) const {
   const MemberStanding* alive = nullptr;
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    failures_[m] = members[m]->failure;
-    if (failures_[m]) continue;
-    if (alive == nullptr) alive = members[m];
-    if (members[m]->step != alive->step)
+  const long last = members_.front()->steps;
+  for (const MemberStanding* member : members) {
+    if (member->failure) continue;
+    if (alive == nullptr) alive = member;
+    if (member->step != alive->step)
       throw InputError(
           fmt::format("members of one batch stood at steps {} and {}; give the --steps "
                       "of the interrupted run",
-                      alive->step, members[m]->step));
+                      alive->step, member->step));
+    if (member->step > last || (member->step == last && member->end.empty()))
+      throw InputError(fmt::format("members that end at step {} were saved at step {} of a longer "
+                                   "run; give more --steps",
+                                   last, member->step));
   }
+  return alive;
+}
+
+void MemberBatch::restore(Standings members) {
+  const MemberStanding* const alive = require_one_step(members);
+  restart();
   step_ = (alive == nullptr ? members.front() : alive)->step;
+  for (std::size_t m = 0; m < members.size(); ++m)
+    if (members[m]->failure) fail(m);
   if (alive == nullptr) return;
   if (is_done()) {
-    if (alive->end.empty())
-      throw InputError(fmt::format("members that end at step {} were saved there before their end; "
-                                   "give more --steps",
-                                   step_));
-    for (std::size_t m = 0; m < members.size(); ++m) states_[m] = members[m]->end;
+    const std::vector<double> none(elements() * field_count,
+                                   std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      states_[m] = failures_[m] ? none : members[m]->end;
+      kept_.push_back(members[m]->kept);
+    }
     return;
   }
   const std::size_t width = std::size_t(kept_fields(*executor_));

@@ -6,15 +6,21 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace dss {
 
 /// Where a member stands.
 struct MemberStanding {
+  /// How a member ended before its time.
+  struct Failure {
+    long steps; ///< with the one that failed
+    std::string reason;
+  };
   long step = 0;
-  std::optional<Outcome> failure; ///< the step counts from the start
-  std::vector<double> kept;       ///< numbers of its elements (kept_state.hpp); empty if it failed
+  std::optional<Failure> failure;
+  std::vector<double> kept; ///< numbers of its elements (kept_state.hpp); empty if it failed
   /// Of a member that has done all of its steps: the state, since a leapfrog cannot give its
   /// velocities at the end anew (StateTransfer::restore). Else empty
   std::vector<double> end;
@@ -38,6 +44,8 @@ public:
   long step() const { return step_; }
   /// Where a member failed: the step counts from the start. Empty while it is alive.
   const std::optional<Outcome>& failure(std::size_t member) const { return failures_[member]; }
+  /// Ends a member whose state nobody can use.
+  void fail(std::size_t member) { failures_[member] = Outcome{false, step_ - 1}; }
   bool is_alive() const;
   bool is_done() const { return step_ >= members_.front()->steps; }
   /// Reads the present state of all members. Collective; state() does so too if it must.
@@ -47,8 +55,10 @@ public:
   /// What each member keeps, as in MemberStanding. Collective.
   std::vector<std::vector<double>> save();
   /// Puts all members where they stood. Collective.
-  /// @throws InputError if they stood at different steps, or at an end that was none
-  void restore(std::span<const MemberStanding* const> members);
+  /// @throws InputError if they stood at different steps, beyond their end, or at an end that was
+  ///     none
+  using Standings = std::span<const MemberStanding* const>;
+  void restore(Standings members);
   Executor& executor() { return *executor_; }
 
 private:
@@ -57,6 +67,8 @@ private:
   }
   std::size_t lanes() const { return ensemble_ ? ensemble_->size() : 1; }
   std::size_t elements() const { return members_.front()->scene.problem.lattice.element_count; }
+  /// @return a member that has not failed, or null
+  const MemberStanding* require_one_step(Standings members) const;
   /// Calls visit(first, numbers) for pieces of what the executor keeps; `width` numbers an element.
   template <class Visit>
   void each_piece(std::size_t width, Visit&& visit);
@@ -68,6 +80,7 @@ private:
   std::vector<double> signals_; ///< of the next steps
   std::vector<std::optional<Outcome>> failures_;
   std::vector<std::vector<double>> states_; ///< of each member; empty: not read since the last step
+  std::vector<std::vector<double>> kept_;   ///< of members that were restored at their end
 };
 
 /// Members that one executor computes.

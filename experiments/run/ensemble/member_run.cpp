@@ -42,12 +42,17 @@ void MemberRun::look(std::span<const double> state, long step) {
     guarded([&] { series_.add(problem, {state.begin(), state.end()}, equations(), time); });
 }
 
-void MemberRun::resume(long step, const std::optional<Outcome>& failure) {
-  result_.resumed_step = step;
-  if (failure) return fail(*failure);
+void MemberRun::resume(const MemberStanding& standing) {
+  result_.resumed_step = standing.step;
+  if (const auto& failure = standing.failure) {
+    result_.status = "unstable";
+    result_.reason = failure->reason;
+    result_.steps = result_.resumed_step = failure->steps;
+    return;
+  }
   std::vector<double> times;
   for (const long frame : plan_.frame_steps)
-    if (frame <= step) times.push_back(double(frame) * plan_.dt);
+    if (frame <= standing.step) times.push_back(double(frame) * plan_.dt);
   if (request_.is_root && !request_.output.empty()) series_.go_on(times);
 }
 

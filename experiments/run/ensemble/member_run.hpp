@@ -1,6 +1,7 @@
 #pragma once
 /// What one member of an ensemble makes of its states on the way: looks at its energy, checks,
 /// files, its result.
+#include "experiments/run/ensemble/member_batch.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/timed/oracle_check.hpp"
 #include "experiments/run/timed/output.hpp"
@@ -29,8 +30,8 @@ public:
   void look(std::span<const double> state, long step);
   /// Frames that are written stay if a later one cannot be written: the ensemble is saved.
   void keep_frames() { series_.keep_finished(); }
-  /// Goes on after `step` steps of an earlier run, in which the member may have failed.
-  void resume(long step, const std::optional<Outcome>& failure);
+  /// Goes on where an earlier run stood, in which the member may have failed.
+  void resume(const MemberStanding& standing);
   /// The member became unstable; steps count from the start.
   void fail(const Outcome& failure);
   /// Takes the final state.
