@@ -3,7 +3,7 @@
 #include "experiments/base/usage.hpp"
 #include "experiments/run/ensemble/ensemble_checkpoint.hpp"
 #include "experiments/run/ensemble/ensemble_plan.hpp"
-#include "experiments/run/ensemble/ensemble_run.hpp"
+#include "experiments/run/ensemble/ensemble_record.hpp"
 #include "experiments/run/ensemble/member_batch.hpp"
 #include "experiments/run/ensemble/member_run.hpp"
 
