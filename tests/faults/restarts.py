@@ -40,7 +40,7 @@ METHODS = ["rk4", "velocity_verlet", "smoothed_verlet", "midpoint", "symplectic_
 PRECISIONS = ["f64", "f32", "f32c"]
 UNSTABLE = 3
 # Reasons why a combination cannot run at all: not faults.
-IMPOSSIBLE = ("rows for", "give at most that", "a watched model")
+IMPOSSIBLE = ("rows for", "give at most that", "take at most", "a watched model")
 
 
 class Restarts:
