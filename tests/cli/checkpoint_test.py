@@ -7,11 +7,10 @@ import os
 import pathlib
 import re
 import signal
-import subprocess
-import time
 import unittest
 
-from program import PROGRAM, ProgramTest, dssbench, why_no_variant
+from program import dssbench, why_no_variant
+from runs import RunTest
 
 PLATE = ("plate_paper", "--set", "n=12", "--steps", "600", "--model", "spatial")
 PAPER_LAW = {"law": "paper", "k": 1e6, "d": 1, "kt": 0, "dt": 1, "mass": 1, "inertia": 1}
@@ -19,18 +18,9 @@ LADDER = pathlib.Path(__file__).parents[2] / "experiments" / "scenes" / "ladder"
 LONG = ("plate_paper", "--set", "n=40", "--steps", "50000000", "--model", "spatial")
 
 
-class Checkpoints(ProgramTest):
-    def run_json(self, *arguments):
-        result = dssbench("run", *arguments, "--json", "-", cwd=self.directory)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout)
-
+class Checkpoints(RunTest):
     def save(self, *arguments, every=250):
-        """@return the record of a run that leaves c.ckpt and c.ckpt.previous."""
-        return self.run_json(*arguments, "--checkpoint", "c.ckpt", "--checkpoint-every", every)
-
-    def head(self, name):
-        return json.loads(pathlib.Path(self.path(name)).read_bytes().split(b"\n", 2)[1])
+        return super().save(*arguments, every=every)
 
     def test_two_are_kept_and_the_last_is_of_the_end(self):
         self.save(*PLATE)
@@ -172,27 +162,11 @@ class Checkpoints(ProgramTest):
         self.assert_refused(2, ["no/c"], "run", *PLATE, "--checkpoint", self.path("no/c"))
         self.assertEqual(os.listdir(self.directory), [])
 
-    def interrupted(self, number, *options):
-        """Interrupts a long run that saves itself. @return its line"""
-        with subprocess.Popen([PROGRAM, "run", *LONG, "--checkpoint", "c.ckpt", *options],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                              start_new_session=True, cwd=self.directory) as run:
-            end = time.monotonic() + 60
-            while not os.path.exists(self.path("c.ckpt")):
-                self.assertLess(time.monotonic(), end)
-                time.sleep(0.02)
-            os.killpg(run.pid, number)
-            line = run.communicate(timeout=60)[1]
-        self.assertEqual(run.returncode, -number, line)
-        self.assertEqual(line.count("dssbench: "), 1, line)
-        self.assertIn("--restart c.ckpt", line)
-        return line
-
     def test_a_signal_saves_the_run_and_says_how_to_go_on(self):
         ranks = [] if why_no_variant("mpi") else [["--ranks", "2"]]
         for number, options in zip((signal.SIGTERM, signal.SIGUSR1, signal.SIGINT),
                                    [[], ["--threads", "2"], *ranks]):
-            line = self.interrupted(number, "--checkpoint-every", "20", *options)
+            line = self.interrupted(number, *LONG, "--checkpoint-every", "20", *options)
             step = self.head("c.ckpt")["step"]
             if not options:
                 self.assertEqual(int(re.search(r"after step (\d+);", line).group(1)), step)

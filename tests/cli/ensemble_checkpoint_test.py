@@ -3,11 +3,10 @@ import json
 import os
 import pathlib
 import signal
-import subprocess
-import time
 import unittest
 
-from program import PROGRAM, ProgramTest, dssbench, why_no_variant
+from program import dssbench, why_no_variant
+from runs import RunTest, members_of
 
 # Five members of a bracket, of two lengths; the last one has another step.
 SETS = [{}, {"loads/0/force/2": -300}, {"run.steps": 500}, {"bodies/0/constants/rho": 1800},
@@ -15,34 +14,17 @@ SETS = [{}, {"loads/0/force/2": -300}, {"run.steps": 500}, {"bodies/0/constants/
 BRACKET = ("l_bracket", "--model", "spatial", "--set", "run.steps=600")
 
 
-def members_of(record):
-    return record["ensemble"]["members"]
-
-
 def digests(record):
     return [member["state_digest"] for member in members_of(record)]
 
 
-class SavedEnsembles(ProgramTest):
+class SavedEnsembles(RunTest):
     def setUp(self):
         super().setUp()
         self.of = (*BRACKET, "--ensemble", self.members(*SETS))
 
-    def members(self, *sets):
-        return self.write("m.json", json.dumps({"members": [{"set": own} for own in sets]}))
-
-    def run_json(self, *arguments, code=0):
-        result = dssbench("run", *arguments, "--json", "-", cwd=self.directory)
-        self.assertEqual(result.returncode, code, result.stderr)
-        return json.loads(result.stdout)
-
     def save(self, *arguments, every=550, code=0):
-        """@return the record of an ensemble that leaves c.ckpt and c.ckpt.previous."""
-        return self.run_json(*arguments, "--checkpoint", "c.ckpt", "--checkpoint-every", every,
-                             code=code)
-
-    def head(self, name):
-        return json.loads(pathlib.Path(self.path(name)).read_bytes().split(b"\n", 2)[1])
+        return super().save(*arguments, every=every, code=code)
 
     def test_members_go_on_elsewhere_with_the_bits_of_the_whole(self):
         here = [name for name in ("avx2", "avx512") if why_no_variant(name) is None]
@@ -171,19 +153,7 @@ class SavedEnsembles(ProgramTest):
     def test_a_signal_saves_the_ensemble_and_says_how_to_go_on(self):
         run = (*BRACKET, "--ensemble", "9", "--steps")
         for number, options in ((signal.SIGINT, ()), (signal.SIGTERM, ("--threads", "2"))):
-            with subprocess.Popen([PROGRAM, "run", *run, "50000000", *options, "--checkpoint",
-                                   "c.ckpt", "--checkpoint-every", "100"],
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                                  cwd=self.directory) as process:
-                end = time.monotonic() + 60
-                while not os.path.exists(self.path("c.ckpt")):
-                    self.assertLess(time.monotonic(), end)
-                    time.sleep(0.02)
-                process.send_signal(number)
-                line = process.communicate(timeout=60)[1]
-            self.assertEqual(process.returncode, -number, line)
-            self.assertEqual(line.count("dssbench: "), 1, line)
-            self.assertIn("--restart c.ckpt", line)
+            line = self.interrupted(number, *run, "50000000", *options, "--checkpoint-every", "100")
             step = self.head("c.ckpt")["standing"][0]["step"]
             self.assertIn(f"after step {step};", line)
             limited = (*run, str(step + 50))

@@ -6,30 +6,19 @@ import unittest
 
 import jsonschema
 
-from program import ProgramTest, dssbench, why_no_variant
+from program import dssbench, why_no_variant
+from runs import RunTest, members_of
 
 ROOT = os.path.join(os.path.dirname(__file__), "..", "..")
 BRACKETS = os.path.join(ROOT, "examples", "ensemble", "brackets.json")
 SHORT = ["--steps", 40, "--model", "spatial"]
 
 
-def members_of(record):
-    return record["ensemble"]["members"]
-
-
 def on_ranks(ranks):
     return ["--ranks", ranks, "--warmup", 5, "--warmup-time", 0.02]
 
 
-class Ensemble(ProgramTest):
-    def run_json(self, *arguments, code=0):
-        result = dssbench("run", *arguments, "--json", "-")
-        self.assertEqual(result.returncode, code, result.stderr)
-        return json.loads(result.stdout)
-
-    def members(self, *sets):
-        return self.write("m.json", json.dumps({"members": [{"set": s} for s in sets]}))
-
+class Ensemble(RunTest):
     def single_digest(self, scene, values, *arguments):
         sets = [word for key, value in values.items()
                 for word in ("--set", f"{key}={json.dumps(value)}")]

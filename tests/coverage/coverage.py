@@ -8,7 +8,6 @@ each line. Branches that only exceptions take are left out.
 """
 import argparse
 import collections
-import csv
 import json
 import pathlib
 import subprocess
@@ -54,18 +53,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
-    arguments = parser.parse_args()
-    files = measured(arguments.build.resolve())
+    files = measured(parser.parse_args().build.resolve())
     table = by_folder(files)
     for folder, *figures in [COLUMNS, *table]:
         print(f"{folder:32}" + "".join(f"{figure:>18}" for figure in figures))
     print("\nfiles of which least is run:")
     for file in sorted(files, key=lambda f: f["line_percent"])[:12]:
         print(f"{file['line_percent']:6.1f} % of {file['line_total']:4} lines  {file['filename']}")
-    if arguments.csv:
-        with open(arguments.csv, "w", newline="") as out:
-            csv.writer(out, lineterminator="\n").writerows([COLUMNS, *table])
 
 
 if __name__ == "__main__":
