@@ -74,7 +74,8 @@ struct RowKernels {
   static constexpr bool is_single = sizeof(T) == sizeof(float);
   static constexpr bool is_ensemble = kind == LaneKind::members;
   static constexpr bool has_own_functions =
-      (has_all_kernels || (model == Model::spatial && kind == LaneKind::neighbours)) &&
+      (has_all_kernels ||
+       (model == Model::spatial && kind == LaneKind::neighbours && !terms.is_full())) &&
       kind != LaneKind::filled &&
       (is_single || is_ensemble ? P::is_common && !terms.is_full() : P::is_common || has_packs);
   /// The rest of the actions: in line in common damped rows, else called for each pack.

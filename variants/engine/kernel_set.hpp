@@ -20,10 +20,20 @@ inline constexpr std::array compiled_terms{
     Terms{true, true, true, true, true, false},
 };
 
+/// False with DSS_FEWER_KERNELS, for sanitizers: only the models planar and spatial, and of these
+/// only damped and full rows. Only spatial damped rows of single runs have functions of their own
+/// for actions.
+#ifdef DSS_FEWER_KERNELS
+inline constexpr bool has_all_kernels = false;
+#else
+inline constexpr bool has_all_kernels = true;
+#endif
+
 /// Rarely used models leave out the damped oblong row of the paper's law; the full row covers it.
 /// They keep all rows of the material law, since the full row in their place would be slower
 /// (README.md).
 constexpr bool is_compiled(Model model, const Terms& terms) {
+  if (!has_all_kernels && (!terms.is_damped || (terms.is_oblong && !terms.is_full()))) return false;
   if (model == Model::spatial || model == Model::planar) return true;
   return terms.is_full() || terms.is_material || !terms.is_oblong;
 }
@@ -77,14 +87,6 @@ inline constexpr bool has_ensembles = simd::lanes<double> > 1;
 constexpr bool has_filled_rows(Model model) {
   return descriptor(model).is_common && !descriptor(model).is_linear;
 }
-
-/// False with DSS_FEWER_KERNELS: only the models planar and spatial. Only spatial rows of single
-/// runs have functions of their own for actions.
-#ifdef DSS_FEWER_KERNELS
-inline constexpr bool has_all_kernels = false;
-#else
-inline constexpr bool has_all_kernels = true;
-#endif
 
 /// True if this build has the kernels of a model.
 constexpr bool is_built(Model model) { return has_all_kernels || has_filled_rows(model); }

@@ -1,13 +1,13 @@
 #include "experiments/run/checkpoint/checkpoint.hpp"
 
 #include "experiments/base/build_info.hpp"
+#include "experiments/run/state/state_access.hpp"
 #include "solver/digest.hpp"
 #include "solver/error.hpp"
 #include "solver/lattice/shape_digest.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -130,7 +130,7 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
   for (std::size_t first = 0; first < elements; first += piece) {
     const std::span<double> part(kept.data(), std::min(piece, elements - first) * width);
     save(executor, first, part);
-    is_finite &= std::ranges::all_of(part, [](double value) { return std::isfinite(value); });
+    is_finite &= !first_not_finite(part);
     file.write(part);
   }
   if (!is_finite) return fmt::format("{}: the state is not finite, so it was not saved", path);

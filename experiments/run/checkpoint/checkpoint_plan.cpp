@@ -27,9 +27,8 @@ CheckpointInterval parse_checkpoint_interval(const std::string& text) {
 
 void require_sound_checkpoints(const RunRequest& request, const RunPlan& plan) {
   parse_checkpoint_interval(request.checkpoint_every);
-  const bool is_restarted = !request.restart.empty();
-  if (request.checkpoint.empty() && !is_restarted) return;
-  const char* option = is_restarted ? "--restart" : "--checkpoint";
+  if (!request.is_saved()) return;
+  const char* option = request.restart.empty() ? "--checkpoint" : "--restart";
   const auto refuse = [&](const std::string& why) {
     throw InputError(fmt::format("{}: {}", option, why));
   };

@@ -2,11 +2,11 @@
 
 #include "experiments/base/progress.hpp"
 #include "experiments/run/checkpoint/saving.hpp"
+#include "experiments/run/state/state_access.hpp"
 #include "solver/digest.hpp"
 #include "solver/error.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace dss {
@@ -41,10 +41,6 @@ void read_member(const nlohmann::json& head, BlockReader& file, std::size_t elem
   if (standing.kept.size() != elements * width ||
       (!standing.end.empty() && standing.end.size() != elements * field_count))
     throw std::out_of_range("size");
-}
-
-bool is_finite(std::span<const double> numbers) {
-  return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
 }
 
 } // namespace
@@ -89,7 +85,7 @@ std::string write_ensemble(const std::string& path, const RunIdentity& identity,
     const std::vector<std::vector<double>> kept = batches[b]->save();
     for (std::size_t n = 0; n < kept.size(); ++n) {
       if (!members[members_of(b)[n]]->is_ok()) continue;
-      is_whole &= is_finite(kept[n]);
+      is_whole &= !first_not_finite(kept[n]);
       file.write(kept[n]);
       if (batches[b]->is_done()) file.write(batches[b]->state(n));
     }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace dss {
 
@@ -39,6 +40,8 @@ void EnsembleRun::make_batches() {
   const Plugin& plugin = *plan_.plans.front().plugin;
   const bool is_team = plugin.ensemble_lanes != nullptr && !plugin.is_distributed;
   team_ = is_team ? int(std::min(count, std::size_t(request_.threads))) : 1;
+  // Members have one topology, so what a trial finds for one run on all ranks suits those like it.
+  std::map<std::pair<Model, std::string_view>, std::string> found_halos;
   for (const auto& [members, has_lanes] : plan_.batches) {
     std::vector<const RunPlan*> plans;
     for (const std::size_t m : members) plans.push_back(&plan_.plans[m]);
@@ -46,6 +49,9 @@ void EnsembleRun::make_batches() {
     const bool has_packs = has_lanes && plan_.lanes > request_.ranks,
                is_divided = (!is_team || count == 1) &&
                             !(has_packs && !plan.scene.problem.extra_links.empty());
+    std::string& halo = found_halos[{plan.model, plan.method->name}];
+    Distribution distribution = plan.distribution;
+    if (!has_lanes && !halo.empty()) distribution.halo = halo;
     const Setup setup{plan.scene.problem,
                       *plan.method,
                       plan.model,
@@ -53,13 +59,14 @@ void EnsembleRun::make_batches() {
                       plan.dt,
                       is_divided ? request_.threads : 1,
                       nullptr,
-                      &plan.distribution,
+                      &distribution,
                       request_.device,
                       request_.hybrid,
                       plan.rotation,
                       request_.tile};
     batches_.push_back(
         std::make_unique<MemberBatch>(std::move(plans), has_lanes ? plan_.lanes : 1, setup));
+    if (!has_lanes && request_.hybrid.empty()) halo = rank_info(batches_.back()->executor()).halo;
     for (const std::size_t m : members) batch_of_[m] = batches_.back().get();
   }
 }
@@ -123,12 +130,11 @@ bool EnsembleRun::is_balanced_by_steps() const {
 }
 
 void EnsembleRun::run() {
-  const bool is_saved = !request_.checkpoint.empty() || !request_.restart.empty();
   try {
     warm_up();
     const Traffic before = sent();
-    whole_.usage =
-        metered([&] { whole_.wall_s = is_saved ? saved_pass() : pass(Looks::at_stops); });
+    whole_.usage = metered(
+        [&] { whole_.wall_s = request_.is_saved() ? saved_pass() : pass(Looks::at_stops); });
     put_traffic(batches_.front()->executor(), since(before, sent()),
                 steps_of_batches() - steps_before_, whole_);
     whole_.digest = digest_of_all();
@@ -144,7 +150,7 @@ void EnsembleRun::run() {
     });
   } catch (...) { // no partial results, unless the run can go on with them
     for (const auto& member : members_)
-      if (!is_saved) member->discard_files();
+      if (!request_.is_saved()) member->discard_files();
     throw;
   }
   if (are_all_ok()) take_samples(whole_.wall_s);

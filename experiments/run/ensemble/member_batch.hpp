@@ -54,10 +54,10 @@ public:
   std::span<const double> state(std::size_t member);
   /// What each member keeps, as in MemberStanding. Collective.
   std::vector<std::vector<double>> save();
+  using Standings = std::span<const MemberStanding* const>;
   /// Puts all members where they stood. Collective.
   /// @throws InputError if they stood at different steps, beyond their end, or at an end that was
   ///     none
-  using Standings = std::span<const MemberStanding* const>;
   void restore(Standings members);
   Executor& executor() { return *executor_; }
 

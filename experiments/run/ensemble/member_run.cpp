@@ -32,10 +32,10 @@ void MemberRun::look(std::span<const double> state, long step) {
   const Problem& problem = plan_.scene.problem;
   const double time = double(step) * plan_.dt;
   const long between = energy_look_interval(problem.lattice.element_count, plan_.steps);
-  if (balance_ && (step % between == 0 || step == plan_.steps))
+  const bool is_due = step % between == 0;
+  if (balance_ && (is_due || step == plan_.steps))
     balance_->look(state, time);
-  else if (has_balance() && step % between == 0 &&
-           step < plan_.steps) // a continued run begins here
+  else if (has_balance() && is_due && step < plan_.steps) // the balance of a continued run begins
     balance_.emplace(problem, equations(), state, time, false);
   if (oracle_check_.is_wanted(step)) oracle_check_.look(step, state, equations(), result_.check);
   if (std::ranges::binary_search(plan_.frame_steps, step))

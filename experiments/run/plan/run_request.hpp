@@ -56,6 +56,9 @@ struct RunRequest {
   double repeat_for = 0;
   bool has_balance = true; ///< follow the energy
   int tile = 0;            ///< as Setup::tile; 0: as suits the caches
+
+  /// True if the run pauses to be saved, or goes on from where one was saved.
+  bool is_saved() const { return !checkpoint.empty() || !restart.empty(); }
 };
 
 } // namespace dss
