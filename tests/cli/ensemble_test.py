@@ -174,6 +174,10 @@ class Ensemble(RunTest):
             self.assertEqual(whole["messages_per_step"] > 0, "--ranks" in options)
             self.assertEqual([own["state_digest"] for own in members_of(whole)],
                              [single] * members)
+            # One trial of halo strategies is for all members.
+            for key in ("halo", "halo_reason", "network"):
+                self.assertEqual(members_of(whole)[0][key], members_of(whole)[1][key], key)
+            self.assertEqual("tried" in members_of(whole)[0]["halo_reason"], "blocks" in schedule)
         self.assert_refused(2, ["member 2", "kk"], "run", "two_elements", "--ranks", 2,
                             "--ensemble", self.members({}, {"kk": 1}))
 

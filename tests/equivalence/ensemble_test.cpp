@@ -170,7 +170,9 @@ TEST_P(EveryEnsemble, has_the_same_bits_on_several_threads) {
   }
 }
 
-/// How a single run of 40 steps ends.
+constexpr long failing_steps = 40; ///< in which members fail that are far above their limits
+
+/// How a single run of failing_steps ends.
 struct SingleRun {
   Outcome outcome;
   State end;
@@ -179,7 +181,8 @@ struct SingleRun {
 SingleRun single_run(const VariantRun& run, const State& start) {
   const auto executor = run.executor();
   executor->write(0, start);
-  SingleRun single{executor->advance(40, signal_rows(run.problem, run.method, run.dt, 0, 40)),
+  SingleRun single{executor->advance(failing_steps, signal_rows(run.problem, run.method, run.dt, 0,
+                                                                failing_steps)),
                    start};
   executor->read(0, single.end);
   return single;
@@ -199,7 +202,7 @@ TEST_P(EveryEnsemble, ends_a_member_that_fails_alone) {
     }
     for (const int threads : {1, 2}) {
       EnsembleOf ensemble(plugin, members, scheme, Model::spatial, threads);
-      EXPECT_TRUE(ensemble.advance(40).is_finite);
+      EXPECT_TRUE(ensemble.advance(failing_steps).is_finite);
       const auto outcomes = ensemble.executor().member_outcomes()->outcomes();
       for (std::size_t m = 0; m < singles.size(); ++m) {
         const auto& [expected, end] = singles[m];

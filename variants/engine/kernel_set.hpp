@@ -20,8 +20,8 @@ inline constexpr std::array compiled_terms{
     Terms{true, true, true, true, true, false},
 };
 
-/// False with DSS_FEWER_KERNELS, for sanitizers: only the models planar and spatial, and of these
-/// only damped and full rows. Only spatial damped rows of single runs have functions of their own
+/// False with DSS_FEWER_KERNELS: only the models planar and spatial, whose rows are damped, or
+/// full. Of these, only spatial rows of single runs that are not full have functions of their own
 /// for actions.
 #ifdef DSS_FEWER_KERNELS
 inline constexpr bool has_all_kernels = false;
@@ -29,6 +29,7 @@ inline constexpr bool has_all_kernels = false;
 inline constexpr bool has_all_kernels = true;
 #endif
 
+/// Builds with fewer kernels leave out undamped and oblong rows, which damped and full rows cover.
 /// Rarely used models leave out the damped oblong row of the paper's law; the full row covers it.
 /// They keep all rows of the material law, since the full row in their place would be slower
 /// (README.md).

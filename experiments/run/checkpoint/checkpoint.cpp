@@ -130,7 +130,7 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
   for (std::size_t first = 0; first < elements; first += piece) {
     const std::span<double> part(kept.data(), std::min(piece, elements - first) * width);
     save(executor, first, part);
-    is_finite &= !first_not_finite(part);
+    is_finite &= all_finite(part);
     file.write(part);
   }
   if (!is_finite) return fmt::format("{}: the state is not finite, so it was not saved", path);

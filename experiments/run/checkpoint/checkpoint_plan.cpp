@@ -27,7 +27,7 @@ CheckpointInterval parse_checkpoint_interval(const std::string& text) {
 
 void require_sound_checkpoints(const RunRequest& request, const RunPlan& plan) {
   parse_checkpoint_interval(request.checkpoint_every);
-  if (!request.is_saved()) return;
+  if (!request.has_checkpoint()) return;
   const char* option = request.restart.empty() ? "--checkpoint" : "--restart";
   const auto refuse = [&](const std::string& why) {
     throw InputError(fmt::format("{}: {}", option, why));

@@ -85,7 +85,7 @@ std::string write_ensemble(const std::string& path, const RunIdentity& identity,
     const std::vector<std::vector<double>> kept = batches[b]->save();
     for (std::size_t n = 0; n < kept.size(); ++n) {
       if (!members[members_of(b)[n]]->is_ok()) continue;
-      is_whole &= !first_not_finite(kept[n]);
+      is_whole &= all_finite(kept[n]);
       file.write(kept[n]);
       if (batches[b]->is_done()) file.write(batches[b]->state(n));
     }

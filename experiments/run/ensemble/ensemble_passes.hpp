@@ -10,7 +10,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace dss {
@@ -59,13 +62,18 @@ private:
   double steps_of_batches() const;
 
   const RunRequest& request_;
-  const EnsemblePlan plan_;
+  EnsemblePlan plan_; ///< make_batches() puts halo strategies into its distributions
   std::vector<std::unique_ptr<MemberRun>> members_;
   std::vector<std::unique_ptr<MemberBatch>> batches_;
   std::vector<MemberBatch*> batch_of_; ///< each member
   int team_ = 1;                       ///< threads that take batches
   Usage usage_;                        ///< of the timed steps of a team of one
   double steps_before_ = 0;            ///< of steps_of_batches(), before a restart
+  /// What a trial found for the first member that ranks divide. Others like it take the same
+  /// strategy: all members have one topology.
+  using TriedFor = std::tuple<Model, std::string_view, int>; ///< also the method and its stages
+  static TriedFor tried_for(const RunPlan& plan);
+  std::map<TriedFor, RankInfo> tried_halos_;
   RunResult whole_;
 };
 

@@ -53,7 +53,7 @@ RunRequest request_of(const RunRequest& request, const MemberSet& member) {
 /// Each member keeps its state in its batch, as it was read, and in its balance of the energy. One
 /// that is saved keeps up to 52 numbers an element besides.
 void require_room(const RunRequest& request, std::size_t members, std::size_t elements) {
-  const double states = request.is_saved() ? 10 : 6;
+  const double states = request.has_checkpoint() ? 10 : 6;
   require_memory(
       states * double(members) * double(elements) * double(field_count * sizeof(double)),
       fmt::format("--ensemble {}: {} members of {} elements", request.ensemble, members, elements),

@@ -9,9 +9,12 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
 
 namespace dss {
+
+EnsembleRun::TriedFor EnsembleRun::tried_for(const RunPlan& plan) {
+  return {plan.model, plan.method->name, plan.method->stages};
+}
 
 EnsembleRun::EnsembleRun(const RunRequest& request)
     : request_(request), plan_(plan_ensemble(request)) {
@@ -40,18 +43,15 @@ void EnsembleRun::make_batches() {
   const Plugin& plugin = *plan_.plans.front().plugin;
   const bool is_team = plugin.ensemble_lanes != nullptr && !plugin.is_distributed;
   team_ = is_team ? int(std::min(count, std::size_t(request_.threads))) : 1;
-  // Members have one topology, so what a trial finds for one run on all ranks suits those like it.
-  std::map<std::pair<Model, std::string_view>, std::string> found_halos;
   for (const auto& [members, has_lanes] : plan_.batches) {
     std::vector<const RunPlan*> plans;
     for (const std::size_t m : members) plans.push_back(&plan_.plans[m]);
-    const RunPlan& plan = *plans.front();
+    RunPlan& plan = plan_.plans[members.front()];
     const bool has_packs = has_lanes && plan_.lanes > request_.ranks,
                is_divided = (!is_team || count == 1) &&
                             !(has_packs && !plan.scene.problem.extra_links.empty());
-    std::string& halo = found_halos[{plan.model, plan.method->name}];
-    Distribution distribution = plan.distribution;
-    if (!has_lanes && !halo.empty()) distribution.halo = halo;
+    const auto tried = tried_halos_.find(tried_for(plan));
+    if (!has_lanes && tried != tried_halos_.end()) plan.distribution.halo = tried->second.halo;
     const Setup setup{plan.scene.problem,
                       *plan.method,
                       plan.model,
@@ -59,14 +59,17 @@ void EnsembleRun::make_batches() {
                       plan.dt,
                       is_divided ? request_.threads : 1,
                       nullptr,
-                      &distribution,
+                      &plan.distribution,
                       request_.device,
                       request_.hybrid,
                       plan.rotation,
                       request_.tile};
     batches_.push_back(
         std::make_unique<MemberBatch>(std::move(plans), has_lanes ? plan_.lanes : 1, setup));
-    if (!has_lanes && request_.hybrid.empty()) halo = rank_info(batches_.back()->executor()).halo;
+    // Batches in lanes exchange no halos; a hybrid has a strategy of its own.
+    const RankInfo info = rank_info(batches_.back()->executor());
+    if (!has_lanes && request_.hybrid.empty() && !info.halo.empty())
+      tried_halos_.try_emplace(tried_for(plan), info);
     for (const std::size_t m : members) batch_of_[m] = batches_.back().get();
   }
 }
@@ -134,7 +137,7 @@ void EnsembleRun::run() {
     warm_up();
     const Traffic before = sent();
     whole_.usage = metered(
-        [&] { whole_.wall_s = request_.is_saved() ? saved_pass() : pass(Looks::at_stops); });
+        [&] { whole_.wall_s = request_.has_checkpoint() ? saved_pass() : pass(Looks::at_stops); });
     put_traffic(batches_.front()->executor(), since(before, sent()),
                 steps_of_batches() - steps_before_, whole_);
     whole_.digest = digest_of_all();
@@ -150,7 +153,7 @@ void EnsembleRun::run() {
     });
   } catch (...) { // no partial results, unless the run can go on with them
     for (const auto& member : members_)
-      if (!request_.is_saved()) member->discard_files();
+      if (!request_.has_checkpoint()) member->discard_files();
     throw;
   }
   if (are_all_ok()) take_samples(whole_.wall_s);
@@ -189,6 +192,9 @@ EnsembleResult EnsembleRun::result() const {
   for (std::size_t m = 0; m < members_.size(); ++m) {
     RunResult own = members_[m]->result();
     describe_executor(batch_of_[m]->executor(), *plan_.plans[m].plugin, own);
+    const auto tried = tried_halos_.find(tried_for(plan_.plans[m]));
+    if (tried != tried_halos_.end() && tried->second.halo == own.ranks.halo)
+      own.ranks.halo_reason = tried->second.halo_reason, own.ranks.network = tried->second.network;
     own.workers = whole.workers, own.wall_s = whole.wall_s;
     own.usage = whole.usage, own.messages_per_step = whole.messages_per_step;
     own.bytes_per_step = whole.bytes_per_step;

@@ -57,8 +57,8 @@ struct RunRequest {
   bool has_balance = true; ///< follow the energy
   int tile = 0;            ///< as Setup::tile; 0: as suits the caches
 
-  /// True if the run pauses to be saved, or goes on from where one was saved.
-  bool is_saved() const { return !checkpoint.empty() || !restart.empty(); }
+  /// True if the run writes checkpoints, or goes on from one.
+  bool has_checkpoint() const { return !checkpoint.empty() || !restart.empty(); }
 };
 
 } // namespace dss

@@ -59,6 +59,10 @@ std::vector<double> whole_state(Executor& executor, std::size_t element_count) {
   return state;
 }
 
+bool all_finite(std::span<const double> numbers) {
+  return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+}
+
 std::optional<std::size_t> first_not_finite(std::span<const double> state) {
   const auto bad =
       std::ranges::find_if_not(state, [](double field) { return std::isfinite(field); });

@@ -25,6 +25,8 @@ void for_each_piece(Executor& executor, std::size_t element_count,
 /// The whole state, 13 numbers per element.
 std::vector<double> whole_state(Executor& executor, std::size_t element_count);
 
+/// False if a number is infinite or NaN.
+bool all_finite(std::span<const double> numbers);
 /// The first element with a number that is not finite, if any.
 std::optional<std::size_t> first_not_finite(std::span<const double> state);
 std::optional<std::size_t> first_not_finite(Executor& executor, std::size_t element_count);

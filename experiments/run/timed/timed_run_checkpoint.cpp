@@ -29,7 +29,7 @@ Model model_of(int number) {
 void TimedRun::begin_saving() {
   progress_.emplace();
   shown_ = Clock::now();
-  if (!request_.is_saved()) return;
+  if (!request_.has_checkpoint()) return;
   const int width = kept_fields(*executor_);
   if (width == 0) refuse_saving(request_, result_.variant);
   is_watched_ = plan_.model_choice.is_bounded;
