@@ -1,5 +1,6 @@
 """Tables of bodies of many shapes that pages quote (page_tables.py)."""
 import json
+from dataclasses import dataclass
 
 from tables.results import ROOT
 from tables.words import speedup_over
@@ -45,38 +46,60 @@ def schedules_table(results):
     return ["body", "`avx512`, one core", "`opencl`"], lines
 
 
+@dataclass
+class BodyRates:
+    """A body of `geometry`. Rates are rows of cells, by variant; None if one has no row."""
+    name: str
+    elements: int
+    links_an_element: float
+    on_core: dict   # on one core
+    on_cores: dict  # on all cores
+    of_plate: float | None = None   # rate of a link, avx512, one core: over the plate n = 100
+    of_kernel: float | None = None  # the same over the law's row kernel in the L1 cache
+
+
+def geometry_rates(results):
+    """The bodies of many shapes, in their order."""
+    speedups = [f"{form}speedup_vs_scalar{end}" for form in ("", "extrapolated_")
+                for end in ("", "_low", "_high")]
+    in_l1, bodies = row_kernels(results), []
+    for name, scene, rows in bodies_of(results, "elements", "links", "element_steps_per_s",
+                                       "link_steps_per_s", "status", optional=speedups):
+        first, ok = rows.iloc[0], rows[rows["status"] == "ok"]
+        on = {is_team: {variant: found.iloc[0] for variant, found in
+                        ok[(ok["threads"] > 1) == is_team].groupby("variant")}
+              for is_team in (False, True)}
+        bodies.append(BodyRates(name, int(first["elements"]), first["links"] / first["elements"],
+                                on[False], on[True]))
+        if "avx512" in on[False]:
+            bodies[-1].of_kernel = (
+                1e-9 * in_l1[law_of(scene)] * on[False]["avx512"]["link_steps_per_s"])
+    plate = next((body.on_core.get("avx512") for body in bodies
+                  if body.name == "`plate_paper` n=100"), None)
+    for body in bodies:
+        if plate is not None and "avx512" in body.on_core:
+            body.of_plate = (body.on_core["avx512"]["link_steps_per_s"]
+                             / plate["link_steps_per_s"])
+    return bodies
+
+
 def geometry_table(results):
     """Rates of the bodies of many shapes; those of a link over those of the plate n = 100 and of
     the law's row kernel in the L1 cache."""
-    speedups = [f"{form}speedup_vs_scalar{end}" for form in ("", "extrapolated_")
-                for end in ("", "_low", "_high")]
-    bodies = list(bodies_of(results, "elements", "links", "element_steps_per_s",
-                            "link_steps_per_s", "status", optional=speedups))
-    rates, in_l1 = ["scalar", "avx2", "avx512"], row_kernels(results)
+    rates = ["scalar", "avx2", "avx512"]
 
-    def row_of(rows, variant, is_on_all_cores=False):
-        rows = rows[(rows["variant"] == variant) & (rows["status"] == "ok")
-                    & ((rows["threads"] > 1) == is_on_all_cores)]
-        return None if rows.empty else rows.iloc[0]
+    def rate(rows, variant):
+        return f"{1e-6 * rows[variant]['element_steps_per_s']:.3g}" if variant in rows else ""
 
-    def rate(row):
-        return "" if row is None else f"{1e-6 * row['element_steps_per_s']:.3g}"
+    def share(value):
+        return "" if value is None else f"{value:.2f}"
 
-    plate = next((row_of(rows, "avx512") for name, _, rows in bodies
-                  if name == "`plate_paper` n=100"), None)
-    lines = []
-    for name, scene, rows in bodies:
-        fastest, cores = row_of(rows, "avx512"), row_of(rows, "avx512", True)
-        per_link = "" if fastest is None or plate is None else (
-            f"{fastest['link_steps_per_s'] / plate['link_steps_per_s']:.2f}")
-        of_kernel = "" if fastest is None else (
-            f"{1e-9 * in_l1[law_of(scene)] * fastest['link_steps_per_s']:.2f}")
-        first = rows.iloc[0]
-        lines.append([name, f"{int(first['elements'])}",
-                      f"{first['links'] / first['elements']:.2f}",
-                      *(rate(row_of(rows, variant)) for variant in rates), rate(cores),
-                      rate(row_of(rows, "opencl", True)), per_link, of_kernel,
-                      "" if fastest is None else speedup_over(fastest, "scalar")])
+    lines = [[body.name, f"{body.elements}", f"{body.links_an_element:.2f}",
+              *(rate(body.on_core, variant) for variant in rates),
+              rate(body.on_cores, "avx512"), rate(body.on_cores, "opencl"),
+              share(body.of_plate), share(body.of_kernel),
+              speedup_over(body.on_core["avx512"], "scalar") if "avx512" in body.on_core else ""]
+             for body in geometry_rates(results)]
     return ["body", "elements", "links an element", *(f"`{name}`" for name in rates),
             "`avx512`, all cores", "`opencl`, all cores", "per link, over the plate n = 100",
             "per link, over its row in L1", "`avx512` over `scalar`"], lines

@@ -5,6 +5,7 @@ A function takes Results, and returns the heads and the lines of texts.
 import json
 
 from body_tables import geometry_table, schedules_table
+from goal_tables import goals_table
 from tables.results import NotMeasured, Results
 from tables.words import speedup_over, with_interval
 
@@ -192,7 +193,7 @@ def statics_table(results):
 
 
 TABLES = {"chain": chain_table, "continuum": continuum_table,
-          "first": first_table, "geometry": geometry_table, "gpu": gpu_table,
+          "first": first_table, "geometry": geometry_table, "goals": goals_table, "gpu": gpu_table,
           "machine": machine_table, "mix": mix_table, "models": models_table,
           "networks": network_table, "schedules": schedules_table, "sizes": sizes_table,
           "statics": statics_table}

@@ -8,6 +8,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "plots"))
+import goal_tables  # noqa: E402
 import quotes  # noqa: E402
 from tables.results import Results  # noqa: E402
 
@@ -49,6 +50,22 @@ class Quotes(unittest.TestCase):
         result = fill("--check")
         self.assertEqual(result.stderr, "")
         self.assertEqual(result.returncode, 0)
+
+    def test_a_goal_is_met_by_all_numbers_as_they_are_shown(self):
+        goal = goal_tables.Goal("case", "measure", 0.75, None, "limit")
+        for reached, verdict in (([0.75, 2], "yes"), ([0.746, 0.8], "yes"),
+                                 ([0.744, 0.8], "1 of 2"), ([0.1], "no")):
+            self.assertEqual(goal.verdict(reached), verdict, reached)
+
+    def test_a_goal_reads_every_number_of_its_trials(self):
+        folder = self.directory / "trials" / "tables"
+        folder.mkdir(parents=True)
+        (folder / "trials.csv").write_text('name,figure\na,"1.01, 0.87 and 0.83"\nb,2.0\n',
+                                           encoding="utf-8")
+        self.assertEqual(goal_tables.of_trials("a", "b")(Results(self.directory)),
+                         [1.01, 0.87, 0.83, 2.0])
+        with self.assertRaisesRegex(goal_tables.NotMeasured, "no row c"):
+            goal_tables.of_trials("c")(Results(self.directory))
 
     def test_a_planted_figure_in_readme_is_found(self):
         text = (ROOT / "README.md").read_text(encoding="utf-8")
