@@ -150,6 +150,12 @@ class Checkpoints(RunTest):
             self.assert_refused(2, [word, saved], "run", *PLATE, "--restart", saved)
         self.assert_refused(2, ["No such file"], "run", *PLATE, "--restart", self.path("none"))
 
+    def test_altered_heads_are_refused_or_change_no_bit(self):
+        run = ("two_elements", "--steps", "60", "--integrator", "dopri5", "--rtol", "1e-6")
+        whole = self.save(*run, every=5)
+        self.assertGreater(
+            self.assert_altered_heads_are_harmless(whole, "c.ckpt.previous", *run), 20)
+
     def test_bad_options_are_refused(self):
         for every in ("0", "-3", "s", "0s", "nans", "infs", "2m", "1.5", ""):
             self.assert_refused(2, ["--checkpoint-every"], "run", *PLATE, "--checkpoint",

@@ -150,6 +150,13 @@ class SavedEnsembles(RunTest):
             pathlib.Path(saved).write_bytes(damaged)
             self.assert_refused(2, [word, saved], "run", *self.of, "--restart", saved)
 
+    def test_altered_heads_are_refused_or_change_no_bit(self):
+        run = ("two_elements", "--model", "spatial", "--force", "--ensemble",
+               self.members({"run.steps": 60}, {"run.steps": 20}, {"run.steps": 60, "run.dt": 9}))
+        whole = self.save(*run, every=40, code=3)
+        self.assertGreater(
+            self.assert_altered_heads_are_harmless(whole, "c.ckpt.previous", *run, code=3), 20)
+
     def test_a_signal_saves_the_ensemble_and_says_how_to_go_on(self):
         run = (*BRACKET, "--ensemble", "9", "--steps")
         for number, options in ((signal.SIGINT, ()), (signal.SIGTERM, ("--threads", "2"))):
