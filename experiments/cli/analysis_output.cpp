@@ -88,10 +88,11 @@ double extent(const Problem& problem) {
 
 /// Writes each mode as a displaced state. Its size is `shown_displacement` of the body. A rotation
 /// counts by the motion of an element's edge.
-void write_shapes(const Problem& problem, const RunRequest& run, AnalysisResult& result) {
+void write_shapes(const Problem& problem, const RunRequest& run, FileSet& outputs,
+                  AnalysisResult& result) {
   StaticSystem system(problem, Rotation::linearised, degrees_of(*find_model(result.model)));
   const double size = shown_displacement * extent(problem), edge = shortest_edge(problem);
-  FrameSeries series(run.output, true);
+  FrameSeries series(run.output, true, outputs);
   for (std::size_t n = 0; n < result.modal.modes.size(); ++n) {
     const Eigen::VectorXd& shape = result.modal.modes[n].shape;
     double largest = 0;
@@ -105,16 +106,16 @@ void write_shapes(const Problem& problem, const RunRequest& run, AnalysisResult&
   result.files.push_back(series.finish());
 }
 
-void write_files(const RunRequest& run, AnalysisResult& result) {
+void write_files(const RunRequest& run, FileSet& outputs, AnalysisResult& result) {
   if (run.output.empty() && run.state_csv.empty()) return;
   const Problem problem = load_scene(run.scene, run.overrides).problem;
-  if (result.analysis == "modal") return write_shapes(problem, run, result);
+  if (result.analysis == "modal") return write_shapes(problem, run, outputs, result);
   const Rotation equations = rotation_of(*find_model(result.model));
-  FrameSeries frame(run.output, false);
+  FrameSeries frame(run.output, false, outputs);
   frame.add(problem, result.state, equations, 0);
   if (const std::string written = frame.finish(); !written.empty()) result.files.push_back(written);
   if (run.state_csv.empty()) return;
-  write_state(run.state_csv, problem, result.state, equations);
+  write_state(outputs, run.state_csv, problem, result.state, equations);
   result.files.push_back(run.state_csv);
 }
 
@@ -166,8 +167,9 @@ int run_analysis(const std::string& analysis, const RunRequest& run,
   AnalysisResult result =
       analysis == "static" ? solve_static(run, request) : solve_modal(run, request);
   const bool is_fine = result.status == "ok";
-  if (is_fine) write_files(run, result);
-  if (!run.json.empty()) write_json(run.json, analysis_json(run, result));
+  FileSet outputs;
+  if (is_fine) write_files(run, outputs, result);
+  write_json(outputs, run.json, analysis_json(run, result));
   if (run.json != "-") {
     fmt::print("{}: {} analysis, {} elements, {} links, {} unknowns ({}), {:.4g} s\n", result.scene,
                result.analysis, result.elements, result.links, result.unknowns, result.model,

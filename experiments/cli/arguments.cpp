@@ -1,6 +1,5 @@
 #include "experiments/cli/arguments.hpp"
 #include "solver/error.hpp"
-#include "solver/io/atomic_file.hpp"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -20,14 +19,15 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
 }
 
 void write_json(const std::string& target, const nlohmann::ordered_json& json) {
+  FileSet alone;
+  write_json(alone, target, json);
+}
+
+void write_json(FileSet& outputs, const std::string& target, const nlohmann::ordered_json& json) {
   const std::string text = json.dump(2) + "\n";
-  if (target == "-") {
-    fmt::print("{}", text);
-    return;
-  }
-  AtomicFile file(target);
-  file.write(text);
-  file.commit();
+  if (!target.empty() && target != "-") outputs.open(target).write(text);
+  outputs.commit();
+  if (target == "-") fmt::print("{}", text);
 }
 
 } // namespace dss

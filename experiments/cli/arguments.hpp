@@ -1,5 +1,6 @@
 #pragma once
 /// Parts of the command line that several commands share.
+#include "solver/io/file_set.hpp"
 #include "solver/scene/scene.hpp"
 
 #include <nlohmann/json.hpp>
@@ -13,5 +14,8 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts);
 
 /// Writes JSON to a file (a temporary file that is renamed), or to standard output for "-".
 void write_json(const std::string& target, const nlohmann::ordered_json& json);
+/// Adds JSON to the files of a run, unless the target is empty, and commits them. Standard output
+/// has it after them.
+void write_json(FileSet& outputs, const std::string& target, const nlohmann::ordered_json& json);
 
 } // namespace dss

@@ -149,8 +149,9 @@ int run(const CLI::App& command, const RunArguments& arguments) {
   request.is_root = job_rank().is_root();
   request.is_model_auto = true;
   if (!request.ensemble.empty()) return run_members(request);
-  const RunResult result = run_scene(request);
-  if (!request.json.empty() && request.is_root) write_json(request.json, run_json(request, result));
+  FileSet outputs;
+  const RunResult result = run_scene(request, outputs);
+  if (request.is_root) write_json(outputs, request.json, run_json(request, result));
   if (result.status == "unstable") throw UnstableError(result.reason);
   const bool has_end = result.status == "ok" || result.status == "wrong";
   if (request.json != "-" && has_end) print_summary(result);

@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::size_t buffer_bytes = std::size_t(1) << 16;
 
+bool is_directory(const std::string& target) {
+  struct stat status {};
+  return ::stat(target.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+}
+
 bool is_written_in_place(const std::string& target) {
   struct stat status {};
   return ::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
@@ -25,8 +30,7 @@ bool is_written_in_place(const std::string& target) {
 } // namespace
 
 AtomicFile::AtomicFile(std::string target) : target_(std::move(target)) {
-  struct stat status {};
-  if (::stat(target_.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) fail("write", EISDIR);
+  if (is_directory(target_)) fail("write", EISDIR);
   if (is_written_in_place(target_)) {
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
@@ -72,6 +76,28 @@ void AtomicFile::commit() {
     fail("replace", errno);
   forget_temporary(temporary_);
   temporary_.clear();
+}
+
+bool AtomicFile::exchange() const {
+  return ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0;
+}
+
+void AtomicFile::move() {
+  finish();
+  if (is_directory(target_)) fail("replace", EISDIR); // a file can be exchanged with one
+  if (temporary_.empty() || exchange()) return;
+  const int reason = errno;
+  const bool is_unsupported = reason == EINVAL || reason == ENOSYS;
+  is_new_ = reason == ENOENT;
+  if (!is_new_ && !is_unsupported) fail("replace", reason);
+  commit();
+}
+
+void AtomicFile::move_back() {
+  if (is_new_)
+    ::unlink(target_.c_str());
+  else if (!temporary_.empty())
+    exchange();
 }
 
 void AtomicFile::fail(const char* what, int reason) const {

@@ -27,11 +27,22 @@ public:
   /// @throws InputError as write
   void commit();
 
+  const std::string& target() const { return target_; }
+  /// As commit(), but an earlier file stays until the end of this object, so that it can come back.
+  /// @throws InputError as write
+  void move();
+  /// Undoes move(): the earlier file is at its target again. Some file systems cannot exchange two
+  /// files; there it is lost.
+  void move_back();
+
 private:
   void flush();
+  bool exchange() const;
   [[noreturn]] void fail(const char* what, int reason) const;
 
-  std::string target_, temporary_;
+  std::string target_;
+  std::string temporary_; ///< removed at the end, unless empty; after move() the earlier file
+  bool is_new_ = false;   ///< moved to where there was no file
   std::string buffer_;
   int descriptor_ = -1;
 };

@@ -1,15 +1,13 @@
 #include "solver/io/state_csv.hpp"
-#include "solver/io/atomic_file.hpp"
 
 #include <fmt/format.h>
 #include <iterator>
 
 namespace dss {
 
-void write_state_csv(const std::string& path, const Problem& problem, std::span<const double> state,
+void write_state_csv(AtomicFile& file, const Problem& problem, std::span<const double> state,
                      std::span<const ElementStress> stress) {
   constexpr int columns[] = {ux, uy, uz, qs, qx, qy, qz, vx, vy, vz, wx, wy, wz};
-  AtomicFile file(path);
   file.write("element,x,y,z,ux,uy,uz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,stress_vm\n");
   fmt::memory_buffer line;
   problem.lattice.for_each_element([&](std::size_t element, const Row& row, int x) {
@@ -24,7 +22,6 @@ void write_state_csv(const std::string& path, const Problem& problem, std::span<
     fmt::format_to(std::back_inserter(line), ",{:.17g}\n", stress[element][6]);
     file.write({line.data(), line.size()});
   });
-  file.commit();
 }
 
 } // namespace dss

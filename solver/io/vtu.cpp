@@ -1,5 +1,4 @@
 #include "solver/io/vtu.hpp"
-#include "solver/io/atomic_file.hpp"
 #include "solver/io/base64.hpp"
 
 #include <algorithm>
@@ -129,10 +128,9 @@ void write_cell_data(AtomicFile& file, std::span<const double> state,
 
 } // namespace
 
-void write_vtu(const std::string& path, const Problem& problem, std::span<const double> state,
+void write_vtu(AtomicFile& file, const Problem& problem, std::span<const double> state,
                std::span<const ElementStress> stress) {
   const std::size_t count = problem.lattice.element_count;
-  AtomicFile file(path);
   file.write("<?xml version=\"1.0\"?>\n"
              "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
              "header_type=\"UInt64\">\n");
@@ -142,7 +140,6 @@ void write_vtu(const std::string& path, const Problem& problem, std::span<const 
   write_cells(file, count);
   write_cell_data(file, state, stress);
   file.write("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-  file.commit();
 }
 
 void write_pvd(const std::string& path, std::span<const Frame> frames) {

@@ -14,10 +14,11 @@ namespace dss {
 /// corners at rest; point data `displacement` [m] moves them (ParaView: Warp By Vector). Cell data:
 /// displacement [m], velocity [m/s], rotation_vector [rad], stress [Pa] (VTK's order: xx, yy, zz,
 /// xy, yz, xz) and von_mises [Pa].
+/// @param file    its caller commits it
 /// @param state   13 numbers an element
 /// @param stress  one entry an element
-/// @throws InputError if the file cannot be written; an earlier file then stays unchanged
-void write_vtu(const std::string& path, const Problem& problem, std::span<const double> state,
+/// @throws InputError if the file cannot be written
+void write_vtu(AtomicFile& file, const Problem& problem, std::span<const double> state,
                std::span<const ElementStress> stress);
 
 /// One file of a series: its name relative to the .pvd file, and its time [s].

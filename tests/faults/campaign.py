@@ -159,7 +159,7 @@ class Campaign:
         self.judge("writes", name, before, result)
 
     def fail_run(self, number, fault):
-        """A run writes three files, of which earlier versions exist. Each is old or new."""
+        """A run writes three files, of which earlier versions exist. They stay old together."""
         files = [self.folder / name for name in ("end.csv", "end.json", "end.vtu")]
         for file in files:
             file.write_text("earlier\n")
@@ -173,7 +173,7 @@ class Campaign:
                     and (not is_new[2] or texts[2].rstrip().endswith("</VTKFile>")))
         parts = [path for path in self.folder.iterdir() if path.name.endswith(".part")]
         is_wrong = (not is_whole or result.returncode in CRASHES or bool(parts)
-                    or (result.returncode == 0 and not all(is_new))
+                    or len(set(is_new)) > 1 or (result.returncode == 0) != all(is_new)
                     or (result.returncode != 0 and result.stderr.count("\n") != 1))
         if self.count("outputs", is_wrong):
             print(f"outputs: call {number} fails with {fault}: exit code {result.returncode}, new "

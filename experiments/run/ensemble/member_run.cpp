@@ -9,7 +9,7 @@ namespace dss {
 
 MemberRun::MemberRun(const RunPlan& plan, const RunRequest& request)
     : plan_(plan), request_(request), result_(described(plan, request)),
-      series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1),
+      series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1, outputs_),
       oracle_check_(plan) {}
 
 std::uint64_t MemberRun::digest_of(std::span<const double> state) const {
@@ -73,11 +73,13 @@ void MemberRun::end(std::span<const double> state) {
     judge_range(plan_, equations(), result_);
     if (!is_ok()) return;
     if (!request_.state_csv.empty()) {
-      if (request_.is_root) write_state(request_.state_csv, plan_.scene.problem, copy, equations());
+      if (request_.is_root)
+        write_state(outputs_, request_.state_csv, plan_.scene.problem, copy, equations());
       result_.files.push_back(request_.state_csv);
     }
     if (const std::string written = series_.finish(); !written.empty())
       result_.files.push_back(written);
+    outputs_.commit();
   });
   if (is_ok() && balance_) result_.balance = balance_->shares();
 }

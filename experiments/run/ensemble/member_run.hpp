@@ -53,6 +53,7 @@ private:
   const RunPlan& plan_;
   const RunRequest& request_;
   RunResult result_;
+  FileSet outputs_; ///< of this member
   FrameSeries series_;
   OracleCheck oracle_check_;
   std::optional<EnergyBalance> balance_;

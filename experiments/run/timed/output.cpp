@@ -32,9 +32,12 @@ std::vector<ElementStress> finite_stress(const Problem& problem, const std::vect
 
 } // namespace
 
-void write_state(const std::string& path, const Problem& problem, const std::vector<double>& state,
-                 Rotation equations) {
-  write_state_csv(path, problem, state, finite_stress(problem, state, equations));
+void write_state(FileSet& outputs, const std::string& path, const Problem& problem,
+                 const std::vector<double>& state, Rotation equations) {
+  const std::vector<ElementStress> stress = finite_stress(problem, state, equations);
+  AtomicFile& file = outputs.open(path);
+  write_state_csv(file, problem, state, stress);
+  file.finish();
 }
 
 void FrameSeries::add(const Problem& problem, const std::vector<double>& state, Rotation equations,
@@ -42,7 +45,16 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
   if (output_.empty()) return;
   const std::filesystem::path path = next_file();
   try {
-    write_vtu(path.string(), problem, state, finite_stress(problem, state, equations));
+    const std::vector<ElementStress> stress = finite_stress(problem, state, equations);
+    if (is_series_) {
+      AtomicFile file(path.string());
+      write_vtu(file, problem, state, stress);
+      file.commit();
+    } else {
+      AtomicFile& file = outputs_->open(path.string());
+      write_vtu(file, problem, state, stress);
+      file.finish();
+    }
     frames_.push_back({path.filename().string(), time});
     if (is_series_) keep_index();
   } catch (...) {
@@ -79,9 +91,14 @@ void FrameSeries::keep_index() {
 }
 
 void FrameSeries::discard() {
+  if (!is_series_) {
+    outputs_->drop(output_);
+    frames_.clear();
+    return;
+  }
   for (const Frame& frame : frames_)
     std::filesystem::remove(std::filesystem::path(output_).replace_filename(frame.file));
-  if (is_series_ && !frames_.empty()) std::filesystem::remove(index());
+  if (!frames_.empty()) std::filesystem::remove(index());
   frames_.clear();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Output files of a run. They include the stress of each element, recovered from the state.
 #include "experiments/base/clock.hpp"
+#include "solver/io/file_set.hpp"
 #include "solver/io/vtu.hpp"
 
 #include <string>
@@ -8,16 +9,17 @@
 
 namespace dss {
 
-/// Writes a state as CSV (solver/io/state_csv.hpp).
-void write_state(const std::string& path, const Problem& problem, const std::vector<double>& state,
-                 Rotation equations);
+/// Adds a state as CSV to the files of a run (solver/io/state_csv.hpp).
+void write_state(FileSet& outputs, const std::string& path, const Problem& problem,
+                 const std::vector<double>& state, Rotation equations);
 
-/// The .vtu file of a run. A series has several files and a .pvd index: F.vtu becomes F_0000.vtu,
-/// F_0001.vtu, ... and F.pvd.
+/// The .vtu file of a run, one of its set of files. A series has several files and a .pvd index:
+/// F.vtu becomes F_0000.vtu, F_0001.vtu, ... and F.pvd, each of which appears at once.
 class FrameSeries {
 public:
-  FrameSeries(std::string output, bool is_series)
-      : output_(std::move(output)), is_series_(is_series) {}
+  /// @param outputs  files of the run; lives longer
+  FrameSeries(std::string output, bool is_series, FileSet& outputs)
+      : output_(std::move(output)), is_series_(is_series), outputs_(&outputs) {}
   /// Writes the state at a time [s]. The index of a series so far is at most a second older. Does
   /// nothing without an output.
   void add(const Problem& problem, const std::vector<double>& state, Rotation equations,
@@ -29,7 +31,7 @@ public:
   std::string finish() const;
   /// From now on, a frame that cannot be written does not remove those before: the run can go on.
   void keep_finished() { keeps_finished_ = true; }
-  /// Removes the written files.
+  /// Removes the written files of a series, or takes the single file out of the set.
   void discard();
 
 private:
@@ -39,6 +41,7 @@ private:
 
   std::string output_;
   bool is_series_;
+  FileSet* outputs_;
   bool keeps_finished_ = false;
   std::vector<Frame> frames_;
   Clock::time_point indexed_;

@@ -29,14 +29,14 @@ bool is_ok_on_root(Executor& executor, const RunResult& result) {
 
 } // namespace
 
-RunResult run_scene(const RunRequest& request) {
+RunResult run_scene(const RunRequest& request, FileSet& outputs) {
   const RunPlan plan = plan_run(request);
   require_sound_checkpoints(request, plan);
   require_sound_guard(request, plan);
   const Problem& problem = plan.scene.problem;
   flush_denormals();
   RunResult result = described(plan, request);
-  TimedRun timed(plan, request, result);
+  TimedRun timed(plan, request, outputs, result);
   timed.run();
   result.model = name(timed.model());
   if (result.status != "ok") return result;
@@ -47,7 +47,7 @@ RunResult run_scene(const RunRequest& request) {
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), problem.lattice.element_count);
     const WorkAlone alone(timed.executor(), request.is_root);
-    if (request.is_root) write_state(request.state_csv, problem, state, rotation);
+    if (request.is_root) write_state(outputs, request.state_csv, problem, state, rotation);
     result.files.push_back(request.state_csv);
   }
   result.wall_s += result.model_report.look_s;
@@ -56,6 +56,13 @@ RunResult run_scene(const RunRequest& request) {
   judge_energy(plan, result);
   if (is_ok_on_root(timed.executor(), result))
     timed.take_samples(request.samples, request.repeat_for);
+  return result;
+}
+
+RunResult run_scene(const RunRequest& request) {
+  FileSet outputs;
+  RunResult result = run_scene(request, outputs);
+  outputs.commit();
   return result;
 }
 

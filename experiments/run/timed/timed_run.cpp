@@ -22,10 +22,11 @@ DeviceUse since(const DeviceUse& before, DeviceUse now) {
 
 } // namespace
 
-TimedRun::TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result)
-    : plan_(plan), request_(request), problem_(plan.scene.problem), result_(result),
-      executor_(created(plan.model)), series_(new_series()), is_root_(request.is_root),
-      oracle_check_(plan) {
+TimedRun::TimedRun(const RunPlan& plan, const RunRequest& request, FileSet& outputs,
+                   RunResult& result)
+    : plan_(plan), request_(request), problem_(plan.scene.problem), outputs_(outputs),
+      result_(result), executor_(created(plan.model)), series_(new_series()),
+      is_root_(request.is_root), oracle_check_(plan) {
   if (plan.reference) meter_.emplace(problem_, plan.reference->states);
   if (plan.model_choice.is_bounded)
     monitor_.emplace(problem_, plan.model, plan.model_choice.tolerance, plan.steps, plan.dt);

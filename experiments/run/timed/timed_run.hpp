@@ -41,8 +41,9 @@ private:
 /// One timed run; it fills in a RunResult.
 class TimedRun {
 public:
-  /// All three arguments must outlive this object. `result` is filled in during the run.
-  TimedRun(const RunPlan& plan, const RunRequest& request, RunResult& result);
+  /// All arguments must outlive this object. `outputs` receives the files of the run, and `result`
+  /// is filled in.
+  TimedRun(const RunPlan& plan, const RunRequest& request, FileSet& outputs, RunResult& result);
 
   void run();
   /// Takes so many samples of the same run, and makes the fastest the time of the result: other
@@ -67,7 +68,7 @@ private:
   /// Runs some steps from the initial state, more and more until the time of the request is over.
   void warm_up();
   FrameSeries new_series() const {
-    return {request_.is_root ? request_.output : "", plan_.frame_steps.size() > 1};
+    return {request_.is_root ? request_.output : "", plan_.frame_steps.size() > 1, outputs_};
   }
 
   /// Runs from the initial state to the end.
@@ -160,6 +161,7 @@ private:
   const RunPlan& plan_;
   const RunRequest& request_;
   const Problem& problem_;
+  FileSet& outputs_;
   RunResult& result_;
   bool has_begun_ = false;
   Model model_ = Model::spatial;
