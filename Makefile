@@ -119,6 +119,7 @@ coverage:
 UNTIMED_STUDIES := error_budget failures continuum
 # Speed-ups are measured in three parts, with other studies in between: a busy neighbour
 # of the machine stays for minutes, and so disturbs only some of their rounds.
+ROUNDS := 4
 IN_THREE_PARTS := table1 table2 table3 chain chain_block chain_bending
 PAPER_STUDIES := paper_table1 paper_table2 paper_table3
 STUDIES := kernels
@@ -130,6 +131,8 @@ UNTIMED_STUDIES :=
 IN_THREE_PARTS := table1 table2 table3 chain
 STUDIES :=
 LATER_STUDIES :=
+else
+begin-table% go-on-table%: ROUNDS := 8 # of 24 and 30
 endif
 ORDER := $(IN_THREE_PARTS:%=begin-%) $(STUDIES:%=study-%) $(IN_THREE_PARTS:%=go-on-%) \
   $(LATER_STUDIES:%=study-%) $(IN_THREE_PARTS:%=end-%) $(PAPER_STUDIES:%=study-%)
@@ -158,9 +161,9 @@ MEASURE = start=$$(date +%s); $(BUILD)/dssbench experiment $* --scale $(SCALE) -
 study-%:
 	@$(call MEASURE)
 begin-%:
-	@$(call MEASURE,--rounds 4)
+	@$(call MEASURE,--rounds $(ROUNDS))
 go-on-%:
-	@$(call MEASURE,--rounds 4 --resume)
+	@$(call MEASURE,--rounds $(ROUNDS) --resume)
 end-%:
 	@$(call MEASURE,--resume)
 
