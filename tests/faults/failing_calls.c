@@ -1,8 +1,8 @@
-/* Preloaded into the program: the n-th call of open (to write), write, rename, renameat2, ftruncate,
- * fsync or mkdir fails, with DSS_FAIL_AT=n and DSS_FAIL_ERRNO (default: ENOSPC). Pipes and
- * terminals are left alone. Calls are counted in each process by itself. With DSS_FAIL_COUNT=FILE
- * the process appends its number of calls there when it ends. With DSS_CLOCK_JUMP=S every other
- * call of clock_gettime(CLOCK_REALTIME) is off by S seconds. */
+/* Preloaded into the program: the n-th call of open (to write), write, rename, renameat2,
+ * ftruncate, fsync or mkdir fails, with DSS_FAIL_AT=n and DSS_FAIL_ERRNO (default: ENOSPC). Pipes
+ * and terminals are left alone. Calls are counted in each process by itself. With
+ * DSS_FAIL_COUNT=FILE the process appends its number of calls there when it ends. With
+ * DSS_CLOCK_JUMP=S every other call of clock_gettime(CLOCK_REALTIME) is off by S seconds. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
