@@ -12,6 +12,8 @@ struct Terms {
   bool is_tied = false;       ///< stabilization
   /// Edges of an element differ. Used by the paper's law: equal edges share their constants.
   bool is_oblong = false;
+  /// Gaps across a link have two constants of shear. Used by the material law.
+  bool has_two_shears = false;
   constexpr bool has_couples() const { return is_material || is_damped || is_bending; }
   /// True if forces depend on velocities. The leapfrog method then carries predicted velocities.
   constexpr bool is_velocity_dependent() const { return is_damped || is_gyroscopic || is_tied; }
@@ -21,7 +23,8 @@ struct Terms {
   constexpr bool covers(const Terms& need) const {
     return is_material == need.is_material && is_damped >= need.is_damped &&
            (is_material || is_bending >= need.is_bending) && is_gyroscopic >= need.is_gyroscopic &&
-           is_tied >= need.is_tied && (is_material || is_oblong >= need.is_oblong);
+           is_tied >= need.is_tied && (is_material || is_oblong >= need.is_oblong) &&
+           has_two_shears >= need.has_two_shears;
   }
 };
 

@@ -12,7 +12,7 @@ from tables.results import NotMeasured, Results
 OVER_PLATE = "a link, over the plate n = 100"
 OVER_ROW = "a link, over its row in L1"
 MEMORY = "memory: what a core moves in a second"
-LAW = "a link of the law `material` has more operations; see the next line"
+LAW = "a link of the laws `material` and `solid` has more operations; see the next line"
 LARGE = ("`plate_paper` n=100", "`block` nx=64 ny=64 nz=64", "`porous` n=48", "`struts` n=63",
          "`joined_plates` n=141", "`tumbling_box` nx=40 ny=40 nz=40")
 ENSEMBLES = ("`l_bracket` ensemble=64", "`two_bodies` ensemble=64", "`chain` ensemble=64 n=64")

@@ -2,11 +2,13 @@
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
+#include "experiments/run/model/link_summary.hpp"
 #include "experiments/run/model/model_choice.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/timed/output.hpp"
 #include "solver/model/sufficiency/needs.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
+#include "solver/model/thickness.hpp"
 #include "solver/scene/scene.hpp"
 
 #include <fmt/format.h>
@@ -74,6 +76,8 @@ int explain(const ExplainArguments& arguments) {
   const std::vector<Need> dofs = degrees_of_freedom(problem, choice.chosen),
                           needed_terms = terms(problem, choice.chosen),
                           rotations{rotations_of(choice)};
+  const std::vector<LinkSummary> links = summarize_links(problem);
+  const std::vector<std::string> notes = softness_notes(problem);
   if (!arguments.json.empty()) {
     nlohmann::ordered_json smaller = nlohmann::ordered_json::object();
     for (const auto& [model, reason] : choice.smaller) smaller[std::string(name(model))] = reason;
@@ -87,7 +91,9 @@ int explain(const ExplainArguments& arguments) {
                                 {"smaller", smaller},
                                 {"degrees_of_freedom", needs_json(dofs)},
                                 {"terms", needs_json(needed_terms)},
-                                {"rotations", needs_json(rotations)}});
+                                {"rotations", needs_json(rotations)},
+                                {"links_by_kind", links_json(links)},
+                                {"notes", notes}});
   }
   if (arguments.json == "-") return exit_success;
   fmt::print("{}: {}\n{} elements, {} links, tolerance {:g} of a run in {}\n", scene.name,
@@ -97,6 +103,8 @@ int explain(const ExplainArguments& arguments) {
   print_needs("degree of freedom", dofs);
   print_needs("term", needed_terms);
   print_needs("", rotations);
+  fmt::print("\n{}", links_text(links));
+  for (const std::string& note : notes) fmt::print("\nnote: {}\n", note);
   return exit_success;
 }
 
@@ -105,7 +113,8 @@ int explain(const ExplainArguments& arguments) {
 void add_explain_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command =
       app.add_subcommand("explain", "Explain which degrees of freedom, terms and rotations a scene "
-                                    "needs, and why it does not need the others");
+                                    "needs, why it does not need the others, and which constants "
+                                    "its links have");
   const auto arguments = std::make_shared<ExplainArguments>();
   command->add_option("SCENE", arguments->scene, "A name from `dssbench list scenes`, or a path")
       ->required();

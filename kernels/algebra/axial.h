@@ -86,6 +86,11 @@ static inline vec vec_principal(vec a, const int axis, REAL across, REAL along) 
   vec r = {axis == 0 ? FMA(along, a.x, across * a.x) : across * a.x};
   return r;
 }
+/* There is no axis across. */
+static inline vec vec_axpy_along(REAL k, vec a, const int axis, vec r) {
+  (void)k, (void)a, (void)axis;
+  return r;
+}
 static inline spin spin_principal(spin a, REAL z, REAL xz, REAL yz) {
   (void)z;
   (void)xz;

@@ -81,6 +81,11 @@ static inline vec vec_principal(vec a, const int axis, REAL across, REAL along) 
   (void)along;
   return vec_scale(across, a);
 }
+/* r + k (e_z.a) e_z; `axis` is z */
+static inline vec vec_axpy_along(REAL k, vec a, const int axis, vec r) {
+  (void)axis;
+  return vec_axpy(k, a, r);
+}
 static inline spin spin_principal(spin a, REAL z, REAL xz, REAL yz) {
   spin r = {FMA(xz, a.x, z * a.x), FMA(yz, a.y, z * a.y)};
   return r;

@@ -44,13 +44,16 @@ static inline spin lever_moment(lever a, const int axis, vec f, spin t) {
   }
 }
 
+/* r + k (e.a) e, e the direction of the axis */
+static inline vec vec_axpy_along(REAL k, vec a, const int axis, vec r) {
+  if (axis == 0) r.x = FMA(k, a.x, r.x);
+  if (axis == 1) r.y = FMA(k, a.y, r.y);
+  if (axis == 2) r.z = FMA(k, a.z, r.z);
+  return r;
+}
 /* across a + along (e_axis.a) e_axis */
 static inline vec vec_principal(vec a, const int axis, REAL across, REAL along) {
-  vec r = vec_scale(across, a);
-  if (axis == 0) r.x = FMA(along, a.x, r.x);
-  if (axis == 1) r.y = FMA(along, a.y, r.y);
-  if (axis == 2) r.z = FMA(along, a.z, r.z);
-  return r;
+  return vec_axpy_along(along, a, axis, vec_scale(across, a));
 }
 /* z a + xz (e_x.a) e_x + yz (e_y.a) e_y */
 static inline spin spin_principal(spin a, REAL z, REAL xz, REAL yz) {

@@ -43,6 +43,11 @@ static inline vec vec_principal(vec a, const int axis, REAL across, REAL along) 
     r.y = FMA(along, a.y, r.y);
   return r;
 }
+/* The plane has no third axis. */
+static inline vec vec_axpy_along(REAL k, vec a, const int axis, vec r) {
+  (void)k, (void)a, (void)axis;
+  return r;
+}
 static inline spin spin_principal(spin a, REAL z, REAL xz, REAL yz) {
   (void)xz;
   (void)yz;

@@ -76,46 +76,56 @@ static inline spin couple_moment(spin couples, paper_law law, const int is_bendi
  * n_m = (A_i e_m + A_j e_m) / 2 is the mean direction of the body axis m (n: the link's own
  * axis), p = q_j conj(q_i) = (p0, r) the relative rotation, and b = a + D / 2 the arm to the
  * common point. The elastic energy is
- *   U = k_s |D|^2 / 2 + (k_n - k_s) (n.D)^2 / 2
+ *   U = k_s |D|^2 / 2 + (k_n - k_s) (n.D)^2 / 2 + (k_t - k_s) (n_t.D)^2 / 2
  *       + 4 k_z (1 - p0) + 2 (k_x - k_z) (n_x.r)^2 + 2 (k_y - k_z) (n_y.r)^2
  * Its virtual work gives
- *   F = k_s D + (k_n - k_s) (n.D) n
- *   X = (k_n - k_s) (n.D) D x (n_i - n_j) / 4
+ *   F = k_s D + (k_n - k_s) (n.D) n + (k_t - k_s) (n_t.D) n_t
+ *   X = (k_n - k_s) (n.D) D x (n_i - n_j) / 4 + (k_t - k_s) (n_t.D) D x (n_ti - n_tj) / 4
  *   T = 2 k_z r + sum over m = x, y of 2 (k_m - k_z) (n_m.r) [p0 n_m + r x (n_mi - n_mj) / 2]
  *   moment on i: b_i x F + X + T,   on j: b_j x F - X - T
  * Damping: the rate is V = v_j - v_i - w_i x b_i - w_j x b_j, and
- *   F_d = d_s V + (d_n - d_s) (n.V) n,   moments b x F_d,   couples d_m along n_m on w_j - w_i
+ *   F_d = d_s V + (d_n - d_s) (n.V) n + (d_t - d_s) (n_t.V) n_t,   moments b x F_d,
+ *   couples d_m along n_m on w_j - w_i
+ * Shear has two constants: k_t along n_t, which is the body's z axis (of links along z: x), and k_s
+ * along the third axis. The terms of k_t and d_t are left out if the two are equal in all links of
+ * a body (has_two_shears).
  * The net moment of a link is zero. Its damping takes the power V.F_d + W.T_d >= 0,
  * W = w_j - w_i. */
 
 typedef struct {
-  REAL edge_i, edge_j;       /* along the link [m] */
-  REAL k_s, k_ns, d_s, d_ns; /* shear; normal minus shear [N/m], [N s/m] */
+  REAL edge_i, edge_j;                   /* along the link [m] */
+  REAL k_s, k_ns, k_ts, d_s, d_ns, d_ts; /* shear; normal, and k_t, minus it [N/m], [N s/m] */
   /* k_z: twice the rotational constant about z; k_xz, k_yz: about x, y minus about z, twice
    * [N m/rad] */
   REAL k_z, k_xz, k_yz;
   REAL d_z, d_xz, d_yz; /* the same for damping, not doubled [N m s/rad] */
 } material_law;
 
+/* The axis of n_t. */
+static inline int third_axis(const int axis) { return axis == 2 ? 0 : 2; }
+
 #ifdef LINEAR
 
 /* Exchange of the material law (parameters as in the other version below), to first order in
  * displacements and rotations about rest: directions are the axes of the frame,
  * b = a = c, and X = 0. With constants along the principal axes
- *   F = k_s D + (k_n - k_s) (e.D) e,   T = 2 (k_x r_x, k_y r_y, k_z r_z)
+ *   F = k_s D + (k_n - k_s) (e.D) e + (k_t - k_s) (e_t.D) e_t,   T = 2 (k_x r_x, k_y r_y, k_z r_z)
  * and the same for damping with V and w_j - w_i. */
 static inline exchange material_link(element i, element j, const int axis, material_law law,
-                                     const int is_damped) {
+                                     const int is_damped, const int has_two_shears) {
   exchange x;
   vec gap = vec_sub(vec_sub(j.u, i.u),
                     vec_add(rotor_turn(i.q, axis, law.edge_i), rotor_turn(j.q, axis, law.edge_j)));
   spin couple = spin_principal(rotor_relative(i.q, j.q), law.k_z, law.k_xz, law.k_yz);
   x.force = vec_principal(gap, axis, law.k_s, law.k_ns);
+  if (has_two_shears) x.force = vec_axpy_along(law.k_ts, gap, third_axis(axis), x.force);
   if (is_damped) {
     REAL half_i = SPLAT(0.5) * law.edge_i, half_j = SPLAT(0.5) * law.edge_j;
     vec v_i = lever_rate(i.w, lever_of(i.u, axis, half_i), axis, i.v);
     vec turning_j = lever_rate(j.w, lever_of(j.u, axis, half_j), axis, v_i);
-    x.force = vec_add(x.force, vec_principal(vec_sub(j.v, turning_j), axis, law.d_s, law.d_ns));
+    vec rate = vec_sub(j.v, turning_j);
+    x.force = vec_add(x.force, vec_principal(rate, axis, law.d_s, law.d_ns));
+    if (has_two_shears) x.force = vec_axpy_along(law.d_ts, rate, third_axis(axis), x.force);
     couple = spin_add(couple, spin_principal(spin_sub(j.w, i.w), law.d_z, law.d_xz, law.d_yz));
   }
   x.couple_i = couple;
@@ -141,8 +151,11 @@ static inline spin bend_about(spin r, REAL p0, vec ni, vec nj, REAL k, spin t) {
  * @return force on i [N]; couples on i and on j [N m], to which the caller adds arm x force
  * No errors: any finite input is valid. */
 static inline exchange material_link(element i, element j, const int axis, material_law law,
-                                     const int is_damped) {
+                                     const int is_damped, const int has_two_shears) {
   exchange x;
+#ifdef PLANAR
+  (void)has_two_shears;
+#endif
   vec turn_i = rotor_turn(i.q, axis, law.edge_i), turn_j = rotor_turn(j.q, axis, law.edge_j);
   vec gap = vec_sub(vec_sub(j.u, i.u), vec_add(turn_i, turn_j));
   vec ni = rotor_column(i.q, axis), nj = rotor_column(j.q, axis), n = half_sum(ni, nj);
@@ -155,6 +168,16 @@ static inline exchange material_link(element i, element j, const int axis, mater
   couple = bend_about(r, p0, xi, xj, law.k_xz, couple);
   couple = bend_about(r, p0, yi, yj, law.k_yz, couple);
   couple = vec_moment(vec_scale(SPLAT(0.25) * stretch, gap), vec_sub(ni, nj), couple);
+#ifndef PLANAR
+  vec t = n;
+  if (has_two_shears) {
+    vec ti = rotor_column(i.q, third_axis(axis)), tj = rotor_column(j.q, third_axis(axis));
+    t = half_sum(ti, tj);
+    REAL slide = law.k_ts * vec_dot(t, gap);
+    x.force = vec_axpy(slide, t, x.force);
+    couple = vec_moment(vec_scale(SPLAT(0.25) * slide, gap), vec_sub(ti, tj), couple);
+  }
+#endif
   if (is_damped) {
     vec bi = vec_axpy(SPLAT(0.5), gap, vec_along(turn_i, axis, SPLAT(0.5) * law.edge_i));
     vec bj = vec_axpy(SPLAT(0.5), gap, vec_along(turn_j, axis, SPLAT(0.5) * law.edge_j));
@@ -163,6 +186,9 @@ static inline exchange material_link(element i, element j, const int axis, mater
     vec nx = half_sum(xi, xj), ny = half_sum(yi, yj);
     x.force = vec_axpy(law.d_s, rate, x.force);
     x.force = vec_axpy(law.d_ns * vec_dot(n, rate), n, x.force);
+#ifndef PLANAR
+    if (has_two_shears) x.force = vec_axpy(law.d_ts * vec_dot(t, rate), t, x.force);
+#endif
     couple = spin_axpy(law.d_z, turn_rate, couple);
     couple = spin_about(law.d_xz * spin_dot(turn_rate, nx), nx, couple);
     couple = spin_about(law.d_yz * spin_dot(turn_rate, ny), ny, couple);

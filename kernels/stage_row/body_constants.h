@@ -6,9 +6,11 @@ NUMBER edge[3], half_edge[3]; /* half: a product in the row would cost a registe
 NUMBER edge_ratio;            /* edge along y over edge along x */
 NUMBER inverse_unit;          /* 1 / unit */
 NUMBER tau, kt2, dt;          /* paper's law */
+#define CONSTANT NUMBER
 struct {
-  NUMBER k_s, k_ns, d_s, d_ns, k_z, k_xz, k_yz, d_z, d_xz, d_yz;
-} axis[3]; /* material law */
+#include "kernels/stage_row/link_constants.h"
+} axis[3]; /* material law: of links of the kind 0 */
+#undef CONSTANT
 NUMBER mass, inverse_mass, inertia[3], inverse_inertia[3];
 NUMBER tie_k, tie_d, tie_k2_rot, tie_d_rot; /* stabilization */
 int is_accelerated;                         /* true if gravity or base acceleration acts */

@@ -44,6 +44,24 @@ struct BodyConstants {
 #undef NUMBER
 };
 
+/// A number of each lane.
+template <class T>
+struct LaneNumbers {
+  alignas(sizeof(T) * std::size_t(simd::lanes<T>)) T value[simd::lanes<T>];
+  operator simd::Pack<T>() const { return simd::load(value); }
+};
+
+/// Constants of a link of the material law.
+template <class Number>
+struct LinkConstants {
+#define CONSTANT Number
+#include "kernels/stage_row/link_constants.h"
+#undef CONSTANT
+};
+/// Those of the links across one face of a pack's elements.
+template <class T>
+using LinkLanes = LinkConstants<LaneNumbers<T>>;
+
 /// What lies in the lanes of a pack.
 enum class LaneKind {
   neighbours, ///< elements that follow one another along x
@@ -51,13 +69,6 @@ enum class LaneKind {
   /// The elements of a row one after the other, without its holes. So neighbours in the rows beside
   /// it lie in other lanes, and maps say in which.
   filled,
-};
-
-/// A number of each lane.
-template <class T>
-struct LaneNumbers {
-  alignas(sizeof(T) * std::size_t(simd::lanes<T>)) T value[simd::lanes<T>];
-  operator simd::Pack<T>() const { return simd::load(value); }
 };
 
 /// Wrenches and clamps of a row, on the packs [first, first + packs). Most rows have none.
@@ -98,6 +109,10 @@ struct RowTask {
   const T* signals = nullptr;
   /// Of an ensemble, in place of `body`: the constants of each lane.
   const BodyConstants<LaneNumbers<T>>* members = nullptr;
+  /// Of the material law: constants of links, and for each pack which of them its links along x, y,
+  /// z have. Null: all packs have the first three.
+  const LinkLanes<T>* links = nullptr;
+  const int* link_index = nullptr;
   const simd::LaneMask* live_lanes = nullptr; ///< of an ensemble: lanes whose results are checked
   /// A row of a later task, brought into L2 in parts along with the packs of this one; null: none.
   const char* fetch = nullptr;

@@ -5,6 +5,7 @@
 #include "kernels/stage_row/row.hpp"
 #include "kernels/terms.hpp"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -39,14 +40,21 @@ BodyConstants<T> row_case_body() {
   for (T& half : body.half_edge) half = T(0.25);
   body.edge_ratio = body.inverse_unit = body.mass = body.inverse_mass = T(1);
   body.tau = body.dt = T(0.125);
-  for (int axis = 0; axis < 3; ++axis) {
-    body.inertia[axis] = body.inverse_inertia[axis] = T(1);
-    auto& law = body.axis[axis];
-    law.k_s = T(0.5), law.k_ns = T(0.5), law.d_s = T(0.125), law.d_ns = T(0.0625);
-    law.k_z = T(0.25), law.k_xz = T(0.125), law.k_yz = T(0.125);
-    law.d_z = T(0.0625), law.d_xz = T(0.03125), law.d_yz = T(0.03125);
-  }
+  for (int axis = 0; axis < 3; ++axis) body.inertia[axis] = body.inverse_inertia[axis] = T(1);
   return body;
+}
+
+/// The links of these bodies, along x, y and z.
+template <class T>
+std::array<LinkLanes<T>, 3> row_case_links() {
+  LinkLanes<T> law{};
+  const auto set = [](LaneNumbers<T>& lanes, double value) {
+    for (T& number : lanes.value) number = T(value);
+  };
+  set(law.k_s, 0.5), set(law.k_ns, 0.5), set(law.d_s, 0.125), set(law.d_ns, 0.0625);
+  set(law.k_z, 0.25), set(law.k_xz, 0.125), set(law.k_yz, 0.125);
+  set(law.d_z, 0.0625), set(law.d_xz, 0.03125), set(law.d_yz, 0.03125);
+  return {law, law, law};
 }
 
 /// Calls stage(task) for each row, from the first to the last.
@@ -62,6 +70,7 @@ void run_row_case(const RowCase& row_case, const T* in, T* out, std::size_t elem
   masks.assign(std::size_t(packs), PackMasks{all, all, 0, all, 0});
   const T signals[3] = {};
   const BodyConstants<T> body = row_case_body<T>();
+  const auto links = row_case_links<T>();
   RowTask<T> task;
   task.action = row_case.is_last ? combined_stage : plain_stage;
   task.is_last = row_case.is_last;
@@ -69,6 +78,7 @@ void run_row_case(const RowCase& row_case, const T* in, T* out, std::size_t elem
   task.stride = row_case.fields * row_case.lanes;
   task.masks = masks.data();
   task.body = &body;
+  task.links = links.data();
   task.signals = signals;
   task.beta = T(0.0625);
   if (row_case.is_last) { // (y1 + 2 y2 + y3 - y) / 3 (DESIGN.md section 3)

@@ -37,9 +37,9 @@ struct StageRow {
   using wrench = typename P::wrench;
   using axis_law = typename P::axis_law;
   using exchange = typename P::exchange;
-  static constexpr
-      typename P::term_flags flags{terms.is_material,   terms.is_damped, terms.is_bending,
-                                   terms.is_gyroscopic, terms.is_tied,   terms.is_oblong};
+  static constexpr typename P::term_flags flags{
+      terms.is_material, terms.is_damped, terms.is_bending,    terms.is_gyroscopic,
+      terms.is_tied,     terms.is_oblong, terms.has_two_shears};
 
   const RowTask<T>& task;
   static constexpr bool is_ensemble = kind == LaneKind::members;
@@ -89,14 +89,21 @@ struct StageRow {
     if (!terms.is_oblong) axis = 0;
     return {R(body.edge[axis]), R(body.half_edge[axis]), R(body.tau), R(body.kt2), R(body.dt)};
   }
-  typename P::material_law material(int axis) const {
-    const auto& a = body.axis[axis];
-    return {R(body.edge[axis]), R(body.edge[axis]), R(a.k_s),  R(a.k_ns), R(a.d_s),  R(a.d_ns),
-            R(a.k_z),           R(a.k_xz),          R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
+  /// Of a pack, RowTask::link_index; null if all packs have the first.
+  const int* links_of(int pack) const {
+    if constexpr (!terms.is_material) return nullptr;
+    return task.link_index == nullptr ? nullptr : task.link_index + 3 * std::ptrdiff_t(pack);
+  }
+  typename P::material_law material(int axis, const int* links) const {
+    if constexpr (!terms.is_material) return {};
+    const LinkLanes<T>& a = task.links[links == nullptr ? axis : links[axis]];
+    const R edge(body.edge[axis]);
+    return {edge,      edge,     R(a.k_s),  R(a.k_ns), R(a.k_ts), R(a.d_s),  R(a.d_ns),
+            R(a.d_ts), R(a.k_z), R(a.k_xz), R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
   }
 
-  axis_law law(int axis) const {
-    return {laws[0], laws[std::size_t(axis)], material(axis), R(body.edge_ratio)};
+  axis_law law(int axis, const int* links) const {
+    return {laws[0], laws[std::size_t(axis)], material(axis, links), R(body.edge_ratio)};
   }
   prepared prepare(const T* p) const { return P::prepare(load_at<element>(p), laws[0], flags); }
 
@@ -164,27 +171,29 @@ struct StageRow {
   /// be null if no mask needs it.
   template <bool is_plain>
   void add_across(const prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below,
-                  const T* upper, T* carry, const T* from, int pack, std::ptrdiff_t stride,
-                  wrench& sum) const {
+                  const T* upper, T* carry, const T* from, int pack, const int* links,
+                  std::ptrdiff_t stride, wrench& sum) const {
     if (!is_plain && (above | below) == 0) return;
-    const typename P::side own = P::side_across(i, axis, law(axis), flags);
+    const axis_law own_law = law(axis, links);
+    const typename P::side own = P::side_across(i, axis, own_law, flags);
     exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
-      up = P::link_across(i.e, own.upper, load_upper(upper, pack, stride, axis), axis, law(axis),
+      up = P::link_across(i.e, own.upper, load_upper(upper, pack, stride, axis), axis, own_law,
                           flags);
       mask_links<is_plain>(above, up);
     }
     carried low{zero<vec>(), zero<spin>()};
     if (is_plain || below != 0) low = load_lower(from, pack, axis, below);
-    sum = P::wrench_across(sum, up, low, own.arm, axis, law(axis), flags);
+    sum = P::wrench_across(sum, up, low, own.arm, axis, own_law, flags);
     // The carry buffer may be the same as `from`, which has been read.
     if (is_plain || above != 0)
       store_carry(carry + std::ptrdiff_t(pack) * carry_size, P::carried_by(up, flags));
   }
 
   template <bool is_plain>
-  wrench links_x(const prepared& i, const prepared& next, simd::LaneMask mask,
+  wrench links_x(const prepared& i, const prepared& next, const int* links, simd::LaneMask mask,
                  carried& previous) const {
+    const axis_law own_law = law(0, links);
     element j{};
     vec lower, upper;
     if constexpr (terms.is_material) {
@@ -196,14 +205,14 @@ struct StageRow {
       if constexpr (terms.is_damped) j.w = from_above<kind>(i.e.w, next.e.w);
       if constexpr (terms.is_bending) j.q = from_above<kind>(i.e.q, next.e.q);
     }
-    exchange up = P::link_exchange(i.e, upper, j, lower, 0, law(0), flags);
+    exchange up = P::link_exchange(i.e, upper, j, lower, 0, own_law, flags);
     mask_links<is_plain>(mask, up);
     const carried own = P::carried_by(up, flags);
     carried low{zero<vec>(), zero<spin>()};
     low.force = from_below<kind>(previous.force, own.force);
     if constexpr (terms.has_couples()) low.couple = from_below<kind>(previous.couple, own.couple);
     previous = own;
-    return P::wrench_of_x(i, up, low, law(0), flags);
+    return P::wrench_of_x(i, up, low, own_law, flags);
   }
 
   R signal(int n) const {
@@ -256,7 +265,7 @@ struct StageRow {
     const int last = task.packs - 1;
     carried previous{zero<vec>(), zero<spin>()};
     links_x<false>(prepare(task.in + std::ptrdiff_t(last) * task.stride), prepare(task.ahead),
-                   task.masks[last].link_x, previous);
+                   links_of(last), task.masks[last].link_x, previous);
     store_carry(task.carry_x, previous);
   }
   /// Computes only the links across `axis` from this row to the upper one, into the carry buffer.
@@ -268,8 +277,9 @@ struct StageRow {
       const element i = load_at<element>(task.in + place);
       const element j =
           load_upper(axis == 1 ? task.upper_y : task.upper_z, pack, task.stride, axis);
+      const axis_law own_law = law(axis, links_of(pack));
       exchange up =
-          P::link_across(i, P::upper_across(i, axis, law(axis), flags), j, axis, law(axis), flags);
+          P::link_across(i, P::upper_across(i, axis, own_law, flags), j, axis, own_law, flags);
       mask_links(above, up);
       store_carry((axis == 1 ? task.carry_y : task.carry_z) + std::ptrdiff_t(pack) * carry_size,
                   P::carried_by(up, flags));
@@ -308,6 +318,7 @@ struct StageRow {
                                           std::integral_constant<path, taken>) {
       constexpr bool is_plain = taken != general_path;
       const PackMasks& masks = all_masks[pack];
+      const int* const links = links_of(pack);
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * stride;
       // Unlikely, because the compiler then spills less; the loop also keeps it from moving what
       // the copies share to a place before their branch (README.md).
@@ -325,15 +336,15 @@ struct StageRow {
       };
       if constexpr (is_parked) park(places[~pack & 1], next);
       read_again();
-      wrench sum = links_x<taken == plane_path>(i, next, masks.link_x, previous);
+      wrench sum = links_x<taken == plane_path>(i, next, links, masks.link_x, previous);
       read_again();
       if constexpr (P::axes > 1)
         add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack,
-                             stride, sum);
+                             links, stride, sum);
       if constexpr (taken == solid_path) read_again();
       if constexpr (P::axes > 2 && taken != plane_path)
         add_across<is_plain>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack,
-                             stride, sum);
+                             links, stride, sum);
       sum = P::wrench_finished(sum, i, laws[0], tie, flags);
       if (is_applied) apply_wrenches(pack, sum);
       if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);

@@ -103,6 +103,14 @@ void copy_common(const Problem& original, Problem& problem) {
   problem.tolerance_f32 = original.tolerance_f32;
 }
 
+void copy_link_kinds(const Problem& original, const Addresses& addresses, Problem& problem) {
+  if (original.link_kinds.empty()) return;
+  for (const Run& run : addresses.runs()) {
+    const auto first = original.link_kinds.begin() + std::ptrdiff_t(run.global);
+    problem.link_kinds.insert(problem.link_kinds.end(), first, first + std::ptrdiff_t(run.count));
+  }
+}
+
 } // namespace
 
 Part make_part(const Problem& problem, const Decomposition& decomposition, int index, int depth) {
@@ -115,6 +123,7 @@ Part make_part(const Problem& problem, const Decomposition& decomposition, int i
   part.problem.lattice = cut_rows(grid, zones.all, part.global_row);
   join_rows(part.problem.lattice, problem.lattice, part.global_row);
   copy_common(problem, part.problem);
+  copy_link_kinds(problem, addresses, part.problem);
   restrict_terms(problem, addresses, part.problem);
   part.own_elements = zones.own.cell_count();
   part.runs = addresses.runs_of(grid, zones.own);

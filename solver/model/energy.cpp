@@ -36,7 +36,9 @@ double total_energy(const Problem& problem, std::span<const double> state, Rotat
 
 bool has_dampers(const Problem& problem) {
   const auto is_body_damped = [](const Body& body) {
-    return std::ranges::any_of(body.axis, &AxisConstants::is_damped);
+    bool is_damped = false;
+    body.each_kind([&](const AxisConstants& a, int) { is_damped |= a.is_damped(); });
+    return is_damped;
   };
   const auto is_link_damped = [](const ExtraLink& link) { return link.constants.is_damped(); };
   const Stabilization& ties = problem.stabilization;

@@ -57,6 +57,7 @@ std::string why_other_topology(const Problem& one, const Problem& other) {
   if (!std::ranges::equal(one.lattice.rows, other.lattice.rows, is_same) ||
       one.lattice.present != other.lattice.present)
     return "its elements lie elsewhere";
+  if (one.link_kinds != other.link_kinds) return "links of its bodies are of other kinds";
   return where_links_differ(one, other);
 }
 

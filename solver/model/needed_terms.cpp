@@ -1,5 +1,7 @@
 #include "solver/model/needed_terms.hpp"
 
+#include "solver/model/link_constants.hpp"
+
 namespace dss {
 
 std::vector<Terms> needed_terms(const Problem& problem, Model model) {
@@ -7,10 +9,10 @@ std::vector<Terms> needed_terms(const Problem& problem, Model model) {
   Terms common;
   common.is_tied = problem.stabilization.is_present();
   for (const Body& body : problem.bodies) {
-    for (const AxisConstants& a : body.axis) {
+    body.each_kind([&](const AxisConstants& a, int) {
       common.is_damped |= a.is_damped();
       common.is_bending |= body.law == LinkLaw::paper && a.k_rot != Vec3{};
-    }
+    });
     common.is_gyroscopic |=
         body.has_tensor_inertia() && !is_of_plane(model) && model != Model::axial;
   }
@@ -22,6 +24,8 @@ std::vector<Terms> needed_terms(const Problem& problem, Model model) {
   for (std::size_t b = 0; b < needs.size(); ++b) {
     const Body& body = problem.bodies[b];
     needs[b].is_material = body.law == LinkLaw::material;
+    needs[b].has_two_shears = needs[b].is_material && axes > 1 &&
+                              (degrees_of(model) & dof_uz) != 0 && has_two_shears(body);
     needs[b].is_oblong =
         (axes > 1 && body.edge[1] != body.edge[0]) || (axes > 2 && body.edge[2] != body.edge[0]);
   }

@@ -19,25 +19,54 @@ enum class LinkLaw { paper, material };
 /// Constants of a link across the faces normal to one body axis.
 /// Rotational constants are about the body's x, y, z axes. For a link along x, k_rot[0] is the
 /// twist and the others bend.
-/// The paper's law is isotropic: k_normal == k_shear > 0, d_normal == d_shear, all k_rot equal, all
-/// d_rot equal, and the same on all axes.
+/// Shear constants are those of gaps along the body's x, y, z axes. That of the link's own axis is
+/// 0.
+/// The paper's law is isotropic: k_normal > 0 equals k_shear, d_normal equals d_shear, all k_rot
+/// are equal, all d_rot are equal, and links are the same on all axes.
 struct AxisConstants {
-  double k_normal = 0, k_shear = 0; ///< [N/m]
-  double d_normal = 0, d_shear = 0; ///< [N s/m]
-  Vec3 k_rot{}, d_rot{};            ///< [N m/rad], [N m s/rad]
-  bool is_damped() const { return d_normal != 0 || d_shear != 0 || d_rot != Vec3{}; }
+  double k_normal = 0, d_normal = 0; ///< [N/m], [N s/m]
+  Vec3 k_shear{}, d_shear{};         ///< [N/m], [N s/m]
+  Vec3 k_rot{}, d_rot{};             ///< [N m/rad], [N m s/rad]
+  bool is_damped() const { return d_normal != 0 || d_shear != Vec3{} || d_rot != Vec3{}; }
+  bool operator==(const AxisConstants&) const = default;
 };
+
+/// The same shear constant across a link along `axis`.
+constexpr Vec3 across(int axis, double shear) {
+  Vec3 both{shear, shear, shear};
+  both[std::size_t(axis)] = 0;
+  return both;
+}
+
+/// Axes across a link, as the material law tells them apart (kernels/link_force/link_force.h).
+struct ShearAxes {
+  std::size_t base, third;
+};
+constexpr ShearAxes shear_axes(int axis) { return {axis == 1 ? 0U : 1U, axis == 2 ? 0U : 2U}; }
 
 /// A body of identical box elements. Its elements are those of the lattice rows whose `body` is its
 /// index.
 struct Body {
   std::string name;
   LinkLaw law = LinkLaw::paper;
-  Vec3 edge{};     ///< edge lengths of an element [m]
-  Vec3 origin{};   ///< rest position of the low corner of cell (0, 0, 0) [m]
-  double mass = 0; ///< of one element [kg]
-  Vec3 inertia{};  ///< principal moments of one element about its body axes [kg m^2]
-  std::array<AxisConstants, 3> axis{}; ///< link constants along x, y, z
+  bool has_links_of_beams = false; ///< each link is a beam of a material (softness_notes)
+  Vec3 edge{};                     ///< edge lengths of an element [m]
+  Vec3 origin{};                   ///< rest position of the low corner of cell (0, 0, 0) [m]
+  double mass = 0;                 ///< of one element [kg]
+  Vec3 inertia{}; ///< principal moments of one element about its body axes [kg m^2]
+  std::array<AxisConstants, 3> axis{}; ///< constants of links along x, y, z: of the kind 0
+  /// Of the kinds 1, 2, ... on each axis, if links differ (Problem::link_kinds).
+  std::vector<std::array<AxisConstants, 3>> more_kinds;
+  std::size_t kinds() const { return 1 + more_kinds.size(); }
+  const AxisConstants& link(int along, std::size_t kind) const {
+    return (kind == 0 ? axis : more_kinds[kind - 1])[std::size_t(along)];
+  }
+  /// Calls visit(constants, axis) for each kind of link.
+  template <class Visit>
+  void each_kind(Visit&& visit) const {
+    for (std::size_t kind = 0; kind < kinds(); ++kind)
+      for (const int along : {0, 1, 2}) visit(link(along, kind), along);
+  }
   bool has_tensor_inertia() const { return inertia[0] != inertia[1] || inertia[1] != inertia[2]; }
 };
 
@@ -94,6 +123,9 @@ struct Problem {
   std::string name; ///< name of the scene
   Lattice lattice;
   std::vector<Body> bodies;
+  /// For each element the kinds of its links to the upper neighbours along x, y, z. Empty if all
+  /// are 0.
+  std::vector<std::array<std::uint8_t, 3>> link_kinds;
   std::vector<Clamp> clamps; ///< ascending by element, at most one for each
   std::vector<Load> loads;
   std::vector<ExtraLink> extra_links;
@@ -109,6 +141,10 @@ struct Problem {
   Tolerance tolerance_f64, tolerance_f32;
 
   std::size_t link_count() const { return lattice.link_count() + extra_links.size(); }
+  /// Kind of the link from an element to its upper neighbour.
+  std::size_t link_kind(std::size_t element, int axis) const {
+    return link_kinds.empty() ? 0 : link_kinds[element][std::size_t(axis)];
+  }
 };
 
 /// Fields of the elements [first, first + count) at t = 0.

@@ -34,8 +34,8 @@ Vec3 link_force(const typename P::element& i, const typename P::element& j, doub
   if (law == LinkLaw::material) {
     typename P::material_law constants{};
     constants.edge_i = edge_i, constants.edge_j = edge_j;
-    set_material_constants(constants, c);
-    force = P::material_link(i, j, axis, constants, true).force;
+    set_material_constants(constants, c, axis);
+    force = P::material_link(i, j, axis, constants, true, true).force;
   } else {
     typename P::paper_law at_i{}, at_j{};
     set_paper_constants(at_i, c), set_paper_constants(at_j, c);
@@ -92,7 +92,7 @@ std::vector<ElementStress> stress_by(const Problem& problem, std::span<const dou
       for (std::size_t n = 0; n < 3; ++n) forces[e][a][n] += force[n];
   };
   lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
-    add_link(i, j, axis, body(i).law, body(i).axis[std::size_t(axis)]);
+    add_link(i, j, axis, body(i).law, body(i).link(axis, problem.link_kind(i, axis)));
   });
   for (const ExtraLink& link : problem.extra_links)
     add_link(link.i, link.j, link.axis, link.law, link.constants);

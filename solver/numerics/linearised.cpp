@@ -28,9 +28,9 @@ LinkMatrices link_matrices(int axis, const AxisConstants& constants, const Vec3&
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity(), none = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 6, 12> strain;
   strain << -one, arm_matrix(axis, edge_i), one, arm_matrix(axis, edge_j), none, -one, none, one;
-  const auto diagonal = [axis](double normal, double shear, const Vec3& rot) {
+  const auto diagonal = [axis](double normal, const Vec3& shear, const Vec3& rot) {
     Vector6 d;
-    d << shear, shear, shear, rot[0], rot[1], rot[2];
+    d << shear[0], shear[1], shear[2], rot[0], rot[1], rot[2];
     d[axis] = normal;
     return d;
   };
@@ -46,18 +46,22 @@ Linearised::Linearised(const Problem& problem)
     : body(problem.lattice.element_count), clamped(problem.lattice.element_count) {
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) { body[e] = row.body; });
   for (const Clamp& clamp : problem.clamps) clamped[clamp.element] |= clamp.dofs;
+  std::vector<std::size_t> first_kind; // of each body
   for (const Body& b : problem.bodies) {
     Vector6 inertia;
     inertia << b.mass, b.mass, b.mass, b.inertia[0], b.inertia[1], b.inertia[2];
     inverse_inertia.push_back(inertia.cwiseInverse());
-    for (int axis = 0; axis < 3; ++axis)
-      kinds.push_back(link_matrices(axis, b.axis[std::size_t(axis)], b.edge, b.edge));
+    first_kind.push_back(kinds.size());
+    b.each_kind([&](const AxisConstants& constants, int axis) {
+      kinds.push_back(link_matrices(axis, constants, b.edge, b.edge));
+    });
   }
   const auto add = [&](std::size_t i, std::size_t j, std::size_t kind) {
     links.push_back({i, j, kind});
   };
   problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
-    add(i, j, 3 * std::size_t(body[i]) + std::size_t(axis));
+    add(i, j,
+        first_kind[std::size_t(body[i])] + 3 * problem.link_kind(i, axis) + std::size_t(axis));
   });
   for (const ExtraLink& extra : problem.extra_links) {
     add(extra.i, extra.j, kinds.size());

@@ -24,9 +24,9 @@ LinkProperties<T> properties_of(LinkLaw law, int axis, const AxisConstants& c, c
   link.arm_i = Vector<T>::Unit(axis) * T(edge_i[a]) / T(2);
   link.arm_j = Vector<T>::Unit(axis) * T(edge_j[a]) / T(2);
   link.k_normal = T(c.k_normal);
-  link.k_shear = T(c.k_shear);
   link.d_normal = T(c.d_normal);
-  link.d_shear = T(c.d_shear);
+  link.k_shear = vector_of<T>(c.k_shear);
+  link.d_shear = vector_of<T>(c.d_shear);
   link.k_rot = vector_of<T>(c.k_rot);
   link.d_rot = vector_of<T>(c.d_rot);
   return link;
@@ -61,13 +61,18 @@ Dynamics<T>::Dynamics(const Problem& problem, Rotation rotation)
 
 template <class T>
 void Dynamics<T>::add_links(const Problem& problem) {
-  for (const Body& body : problem.bodies)
-    for (const int axis : {0, 1, 2})
-      properties_.push_back(
-          properties_of<T>(body.law, axis, body.axis[std::size_t(axis)], body.edge, body.edge));
+  std::vector<std::size_t> first_kind; // of each body
+  for (const Body& body : problem.bodies) {
+    first_kind.push_back(properties_.size());
+    body.each_kind([&](const AxisConstants& constants, int axis) {
+      properties_.push_back(properties_of<T>(body.law, axis, constants, body.edge, body.edge));
+    });
+  }
   links_.reserve(problem.link_count());
   problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
-    links_.push_back({i, j, std::size_t(3 * elements_[i].body + axis)});
+    links_.push_back({i, j,
+                      first_kind[std::size_t(elements_[i].body)] + 3 * problem.link_kind(i, axis) +
+                          std::size_t(axis)});
   });
   for (const ExtraLink& extra : problem.extra_links) {
     const Body& body_i = problem.bodies[std::size_t(elements_[extra.i].body)];

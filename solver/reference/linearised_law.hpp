@@ -7,8 +7,8 @@ namespace dss::reference {
 
 /// Normal and shear constants as one factor for each axis.
 template <class T>
-Vector<T> across_and_along(int axis, T normal, T shear) {
-  Vector<T> both = Vector<T>::Constant(shear);
+Vector<T> across_and_along(int axis, T normal, const Vector<T>& shear) {
+  Vector<T> both = shear;
   both[axis] = normal;
   return both;
 }

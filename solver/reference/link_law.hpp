@@ -21,9 +21,10 @@ template <class T>
 struct LinkProperties {
   LinkLaw law = LinkLaw::paper;
   int axis = 0;
-  Vector<T> arm_i, arm_j;                 ///< half edges along +axis [m]
-  T k_normal, k_shear, d_normal, d_shear; ///< [N/m], [N s/m]
-  Vector<T> k_rot, d_rot;                 ///< [N m/rad], [N m s/rad]
+  Vector<T> arm_i, arm_j;     ///< half edges along +axis [m]
+  T k_normal, d_normal;       ///< [N/m], [N s/m]
+  Vector<T> k_shear, d_shear; ///< as in AxisConstants [N/m], [N s/m]
+  Vector<T> k_rot, d_rot;     ///< [N m/rad], [N m s/rad]
 };
 
 /// Forces and moments of a link on its two elements.
@@ -101,23 +102,27 @@ Reaction<T> material_reaction(const Motion<T>& i, const Motion<T>& j, const Link
   const Vector<T> b_j = j.rotation() * link.arm_j + d / T(2);
   const Vector<T> rate = (j.v - i.v) - i.w.cross(b_i) - j.w.cross(b_j);
   const Vector<T> spin = j.w - i.w;
-  const Vector<T> n = mean.col(link.axis);
-
-  const T stretch = (link.k_normal - link.k_shear) * n.dot(d);
-  const Vector<T> force = link.k_shear * d + stretch * n + link.d_shear * rate +
-                          (link.d_normal - link.d_shear) * n.dot(rate) * n;
-  // The normal turns with both elements, so a gap across it causes a couple besides that of the
-  // force.
-  const Vector<T> spread = i.turned.col(link.axis) - j.turned.col(link.axis);
-  const Vector<T> normal_couple = stretch / T(4) * d.cross(spread);
+  const auto [base, third] = shear_axes(link.axis);
+  const T k_base = link.k_shear[Eigen::Index(base)], d_base = link.d_shear[Eigen::Index(base)];
+  Vector<T> force = k_base * d + d_base * rate;
+  // The directions turn with both elements, so a gap across one causes a couple besides that of
+  // the force.
+  Vector<T> gap_couple = Vector<T>::Zero();
+  const auto add = [&](Eigen::Index m, T k, T damping) {
+    const Vector<T> n = mean.col(m), spread = i.turned.col(m) - j.turned.col(m);
+    const T pull = (k - k_base) * n.dot(d);
+    force += pull * n + (damping - d_base) * n.dot(rate) * n;
+    gap_couple += pull / T(4) * d.cross(spread);
+  };
+  add(link.axis, link.k_normal, link.d_normal);
+  add(Eigen::Index(third), link.k_shear[Eigen::Index(third)], link.d_shear[Eigen::Index(third)]);
 
   Vector<T> torque = material_spring_torque(i, j, mean, link, relative) + link.d_rot.z() * spin;
   for (const int m : {0, 1}) {
     const Vector<T> n_m = mean.col(m);
     torque += (link.d_rot[m] - link.d_rot.z()) * n_m.dot(spin) * n_m;
   }
-  return {force, b_i.cross(force) + normal_couple + torque,
-          b_j.cross(force) - normal_couple - torque};
+  return {force, b_i.cross(force) + gap_couple + torque, b_j.cross(force) - gap_couple - torque};
 }
 
 /// Reaction of a link by its own law.
@@ -129,10 +134,10 @@ Reaction<T> reaction(const Motion<T>& i, const Motion<T>& j, const LinkPropertie
 
 /// Potential energy of a link's elastic part [J]:
 ///     paper     1/2 k D.D + 4 kt (1 - p0)
-///     material  1/2 k_s D.D + 1/2 (k_n - k_s)(n_a.D)^2
+///     material  1/2 k_s D.D + 1/2 (k_n - k_s)(n_a.D)^2 + 1/2 (k_t - k_s)(n_t.D)^2
 ///               + 4 k_z (1 - p0) + 2 (k_x - k_z)(n_x.r)^2 + 2 (k_y - k_z)(n_y.r)^2
 /// with (p0, r) = q_j conj(q_i); n_m are the columns of the mean rotation matrix, n_a that of the
-/// link's axis.
+/// link's axis. k_s and k_t are the shear constants along the axes of shear_axes.
 template <class T>
 T elastic_energy(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link) {
   const Vector<T> d = gap(i, j, link);
@@ -142,10 +147,13 @@ T elastic_energy(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>
 
   const Matrix<T> mean = Matrix<T>::Identity() + (i.turned + j.turned) / T(2);
   const Vector<T> r = relative_vector(i.q, j.q);
-  const T stretch = mean.col(link.axis).dot(d);
-  T energy =
-      (link.k_shear * d.squaredNorm() + (link.k_normal - link.k_shear) * stretch * stretch) / T(2) +
-      T(4) * link.k_rot.z() * versine;
+  const auto [base, third] = shear_axes(link.axis);
+  const T k_s = link.k_shear[Eigen::Index(base)], k_t = link.k_shear[Eigen::Index(third)];
+  const T stretch = mean.col(link.axis).dot(d), slide = mean.col(Eigen::Index(third)).dot(d);
+  T energy = (k_s * d.squaredNorm() + (link.k_normal - k_s) * stretch * stretch +
+              (k_t - k_s) * slide * slide) /
+                 T(2) +
+             T(4) * link.k_rot.z() * versine;
   for (const int m : {0, 1}) {
     const T bend = mean.col(m).dot(r);
     energy += T(2) * (link.k_rot[m] - link.k_rot.z()) * bend * bend;

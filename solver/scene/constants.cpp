@@ -9,7 +9,8 @@
 namespace dss {
 namespace {
 
-const std::vector<std::string> law_names = {"paper", "material"};
+const std::vector<std::string> law_names = {"paper", "material", "solid"};
+enum Law { paper, material, solid }; // in the order of law_names
 
 /// Reads a number for all axes, or [x, y, z].
 Vec3 read_per_axis(const Node& node) {
@@ -26,21 +27,22 @@ Vec3 read_non_negative_vector(const Node& node) {
 }
 
 /// The defaults are the published constants.
-AxisConstants read_paper_link(ObjectNode& constants) {
+AxisConstants read_paper_link(ObjectNode& constants, int axis) {
   AxisConstants link;
-  link.k_normal = link.k_shear = constants.positive_or("k", 1e11);
-  link.d_normal = link.d_shear = constants.non_negative_or("d", 1e5);
+  link.k_normal = constants.positive_or("k", 1e11);
+  link.d_normal = constants.non_negative_or("d", 1e5);
+  link.k_shear = across(axis, link.k_normal), link.d_shear = across(axis, link.d_normal);
   link.k_rot.fill(constants.non_negative_or("kt", 0));
   link.d_rot.fill(constants.non_negative_or("dt", 1e2));
   return link;
 }
 
-AxisConstants read_explicit_link(ObjectNode& constants) {
+AxisConstants read_explicit_link(ObjectNode& constants, int axis) {
   AxisConstants link;
   link.k_normal = constants.require("k_normal").non_negative();
-  link.k_shear = constants.require("k_shear").non_negative();
+  link.k_shear = across(axis, constants.require("k_shear").non_negative());
   link.d_normal = constants.non_negative_or("d_normal", 0);
-  link.d_shear = constants.non_negative_or("d_shear", 0);
+  link.d_shear = across(axis, constants.non_negative_or("d_shear", 0));
   if (const auto k_rot = constants.find("k_rot")) link.k_rot = read_non_negative_vector(*k_rot);
   if (const auto d_rot = constants.find("d_rot")) link.d_rot = read_non_negative_vector(*d_rot);
   return link;
@@ -60,17 +62,23 @@ Material read_material(ObjectNode& constants) {
 }
 
 void read_paper_body(ObjectNode& constants, Body& body) {
-  body.axis.fill(read_paper_link(constants));
+  for (int a = 0; a < 3; ++a) body.axis[std::size_t(a)] = read_paper_link(constants, a);
   const auto inertia = constants.find("inertia");
   body.mass = constants.positive_or("mass", 1);
   body.inertia = inertia ? read_per_axis(*inertia) : Vec3{1, 1, 1};
 }
 
+/// Mass and inertia of an element of a material.
+void read_density(ObjectNode& constants, Body& body) {
+  body.mass = constants.require("rho").positive() * body.edge[0] * body.edge[1] * body.edge[2];
+  body.inertia = box_inertia(body.mass, body.edge);
+}
+
 void read_material_body(ObjectNode& constants, Body& body) {
   if (constants.require_one({"E", "links"}) == "E") {
     const Material material = read_material(constants);
-    body.mass = constants.require("rho").positive() * body.edge[0] * body.edge[1] * body.edge[2];
-    body.inertia = box_inertia(body.mass, body.edge);
+    read_density(constants, body);
+    body.has_links_of_beams = true;
     const Vec3 reduced = {body.inertia[0] / 2, body.inertia[1] / 2, body.inertia[2] / 2};
     for (int a = 0; a < 3; ++a)
       body.axis[std::size_t(a)] = material_link(material, a, body.edge, body.mass / 2, reduced);
@@ -82,26 +90,33 @@ void read_material_body(ObjectNode& constants, Body& body) {
   ObjectNode links(constants.require("links"));
   for (std::size_t a = 0; a < 3; ++a) {
     ObjectNode link(links.require(std::string(1, "xyz"[a])));
-    body.axis[a] = read_explicit_link(link);
+    body.axis[a] = read_explicit_link(link, int(a));
     link.finish();
   }
   links.finish();
 }
 
-/// Joint of two bodies: the distance of the centres is the sum of two half edges; the face is that
-/// of the first body.
-AxisConstants read_material_joint(ObjectNode& constants, const Body& from, const Body& to,
-                                  int axis) {
-  const Material material = read_material(constants);
-  const auto a = std::size_t(axis);
-  Vec3 edge = from.edge, inertia;
-  edge[a] = (from.edge[a] + to.edge[a]) / 2;
-  for (std::size_t b = 0; b < 3; ++b)
-    inertia[b] = from.inertia[b] * to.inertia[b] / (from.inertia[b] + to.inertia[b]);
-  return material_link(material, axis, edge, from.mass * to.mass / (from.mass + to.mass), inertia);
+/// A material with the same constants along every axis. Lateral contraction would need forces that
+/// links do not have.
+Material read_solid_material(ObjectNode& constants) {
+  for (const char* key : {"E", "G"})
+    if (const auto value = constants.find(key); value && value->is_array())
+      value->fail("a solid has one E and one G, the same along every axis");
+  if (const auto nu = constants.find("nu"); nu && nu->number() != 0)
+    nu->fail("this law has no lateral contraction; give G in place of nu");
+  return read_material(constants);
 }
 
 } // namespace
+
+PairOfElements pair_of_elements(const Body& from, const Body& to, int axis) {
+  const auto a = std::size_t(axis);
+  PairOfElements pair{from.edge, from.mass * to.mass / (from.mass + to.mass), {}};
+  pair.edge[a] = (from.edge[a] + to.edge[a]) / 2;
+  for (std::size_t b = 0; b < 3; ++b)
+    pair.inertia[b] = from.inertia[b] * to.inertia[b] / (from.inertia[b] + to.inertia[b]);
+  return pair;
+}
 
 double torsion_constant(double b, double c) {
   if (b < c) std::swap(b, c);
@@ -127,41 +142,57 @@ AxisConstants material_link(const Material& material, int axis, const Vec3& edge
   const double length = edge[a], area = edge[b] * edge[c], E = material.E[a], G = material.G[a];
   AxisConstants link;
   link.k_normal = E * area / length;
-  link.k_shear = G * area / length;
+  link.k_shear = across(axis, G * area / length);
   link.k_rot[a] = G * torsion_constant(edge[b], edge[c]) / length;
   link.k_rot[b] = E * edge[b] * std::pow(edge[c], 3) / 12 / length;
   link.k_rot[c] = E * edge[c] * std::pow(edge[b], 3) / 12 / length;
-  const auto damping = [&](double k, double m) {
-    return 2 * material.damping_ratio * std::sqrt(k * m);
-  };
-  link.d_normal = damping(link.k_normal, mass);
-  link.d_shear = damping(link.k_shear, mass);
-  for (std::size_t i = 0; i < 3; ++i) link.d_rot[i] = damping(link.k_rot[i], inertia[i]);
+  set_damping(material.damping_ratio, mass, inertia, link);
   return link;
 }
 
-void read_body_constants(const Node& node, Body& body) {
-  ObjectNode constants(node);
-  body.law =
-      constants.require("law").choice("law", law_names) == 0 ? LinkLaw::paper : LinkLaw::material;
-  if (body.law == LinkLaw::paper)
-    read_paper_body(constants, body);
-  else
-    read_material_body(constants, body);
-  constants.finish();
+void set_damping(double ratio, double mass, const Vec3& inertia, AxisConstants& link) {
+  const auto damping = [&](double k, double m) { return 2 * ratio * std::sqrt(k * m); };
+  link.d_normal = damping(link.k_normal, mass);
+  for (std::size_t i = 0; i < 3; ++i) {
+    link.d_shear[i] = damping(link.k_shear[i], mass);
+    link.d_rot[i] = damping(link.k_rot[i], inertia[i]);
+  }
 }
 
-void read_link_constants(const Node& node, const Body& from, const Body& to, ExtraLink& link) {
+std::optional<Material> read_body_constants(const Node& node, Body& body) {
   ObjectNode constants(node);
-  link.law =
-      constants.require("law").choice("law", law_names) == 0 ? LinkLaw::paper : LinkLaw::material;
-  if (link.law == LinkLaw::paper)
-    link.constants = read_paper_link(constants);
-  else if (constants.require_one({"E", "k_normal"}) == "E")
-    link.constants = read_material_joint(constants, from, to, link.axis);
-  else
-    link.constants = read_explicit_link(constants);
+  const auto law = constants.require("law").choice("law", law_names);
+  body.law = law == paper ? LinkLaw::paper : LinkLaw::material;
+  std::optional<Material> of_solid;
+  if (law == paper) read_paper_body(constants, body);
+  if (law == material) read_material_body(constants, body);
+  if (law == solid) {
+    of_solid = read_solid_material(constants);
+    read_density(constants, body);
+  }
   constants.finish();
+  return of_solid;
+}
+
+std::optional<Material> read_link_constants(const Node& node, const Body& from, const Body& to,
+                                            ExtraLink& link) {
+  ObjectNode constants(node);
+  const auto law = constants.require("law").choice("law", law_names);
+  link.law = law == paper ? LinkLaw::paper : LinkLaw::material;
+  std::optional<Material> of_solid;
+  if (law == solid) {
+    of_solid = read_solid_material(constants);
+  } else if (law == paper) {
+    link.constants = read_paper_link(constants, link.axis);
+  } else if (constants.require_one({"E", "k_normal"}) == "E") {
+    const PairOfElements pair = pair_of_elements(from, to, link.axis);
+    link.constants =
+        material_link(read_material(constants), link.axis, pair.edge, pair.mass, pair.inertia);
+  } else {
+    link.constants = read_explicit_link(constants, link.axis);
+  }
+  constants.finish();
+  return of_solid;
 }
 
 } // namespace dss

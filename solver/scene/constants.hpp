@@ -1,8 +1,10 @@
 #pragma once
-/// Constants of elements and links, as published (`paper`) or from a material (DESIGN.md section
-/// 2).
+/// Constants of elements and links, as published (`paper`) or from a material (`material`, `solid`;
+/// DESIGN.md section 2).
 #include "solver/json/object_node.hpp"
 #include "solver/model/problem.hpp"
+
+#include <optional>
 
 namespace dss {
 
@@ -29,10 +31,26 @@ Vec3 box_inertia(double mass, const Vec3& edge);
 AxisConstants material_link(const Material& material, int axis, const Vec3& edge, double mass,
                             const Vec3& inertia);
 
+/// Sets the dampers of a link: d = 2 ratio sqrt(k m) beside each spring.
+/// @param mass, inertia  as in material_link
+void set_damping(double ratio, double mass, const Vec3& inertia, AxisConstants& link);
+
+/// What a joint of two bodies joins. The distance of the centres is the sum of two half edges, the
+/// face is that of the first body, mass and inertia are the reduced ones.
+struct PairOfElements {
+  Vec3 edge; ///< [m]
+  double mass;
+  Vec3 inertia;
+};
+PairOfElements pair_of_elements(const Body& from, const Body& to, int axis);
+
 /// Fills law, mass, inertia and axis of a body. Its edges must be set.
-void read_body_constants(const Node& node, Body& body);
+/// @return the material of a solid, whose links are set later (solid.hpp)
+std::optional<Material> read_body_constants(const Node& node, Body& body);
 
 /// Fills law and constants of a link between elements of two bodies. Its axis must be set.
-void read_link_constants(const Node& node, const Body& from, const Body& to, ExtraLink& link);
+/// @return the material of a solid, whose constants are set later
+std::optional<Material> read_link_constants(const Node& node, const Body& from, const Body& to,
+                                            ExtraLink& link);
 
 } // namespace dss

@@ -19,23 +19,23 @@ namespace {
 
 const std::vector<std::string> analyses = {"dynamic", "static", "modal"};
 
-Body read_body_properties(ObjectNode& object) {
+Body read_body_properties(ObjectNode& object, Solids& solids) {
   Body body;
   const Node element = object.require("element");
   body.name = object.require("name").name();
   body.edge = element.is_array() ? element.positive_vector() : Vec3{};
   if (!element.is_array()) body.edge.fill(element.positive());
   body.origin = object.vector_or("origin", {});
-  read_body_constants(object.require("constants"), body);
+  solids.bodies.push_back(read_body_constants(object.require("constants"), body));
   return body;
 }
 
-void read_bodies(const Node& node, Problem& problem) {
+void read_bodies(const Node& node, Problem& problem, Solids& solids) {
   for (const Node& item : node.items()) {
     ObjectNode object(item);
     const Node geometry = object.require("geometry");
     const VoxelGrid grid = read_geometry(geometry);
-    const Body body = read_body_properties(object);
+    const Body body = read_body_properties(object, solids);
     object.finish();
     for (const Body& other : problem.bodies)
       if (other.name == body.name)
@@ -49,8 +49,9 @@ void read_bodies(const Node& node, Problem& problem) {
   if (problem.bodies.empty()) node.fail("no bodies; a scene has at least one");
 }
 
-void read_terms(ObjectNode& root, Problem& problem) {
-  if (const auto links = root.find("extra_links")) read_extra_links(*links, problem);
+void read_terms(ObjectNode& root, Problem& problem, Solids& solids) {
+  if (const auto links = root.find("extra_links")) read_extra_links(*links, problem, solids);
+  set_solid_links(solids, problem);
   if (const auto clamps = root.find("clamps")) read_clamps(*clamps, problem);
   if (const auto loads = root.find("loads")) read_loads(*loads, problem);
   if (const auto ties = root.find("stabilization"))
@@ -138,8 +139,9 @@ Scene read_scene(const SceneText& text) {
   scene.path = head.path;
   scene.parameters = head.parameters;
   const Node run = root.require("run");
-  read_bodies(root.require("bodies"), scene.problem);
-  read_terms(root, scene.problem);
+  Solids solids;
+  read_bodies(root.require("bodies"), scene.problem, solids);
+  read_terms(root, scene.problem, solids);
   read_run(run, scene);
   read_tolerances(root, scene.problem);
   scene.verify = read_verify(root.find("verify"), scene.problem);

@@ -182,7 +182,7 @@ Signal read_signal(const Node& node) {
   return signal;
 }
 
-void read_extra_links(const Node& node, Problem& problem) {
+void read_extra_links(const Node& node, Problem& problem, Solids& solids) {
   for (const Node& item : node.items()) {
     ObjectNode joint(item);
     const JointSide from = read_joint_side(joint.require("from"), problem);
@@ -195,9 +195,11 @@ void read_extra_links(const Node& node, Problem& problem) {
     link.axis = joint_axis(joint, from, to);
     const Body &body_from = problem.bodies[std::size_t(from.body)],
                &body_to = problem.bodies[std::size_t(to.body)];
+    std::optional<Material> solid;
     if (const auto constants = joint.find("constants")) {
-      read_link_constants(*constants, body_from, body_to, link);
+      solid = read_link_constants(*constants, body_from, body_to, link);
     } else {
+      solid = solids.bodies[std::size_t(from.body)];
       link.law = body_from.law;
       link.constants = body_from.axis[std::size_t(link.axis)];
     }
@@ -206,6 +208,7 @@ void read_extra_links(const Node& node, Problem& problem) {
       link.i = from.elements[k];
       link.j = to.elements[k];
       if (link.i == link.j) joint.fail(fmt::format("joins element {} to itself", link.i));
+      if (solid) solids.extra_links.emplace(problem.extra_links.size(), *solid);
       problem.extra_links.push_back(link);
     }
   }

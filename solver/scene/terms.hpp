@@ -3,6 +3,7 @@
 /// problem.
 #include "solver/json/object_node.hpp"
 #include "solver/model/problem.hpp"
+#include "solver/scene/solid.hpp"
 
 namespace dss {
 
@@ -12,7 +13,8 @@ Signal read_signal(const Node& node);
 
 /// Each function appends the terms of one list of the scene to the problem.
 /// @throws InputError with file, JSON pointer and what is wrong (all functions of this file)
-void read_extra_links(const Node& node, Problem& problem);
+/// @param solids  gets the extra links of the law `solid`
+void read_extra_links(const Node& node, Problem& problem, Solids& solids);
 void read_clamps(const Node& node, Problem& problem);
 void read_loads(const Node& node, Problem& problem);
 void read_initial_motions(const Node& node, Problem& problem);

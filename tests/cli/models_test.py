@@ -98,6 +98,24 @@ class Models(ProgramTest):
                 for part in ("degrees_of_freedom", "terms", "rotations")
                 for need in explained[part].values()))
 
+    def test_explain_shows_the_constants_of_links_and_what_is_too_soft(self):
+        bar = ("explain", ROOT / "experiments" / "scenes" / "continuum" / "solid_bar.json",
+               "--set", "n=3", "--set", "E=1e7", "--set", "G=4e6", "--set", "side=0.3")
+        shown = dssbench(*bar)
+        self.assertIn("k_shear_x", shown.stdout)
+        self.assertNotIn("note:", shown.stdout)
+        solid = json.loads(dssbench(*bar, "--json", "-").stdout)
+        self.assertEqual(solid["notes"], [])
+        # Edges of 0.1 m: E A / L, and 2 G A / L across.
+        along_x = solid["links_by_kind"][0]
+        self.assertEqual((along_x["body"], along_x["axis"], along_x["count"]), ("bar", "x", 207))
+        self.assertAlmostEqual(along_x["k_normal_n_per_m"], 1e6)
+        for shear, expected in zip(along_x["k_shear_n_per_m"], (0, 8e5, 8e5)):
+            self.assertAlmostEqual(shear, expected)
+        beams = dssbench(*bar, "--set", "bodies/0/constants/law=material")
+        self.assertIn("note: body \"bar\"", beams.stdout)
+        self.assertIn("the law \"solid\" has all of G", beams.stdout)
+
     def test_explain_knows_that_nothing_turns_in_free_flight(self):
         flight = ("explain", ROOT / "experiments" / "scenes" / "failures" / "free_flight.json")
         for model, degrees, *change in (

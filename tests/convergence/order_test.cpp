@@ -95,7 +95,7 @@ TEST(SmoothedVerlet, is_second_order_on_every_term_with_large_rotations) {
 
 TEST(SmoothedVerlet, is_velocity_verlet_where_nothing_depends_on_velocities) {
   Problem plate = fixture::make_plate(4); // cubes have no gyroscopic term
-  for (AxisConstants& c : plate.bodies[0].axis) c.d_normal = c.d_shear = 0, c.d_rot = {};
+  for (AxisConstants& c : plate.bodies[0].axis) c.d_normal = 0, c.d_shear = c.d_rot = {};
   EXPECT_EQ(run(plate, smoothed, at_rest(plate), 1e-6, 50),
             run(plate, verlet, at_rest(plate), 1e-6, 50));
 }

@@ -16,8 +16,9 @@ namespace {
 Problem varied(Problem problem, std::size_t member) {
   const double more = double(member);
   const auto scale = [](AxisConstants& c, double stiffness, double damping) {
-    c.k_normal *= stiffness, c.k_shear *= stiffness;
-    c.d_normal *= damping, c.d_shear *= damping;
+    c.k_normal *= stiffness, c.d_normal *= damping;
+    for (double& k : c.k_shear) k *= stiffness;
+    for (double& d : c.d_shear) d *= damping;
     for (double& k : c.k_rot) k *= stiffness;
     for (double& d : c.d_rot) d *= damping;
   };
@@ -26,6 +27,8 @@ Problem varied(Problem problem, std::size_t member) {
     for (double& inertia : body.inertia) inertia *= 1 + 0.04 * more;
     body.mass *= 1 + 0.03 * more;
     for (AxisConstants& c : body.axis) scale(c, 1 + 0.1 * more, 1 + 0.2 * more);
+    for (auto& kind : body.more_kinds)
+      for (AxisConstants& c : kind) scale(c, 1 + 0.12 * more, 1 + 0.17 * more);
   }
   for (ExtraLink& link : problem.extra_links)
     scale(link.constants, 1 + 0.15 * more, 1 + 0.1 * more);

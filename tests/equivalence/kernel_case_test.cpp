@@ -57,9 +57,10 @@ int stage_flops(row_action action) {
     for (Counted& x : row) x = Counted(0.01);
   const PackMasks interior{1, 1, 0, 1, 0}, masks[] = {interior, interior};
   BodyConstants<Counted> body{};
+  const LinkLanes<Counted> links[3] = {};
   const Counted signals[3];
   RowTask<Counted> task;
-  task.masks = masks, task.body = &body, task.signals = signals;
+  task.masks = masks, task.body = &body, task.links = links, task.signals = signals;
   task.in = rows[0], task.upper_y = rows[1], task.base = rows[2], task.out = rows[3];
   task.carry_y = carry[0], task.from_y = carry[1];
   for (auto& increment : task.increment) increment = rows[1];

@@ -34,8 +34,10 @@ public:
   explicit WrongExecutor(const Setup& setup) : setup_(setup), problem_(setup.problem) {
     if (fault == Fault::weak_links)
       for (Body& body : problem_.bodies)
-        for (AxisConstants& constants : body.axis)
-          constants.k_normal *= 0.999, constants.k_shear *= 0.999;
+        for (AxisConstants& constants : body.axis) {
+          constants.k_normal *= 0.999;
+          for (double& k : constants.k_shear) k *= 0.999;
+        }
     if (fault == Fault::inertia)
       for (Body& body : problem_.bodies) body.inertia[2] *= 0.999;
     right_ = load_variant("avx2").create(

@@ -52,20 +52,23 @@ inline rc::Gen<Json> vector_within(double most) {
                       [](const std::vector<double>& x) { return Json(x); });
 }
 
-/// Constants of either law. Half of their terms are zero, since these have other kernels.
+/// Constants of any law. Half of their terms are zero, since these have other kernels.
 inline rc::Gen<Json> random_constants() {
   const auto or_zero = [](double value) { return one_of<double>({0, value}); };
   return rc::gen::apply(
       [](int law, double d, double kt, double dt, double nu, double damping) {
-        return law == 0 ? Json{{"law", "paper"}, {"k", 1e4},  {"d", d},         {"kt", kt},
-                               {"dt", dt},       {"mass", 1}, {"inertia", 2e-3}}
-                        : Json{{"law", "material"},
-                               {"E", 2e7},
-                               {"nu", nu},
-                               {"rho", 1000},
-                               {"damping_ratio", damping}};
+        if (law == 0)
+          return Json{{"law", "paper"}, {"k", 1e4},  {"d", d},         {"kt", kt},
+                      {"dt", dt},       {"mass", 1}, {"inertia", 2e-3}};
+        Json constants{{"E", 2e7}, {"rho", 1000}, {"damping_ratio", damping}};
+        constants["law"] = law == 1 ? "material" : "solid";
+        if (law == 1)
+          constants["nu"] = nu;
+        else
+          constants["G"] = 1e7 / (1 + nu);
+        return constants;
       },
-      below(2), or_zero(3), or_zero(12), or_zero(4e-3), or_zero(0.2), or_zero(0.03));
+      below(3), or_zero(3), or_zero(12), or_zero(4e-3), or_zero(0.2), or_zero(0.03));
 }
 
 /// A box, or a box with holes.

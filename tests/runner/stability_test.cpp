@@ -19,13 +19,9 @@ constexpr double omega = 100;  ///< of the one mode [rad/s]
 Problem one_mode(double zeta) {
   Problem problem = fixture::make_pair(LinkLaw::paper);
   Body& body = problem.bodies[0];
-  for (AxisConstants& c : body.axis)
-    c = {omega * omega * body.mass,
-         omega * omega * body.mass,
-         2 * zeta * omega * body.mass,
-         2 * zeta * omega * body.mass,
-         {},
-         {}};
+  const double k = omega * omega * body.mass, d = 2 * zeta * omega * body.mass;
+  for (int a = 0; a < 3; ++a)
+    body.axis[std::size_t(a)] = {k, d, across(a, k), across(a, d), {}, {}};
   problem.clamps = {{0, dof_all}, {1, dof_all & ~dof_ux}};
   problem.initial_motions = {{{1}, {1e-6, 0, 0}}};
   return problem;

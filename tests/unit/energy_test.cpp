@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dss {
@@ -58,11 +59,13 @@ double power(const Problem& problem, const std::vector<double>& state,
 TEST(TotalEnergy, changes_only_by_the_work_of_loads_and_dampers) {
   Problem problem = fixture::make_everything();
   const auto undamp = [](AxisConstants& c) {
-    c.d_normal = c.d_shear = 0;
-    c.d_rot = {};
+    c.d_normal = 0;
+    c.d_shear = c.d_rot = {};
   };
-  for (Body& body : problem.bodies)
-    for (AxisConstants& c : body.axis) undamp(c);
+  for (Body& body : problem.bodies) {
+    std::ranges::for_each(body.axis, undamp);
+    for (auto& kind : body.more_kinds) std::ranges::for_each(kind, undamp);
+  }
   for (ExtraLink& link : problem.extra_links) undamp(link.constants);
   problem.clamps.clear();
   problem.stabilization.d = problem.stabilization.d_rot = 0;

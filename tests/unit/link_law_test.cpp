@@ -36,10 +36,10 @@ protected:
     link.axis = GetParam().axis;
     link.arm_i = link.arm_j = V::Unit(link.axis) * Real(body.edge[std::size_t(link.axis)]) / 2;
     link.k_normal = k * c.k_normal;
-    link.k_shear = k * c.k_shear;
     link.d_normal = d * c.d_normal;
-    link.d_shear = d * c.d_shear;
     for (std::size_t m = 0; m < 3; ++m) {
+      link.k_shear[int(m)] = k * c.k_shear[m];
+      link.d_shear[int(m)] = d * c.d_shear[m];
       link.k_rot[int(m)] = k * c.k_rot[m];
       link.d_rot[int(m)] = d * c.d_rot[m];
     }
@@ -188,7 +188,7 @@ TEST_P(EveryLink, small_motion_meets_the_constants_of_its_own_axis) {
   for (int axis = 0; axis < 3; ++axis) {
     Motion<Real> pulled = i;
     pulled.u[axis] = 1e-6L;
-    const Real k = is_paper || axis == a ? properties.k_normal : properties.k_shear;
+    const Real k = is_paper || axis == a ? properties.k_normal : properties.k_shear[axis];
     EXPECT_NEAR(reaction(i, pulled, properties).force[axis], k * 1e-6L, 1e-12L * k * 1e-6L);
     const Motion<Real> bent = turned_by(i, axis, 1e-6L);
     Motion<Real> closed = bent; // keeps the face points together

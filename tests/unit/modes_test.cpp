@@ -40,7 +40,8 @@ Problem unevenly_damped() {
   problem.name = "unevenly damped";
   for (std::size_t axis = 0; axis < 3; ++axis) {
     AxisConstants& c = problem.bodies[0].axis[axis];
-    c.d_normal *= 1 + 3 * double(axis), c.d_shear *= 9 - 4 * double(axis);
+    c.d_normal *= 1 + 3 * double(axis);
+    for (double& d : c.d_shear) d *= 9 - 4 * double(axis);
     for (double& d : c.d_rot) d *= 1 + 5 * double(axis);
   }
   problem.clamps = {{0, dof_all}, {3, dof_ux | dof_ry}};
@@ -95,7 +96,7 @@ TEST(ExactLimit, of_a_chain_is_that_of_its_highest_mode) {
   // Clamped at one end, free at the other: omega_k = 2 sqrt(k/m) sin((2k - 1) pi / (2 (2N + 1))), k
   // = 1 .. N.
   Problem chain = fixture::make_block(8, 1, 1, LinkLaw::material, 0);
-  for (AxisConstants& c : chain.bodies[0].axis) c.k_shear = 1, c.k_rot = {1e-3, 1e-3, 1e-3};
+  for (AxisConstants& c : chain.bodies[0].axis) c.k_shear = {1, 1, 1}, c.k_rot = {1e-3, 1e-3, 1e-3};
   chain.clamps = {{0, dof_all}};
   const double n = 7, omega = 2 *
                               std::sqrt(chain.bodies[0].axis[0].k_normal / chain.bodies[0].mass) *

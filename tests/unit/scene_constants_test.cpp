@@ -36,7 +36,8 @@ TEST(material_link, has_the_stiffness_of_a_bar_of_its_section) {
   const double mass = 5, length = 0.2, area = 0.5 * 0.3; // a link along y has faces z x x
   const AxisConstants link = material_link(material, 1, edge, mass, inertia);
   EXPECT_DOUBLE_EQ(link.k_normal, 200 * area / length);
-  EXPECT_DOUBLE_EQ(link.k_shear, 80 * area / length);
+  EXPECT_DOUBLE_EQ(link.k_shear[0], 80 * area / length);
+  EXPECT_DOUBLE_EQ(link.k_shear[2], 80 * area / length);
   EXPECT_DOUBLE_EQ(link.k_rot[0], 200 * 0.5 * 0.3 * 0.3 * 0.3 / 12 / length); // about x, z^2 counts
   EXPECT_DOUBLE_EQ(link.k_rot[1], 80 * torsion_constant(0.5, 0.3) / length);
   EXPECT_DOUBLE_EQ(link.k_rot[2], 200 * 0.3 * 0.5 * 0.5 * 0.5 / 12 / length);
@@ -53,7 +54,7 @@ TEST(scene_constants, of_a_material_body_are_those_of_its_box) {
   EXPECT_DOUBLE_EQ(body.inertia[0], mass / 12 * (0.08 * 0.08 + 0.05 * 0.05));
   EXPECT_TRUE(body.has_tensor_inertia());
   EXPECT_DOUBLE_EQ(body.axis[0].k_normal, 1e6 * 0.08 * 0.05 / 0.1);
-  EXPECT_DOUBLE_EQ(body.axis[0].k_shear, 1e6 / 2.4 * 0.08 * 0.05 / 0.1);
+  EXPECT_DOUBLE_EQ(body.axis[0].k_shear[1], 1e6 / 2.4 * 0.08 * 0.05 / 0.1);
   EXPECT_DOUBLE_EQ(body.axis[2].d_normal, 0.04 * std::sqrt(body.axis[2].k_normal * mass / 2));
 }
 
@@ -62,10 +63,11 @@ TEST(scene_constants, of_a_paper_body_are_isotropic_and_default_to_the_published
   const Body& body = scene.problem.bodies.at(0);
   EXPECT_EQ(body.law, LinkLaw::paper);
   EXPECT_EQ(body.mass, 2);
-  for (const AxisConstants& link : body.axis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const AxisConstants& link = body.axis[std::size_t(axis)];
     EXPECT_EQ(link.k_normal, 1e4);
-    EXPECT_EQ(link.k_shear, link.k_normal);
-    EXPECT_EQ(link.d_shear, link.d_normal);
+    EXPECT_EQ(link.k_shear, across(axis, link.k_normal));
+    EXPECT_EQ(link.d_shear, across(axis, link.d_normal));
     EXPECT_EQ(link.d_rot, (Vec3{0.1, 0.1, 0.1}));
   }
   const Body plate = load_scene("plate_paper", {{"n", "4"}}).problem.bodies.at(0);

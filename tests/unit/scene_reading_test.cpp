@@ -50,6 +50,15 @@ protected:
   fs::path folder;
 };
 
+TEST(scene_solid, takes_one_isotropic_material_without_lateral_contraction) {
+  const std::string constants = "bodies/0/constants/";
+  expect_part(refusal("ribbed_plate", {{constants + "nu", "0.3"}}),
+              "no lateral contraction; give G in place of nu");
+  expect_part(refusal("ribbed_plate", {{constants + "nu", "0"}}), "exclude each other");
+  expect_part(refusal("two_bodies", {{"bodies/1/constants/law", "solid"}}),
+              "the same along every axis");
+}
+
 TEST_F(scene_file, that_is_missing_is_refused_with_the_nearest_name) {
   expect_part(refusal("plate_papr"), "did you mean \"plate_paper\"?");
   expect_part(refusal("quite_another"), "known: block, cantilever_beam");

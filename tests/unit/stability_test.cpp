@@ -164,9 +164,12 @@ TEST(StableStep, says_that_a_large_problem_gets_no_sharp_figure) {
 TEST(Fitted, rkc2_has_as_many_stages_as_the_damping_needs_and_no_more) {
   Problem pair = fixture::make_pair(LinkLaw::paper);
   for (Body& body : pair.bodies)
-    for (AxisConstants& axis : body.axis) // about forty times critical
-      axis.d_normal = axis.d_shear = 40 * std::sqrt(axis.k_normal * body.mass),
+    for (int a = 0; a < 3; ++a) { // about forty times critical
+      AxisConstants& axis = body.axis[std::size_t(a)];
+      axis.d_normal = 40 * std::sqrt(axis.k_normal * body.mass);
+      axis.d_shear = across(a, axis.d_normal);
       axis.d_rot = {1, 1, 1};
+    }
   const double dt = 5 * stable_step(pair, rk4).dt;
   const Method method = fitted(pair, *find_method("rkc2"), dt);
   EXPECT_GT(method.stages, 3);

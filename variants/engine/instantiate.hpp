@@ -42,12 +42,12 @@ void compute_link(const ExtraLinkConstants<Number>& link, const T* fields_i, con
     const auto& b = link.body;
     const auto& a = b.axis[axis];
     const R edge_i(link.edge_i), edge_j(link.edge_j), half(T(0.5));
-    const auto w =
-        S::wrench_of_pair(i, j, axis, link.is_material,
-                          {edge_i, edge_j, R(a.k_s), R(a.k_ns), R(a.d_s), R(a.d_ns), R(a.k_z),
-                           R(a.k_xz), R(a.k_yz), R(a.d_z), R(a.d_xz), R(a.d_yz)},
-                          {edge_i, edge_i * half, R(b.tau), R(b.kt2), R(b.dt)},
-                          {edge_j, edge_j * half, R(b.tau), R(b.kt2), R(b.dt)});
+    const auto w = S::wrench_of_pair(i, j, axis, link.is_material,
+                                     {edge_i, edge_j, R(a.k_s), R(a.k_ns), R(a.k_ts), R(a.d_s),
+                                      R(a.d_ns), R(a.d_ts), R(a.k_z), R(a.k_xz), R(a.k_yz),
+                                      R(a.d_z), R(a.d_xz), R(a.d_yz)},
+                                     {edge_i, edge_i * half, R(b.tau), R(b.kt2), R(b.dt)},
+                                     {edge_j, edge_j * half, R(b.tau), R(b.kt2), R(b.dt)});
     typename S::vec back = w.force;
     each_component(back, [](R& c) { c = -c; });
     write(write(wrench_i, w.force), w.moment_i);

@@ -13,11 +13,16 @@ namespace dss {
 /// The combinations of terms that are compiled: for each law from lean to full. A problem takes the
 /// first one that covers what it needs. Each row of this table costs compile time (README.md).
 inline constexpr std::array compiled_terms{
-    // material, damped, bending, gyroscopic, tied, oblong
-    Terms{false, false, false, false, false, false}, Terms{false, true, false, false, false, false},
-    Terms{false, true, false, false, false, true},   Terms{false, true, true, true, true, true},
-    Terms{true, false, false, false, false, false},  Terms{true, true, false, false, false, false},
+    // material, damped, bending, gyroscopic, tied, oblong, two shears
+    Terms{false, false, false, false, false, false},
+    Terms{false, true, false, false, false, false},
+    Terms{false, true, false, false, false, true},
+    Terms{false, true, true, true, true, true},
+    Terms{true, false, false, false, false, false},
+    Terms{true, true, false, false, false, false},
+    Terms{true, true, false, false, false, false, true},
     Terms{true, true, true, true, true, false},
+    Terms{true, true, true, true, true, false, true},
 };
 
 /// False with DSS_FEWER_KERNELS: only the models planar and spatial, whose rows are damped, or
@@ -32,9 +37,11 @@ inline constexpr bool has_all_kernels = true;
 /// Builds with fewer kernels leave out undamped and oblong rows, which damped and full rows cover.
 /// Rarely used models leave out the damped oblong row of the paper's law; the full row covers it.
 /// They keep all rows of the material law, since the full row in their place would be slower
-/// (README.md).
+/// (README.md). Of these, two shears are always in the full row and never in the others; spatial
+/// rows have both.
 constexpr bool is_compiled(Model model, const Terms& terms) {
   if (!has_all_kernels && (!terms.is_damped || (terms.is_oblong && !terms.is_full()))) return false;
+  if (terms.is_material && terms.has_two_shears != terms.is_full()) return model == Model::spatial;
   if (model == Model::spatial || model == Model::planar) return true;
   return terms.is_full() || terms.is_material || !terms.is_oblong;
 }

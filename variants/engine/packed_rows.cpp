@@ -59,9 +59,10 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
                                                                          : ensemble->lattice),
       filled(cells, W, costs_of(problem, W), is_cut() ? RowForm::cells : furthest),
       lattice(filled.lattice()), layout(descriptor(model)), rows(lattice.rows.size()),
-      own_end(int(rows.size())), part_(part), applied_index_(lattice.rows.size(), -1) {
-  if (ensemble != nullptr) members_ = ensemble->members;
-  if (members_.empty()) members_ = {&problem};
+      own_end(int(rows.size())), part_(part),
+      members_(ensemble != nullptr && !ensemble->members.empty() ? ensemble->members
+                                                                 : std::vector{&problem}),
+      applied_index_(lattice.rows.size(), -1) {
   if (is_ensemble() && members_.size() != std::size_t(W))
     throw std::logic_error("packed_rows.hpp: an ensemble has a member a lane");
   reach = lattice.row_reach();
@@ -87,6 +88,7 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
   }
   set_place_sizes();
   mark_links();
+  set_link_constants();
   if constexpr (W == simd::lanes<T>) maps_ = LaneMaps<T>(filled, cells); // only these are filled
   for (std::size_t r = 0; r < rows.size(); ++r) rows[r].maps = maps_.of_row(r);
   apply_loads();
@@ -191,9 +193,26 @@ void PackedRows<T, W>::mark_links() {
 }
 
 template <class T, int W>
+void PackedRows<T, W>::set_link_constants() {
+  if (links_.is_mixed())
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      links_.add_packs(lattice.rows[r].body, rows[r].packs, [&](auto&& visit) {
+        each_element(int(r), [&](std::size_t element, int x) {
+          visit(element / members_.size(), x - rows[r].first_pack * W);
+        });
+      });
+  links_.finish();
+  if (links_.lanes().empty()) return;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    rows[r].links = &links_.lanes()[links_.is_mixed() ? 0 : 3 * std::size_t(lattice.rows[r].body)];
+    if (links_.is_mixed()) rows[r].link_index = &links_.index()[rows[r].pack_offset * links_.faces];
+  }
+}
+
+template <class T, int W>
 std::size_t PackedRows<T, W>::bytes() const {
   std::size_t sum = rows.size() * sizeof(PackedRow<T>) + applied_index_.size() * sizeof(int) +
-                    filled.bytes() + maps_.bytes();
+                    filled.bytes() + maps_.bytes() + links_.bytes();
   sum += (stage_sizes.size() + links_sizes.size()) * sizeof(int) + cut.rows.size() * sizeof(Row) +
          cut.present.size();
   for (const auto& masks : masks_) sum += masks.size() * sizeof(PackMasks);

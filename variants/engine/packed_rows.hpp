@@ -6,6 +6,7 @@
 #include "variants/engine/buffer.hpp"
 #include "variants/engine/kernel_set.hpp"
 #include "variants/engine/lane_maps.hpp"
+#include "variants/engine/link_table.hpp"
 
 #include <optional>
 #include <set>
@@ -29,6 +30,8 @@ struct PackedRow {
   const KernelSet<T>* kernels = nullptr;
   const BodyConstants<T>* body = nullptr;
   const BodyConstants<LaneNumbers<T>>* members = nullptr; ///< of an ensemble, in place of `body`
+  const LinkLanes<T>* links = nullptr;                    ///< null for devices
+  const int* link_index = nullptr;                        ///< as in RowTask
   const PackMasks* masks = nullptr;
   const Applied<T>* applied = nullptr;
   const PackMaps<T>* maps = nullptr; ///< null if neighbours have the same lanes
@@ -77,6 +80,7 @@ public:
     return r.x_begin / W - (piece == 0 ? 0 : cut.cuts[std::size_t(piece) - 1] / W);
   }
   const LaneMaps<T>& maps() const { return maps_; }
+  const LinkTable<T, W>& links() const { return links_; }
   /// Calls visit(element, x) for each element of a row, in ascending x of `lattice`.
   template <class Visit>
   void each_element(int row, Visit&& visit) const {
@@ -150,6 +154,7 @@ private:
   void set_constants();
   void find_layers();
   void mark_links();
+  void set_link_constants();
   void apply_loads();
   void apply_load(std::size_t n);
   void apply_clamps();
@@ -164,6 +169,7 @@ private:
   std::vector<bool> has_halo_; ///< rows with a halo element
   std::vector<RowShape> shapes_;
   std::vector<const Problem*> members_;
+  LinkTable<T, W> links_{members_};
   std::vector<BodyConstants<T>> bodies_;                     ///< unless it is an ensemble
   std::vector<BodyConstants<LaneNumbers<T>>> member_bodies_; ///< of an ensemble
   /// Equal rows share them, so that they stay in L1.

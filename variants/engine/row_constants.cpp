@@ -22,7 +22,7 @@ BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
   for (std::size_t a = 0; a < 3; ++a) {
     c.edge[a] = T(body.edge[a]);
     c.half_edge[a] = c.edge[a] / 2;
-    set_material_constants(c.axis[a], body.axis[a]);
+    set_material_constants(c.axis[a], body.axis[a], int(a));
     c.inertia[a] = T(body.inertia[a] / unit);
     c.inverse_inertia[a] = T(unit / body.inertia[a]);
   }
@@ -46,7 +46,7 @@ ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLi
   c.edge_i = edge(link.i), c.edge_j = edge(link.j);
   c.unit = T(force_unit(link.law, link.constants));
   if (!c.is_material) set_paper_constants(c.body, link.constants);
-  set_material_constants(c.body.axis[link.axis], link.constants);
+  set_material_constants(c.body.axis[link.axis], link.constants, link.axis);
   return c;
 }
 

@@ -61,6 +61,8 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   task.places = packed.maps().places();
   task.body = p.body;
   task.members = p.members;
+  task.links = p.links;
+  task.link_index = p.link_index;
   task.live_lanes = &packed.live_lanes;
   task.applied = p.applied;
   task.in = input(row);

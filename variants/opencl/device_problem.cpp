@@ -1,10 +1,12 @@
 #include "variants/opencl/device_problem.hpp"
 
 #include "solver/error.hpp"
+#include "solver/model/link_constants.hpp"
 #include "variants/engine/packs.hpp"
 #include "variants/engine/step_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace dss::opencl {
@@ -127,6 +129,28 @@ void DeviceProblem<T, W>::make_constant_tables() {
   free_lanes_ = table(free_lanes);
 }
 
+/// Fills link_lanes of device/tables.h.
+template <class T, int W>
+void DeviceProblem<T, W>::make_link_tables() {
+  static_assert(LinkTable<T, W>::faces == 6);
+  constexpr std::size_t count = sizeof(LinkConstants<T>) / sizeof(T);
+  std::vector<T> numbers;
+  for (const FaceKinds<W>& face : packed.links().kinds()) {
+    const std::size_t start = numbers.size();
+    numbers.resize(start + count * W);
+    const Body& body = problem_.bodies[std::size_t(face.body)];
+    for (std::size_t lane = 0; lane < W; ++lane) {
+      LinkConstants<T> link{};
+      set_material_constants(link, body.link(face.axis, face.kinds[lane]), face.axis);
+      std::array<T, count> of_link;
+      std::memcpy(of_link.data(), &link, sizeof link);
+      for (std::size_t n = 0; n < count; ++n) numbers[start + n * W + lane] = of_link[n];
+    }
+  }
+  links_ = table(numbers);
+  link_index_ = table(packed.links().index());
+}
+
 /// The actions to compile. All that Runge-Kutta methods may need are compiled together, so that
 /// they share one program with the rates. Programs of tiles have no rates.
 static std::set<row_action> compiled_actions(std::set<row_action> actions) {
@@ -144,7 +168,8 @@ void DeviceProblem<T, W>::finish() {
                          layout.has_items,
                          tile_.is_used() ? actions_ : compiled_actions(actions_),
                          terms_,
-                         tile_};
+                         tile_,
+                         packed.links().is_mixed()};
   program_ = build_program(device, row_program(kind));
   build_s_ += program_.build_s, is_cached_ &= program_.is_cached;
   if (has_extra_links()) {
@@ -154,6 +179,7 @@ void DeviceProblem<T, W>::finish() {
     extra_kernel_ = queue.make_kernel(extra_program_, "evaluate_extra_links");
   }
   make_constant_tables();
+  make_link_tables();
   row_table_ = table(rows_);
   arena_ = is_shared_ ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
                                           memory.start())
@@ -201,7 +227,8 @@ void DeviceProblem<T, W>::require_tile() const {
 template <class T, int W>
 Kernel DeviceProblem<T, W>::kernel(const char* name) const {
   Kernel kernel = queue.make_kernel(program_, name);
-  kernel.set(arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_, T(1));
+  kernel.set(arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_, links_,
+             link_index_, T(1));
   return kernel;
 }
 

@@ -97,16 +97,17 @@ std::string row_program(const ProgramKind& kind) {
   std::string actions;
   for (const row_action action : kind.actions)
     actions += fmt::format(" | ((action) == {})", int(action));
-  text += fmt::format("#define HAS(action) ((0{}) != 0)\n", actions);
+  text += fmt::format("#define HAS(action) ((0{}) != 0)\n#define HAS_LINK_KINDS {}\n", actions,
+                      int(kind.has_link_kinds));
   if (!kind.has_items) text += device_text("shifts_of_vectors.cl");
   text += text_of("kernels/rk_update/row_update.h");
   std::string cases;
   for (std::size_t n = 0; n < kind.terms.size(); ++n) {
     const Terms& t = kind.terms[n];
     text += fmt::format(
-        "#define FLAGS ((term_flags){{{}, {}, {}, {}, {}, {}}})\n#define NAME(f) f##_{}\n",
+        "#define FLAGS ((term_flags){{{}, {}, {}, {}, {}, {}, {}}})\n#define NAME(f) f##_{}\n",
         int(t.is_material), int(t.is_damped), int(t.is_bending), int(t.is_gyroscopic),
-        int(t.is_tied), int(t.is_oblong), n);
+        int(t.is_tied), int(t.is_oblong), int(t.has_two_shears), n);
     text += device_text("row.cl") +
             device_text(kind.has_items ? "row_of_items.cl" : "row_of_vectors.cl") +
             "#undef FLAGS\n#undef NAME\n";

@@ -22,6 +22,7 @@ struct ProgramKind {
   std::set<row_action> actions; ///< the actions that rows need; others are not compiled
   std::vector<Terms> terms;     ///< the combinations that rows refer to by index
   StageTile tile;               ///< of a GPU
+  bool has_link_kinds = false;  ///< the links of a body differ
 };
 
 /// Text of a program with the kernel run_tiles if it has a tile, else with run_passes and run_rows.

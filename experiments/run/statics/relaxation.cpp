@@ -192,11 +192,13 @@ Problem relaxed_problem(const Problem& problem, bool has_scaled_masses, double l
   Problem relaxed = held_still(problem, loads);
   relaxed.initial_motions.clear();
   const auto undamp = [](AxisConstants& axis) {
-    axis.d_normal = axis.d_shear = 0;
-    axis.d_rot = {};
+    axis.d_normal = 0;
+    axis.d_shear = axis.d_rot = {};
   };
-  for (Body& body : relaxed.bodies)
-    for (AxisConstants& axis : body.axis) undamp(axis);
+  for (Body& body : relaxed.bodies) {
+    std::ranges::for_each(body.axis, undamp);
+    for (auto& kind : body.more_kinds) std::ranges::for_each(kind, undamp);
+  }
   for (ExtraLink& extra : relaxed.extra_links) undamp(extra.constants);
   relaxed.stabilization.d = relaxed.stabilization.d_rot = 0;
   if (has_scaled_masses) scale_masses(relaxed);

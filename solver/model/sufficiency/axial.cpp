@@ -21,8 +21,8 @@ private:
   std::map<Key, int> numbers_;
 };
 
-/// Colour of each element without its links: elements of one colour have the same clamp, loads and
-/// start in the equations along x.
+/// Colour of each element without its neighbours: elements of one colour have the same clamp,
+/// loads, kind of link and start in the equations along x.
 std::vector<int> element_colours(const Problem& problem) {
   std::vector<int> colours(problem.lattice.element_count, 0);
   const auto refine = [&](const auto& elements, const auto& mark_of) {
@@ -38,9 +38,18 @@ std::vector<int> element_colours(const Problem& problem) {
   for (const Load& load : problem.loads)
     if (load.force[0] != 0 && !is_zero_always(load.signal))
       refine(load.elements, [](std::size_t) { return 1; });
-  if (problem.initial_motions.empty()) return colours;
   std::vector<std::size_t> all(colours.size());
   for (std::size_t e = 0; e < all.size(); ++e) all[e] = e;
+  if (!problem.link_kinds.empty()) {
+    std::vector<std::pair<double, double>> along(colours.size()); // of each element's upper link
+    problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
+      const AxisConstants& link =
+          problem.bodies[std::size_t(row.body)].link(0, problem.link_kind(e, 0));
+      along[e] = {link.k_normal, link.d_normal};
+    });
+    refine(all, [&](std::size_t e) { return along[e]; });
+  }
+  if (problem.initial_motions.empty()) return colours;
   const std::vector<double> state = initial_state(problem);
   refine(all, [&](std::size_t e) {
     return std::pair(state[e * field_count + ux], state[e * field_count + vx]);
@@ -65,7 +74,7 @@ Cell cell_of(const Problem& problem, std::size_t element) {
   return {std::size_t(&row - rows.data()), x};
 }
 
-using LinkConstants = std::tuple<int, double, double, double, double>;
+using LinkConstants = std::tuple<int, double, double, Vec3, Vec3>;
 LinkConstants constants_of(const ExtraLink& link) {
   return {int(link.law), link.constants.k_normal, link.constants.d_normal, link.constants.k_shear,
           link.constants.d_shear};

@@ -36,15 +36,20 @@ private:
 template <class Visit>
 void for_each_link_kind(const Problem& problem, const Visit& visit) {
   std::vector<int> body_of(problem.lattice.element_count);
-  std::vector<bool> met(problem.bodies.size() * 3);
+  std::vector<std::size_t> first_kind; // of each body
+  std::size_t kinds = 0;
+  for (const Body& body : problem.bodies) first_kind.push_back(kinds), kinds += body.kinds();
+  std::vector<bool> met(3 * kinds);
   problem.lattice.for_each_element(
       [&](std::size_t e, const Row& row, int) { body_of[e] = row.body; });
   problem.lattice.for_each_link([&](std::size_t i, std::size_t, int axis) {
     const auto body = std::size_t(body_of[i]);
-    if (met[3 * body + std::size_t(axis)]) return;
-    met[3 * body + std::size_t(axis)] = true;
+    const std::size_t kind = problem.link_kind(i, axis);
+    const std::size_t place = 3 * (first_kind[body] + kind) + std::size_t(axis);
+    if (met[place]) return;
+    met[place] = true;
     const Body& b = problem.bodies[body];
-    visit(b.law, axis, b.axis[std::size_t(axis)], b.edge[std::size_t(axis)]);
+    visit(b.law, axis, b.link(axis, kind), b.edge[std::size_t(axis)]);
   });
   for (const ExtraLink& link : problem.extra_links) {
     const auto a = std::size_t(link.axis);
@@ -137,7 +142,9 @@ BoundStructure bound_structure(const Problem& problem) {
     for (std::size_t m = 0; m < 3 && law != LinkLaw::paper; ++m)
       if (int(m) != axis) k_bend = std::min(k_bend, c.k_rot[m]);
     const double column = 2 * structure.length / std::numbers::pi;
-    yielding = std::max(yielding, column * column / (k_bend * edge) + 1 / (c.k_shear * edge));
+    const auto [base, third] = shear_axes(axis);
+    const double k_shear = std::min(c.k_shear[base], c.k_shear[third]);
+    yielding = std::max(yielding, column * column / (k_bend * edge) + 1 / (k_shear * edge));
   });
   structure.least_buckling = yielding > 0 ? 1 / yielding : endless;
   if (structure.least_buckling == 0) structure.is_held = false;

@@ -43,8 +43,10 @@ LinearLink linear_link(const double* i, const double* j, int axis, LinkLaw law,
   const double across2 = b * b + d * d;
   link.gap2 = along * along + across2;
   link.rate2 = squared(rates.data());
-  link.force2 = c.k_normal * c.k_normal * along * along + c.k_shear * c.k_shear * across2;
-  link.energy = c.k_normal * along * along + c.k_shear * across2;
+  const double k_b = c.k_shear[std::size_t(axis + 1) % 3],
+               k_d = c.k_shear[std::size_t(axis + 2) % 3];
+  link.energy = c.k_normal * along * along + k_b * b * b + k_d * d * d;
+  link.force2 = c.k_normal * c.k_normal * along * along + k_b * k_b * b * b + k_d * k_d * d * d;
   for (int m = 0; m < 3; ++m) {
     const double turn = 2 * (j[qx + m] - i[qx + m]);
     link.energy += c.k_rot[law == LinkLaw::paper ? 0 : std::size_t(m)] * turn * turn;
@@ -108,7 +110,7 @@ void ModelErrorBound::look_at_links(std::span<const double> state) {
   };
   problem_.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
     const Body& body = problem_.bodies[std::size_t(body_of_[i])];
-    add(i, j, axis, body.law, body.axis[std::size_t(axis)]);
+    add(i, j, axis, body.law, body.link(axis, problem_.link_kind(i, axis)));
   });
   for (const ExtraLink& link : problem_.extra_links)
     add(link.i, link.j, link.axis, link.law, link.constants);

@@ -24,12 +24,15 @@ bool is_in_translation(const Problem& problem, Model model) {
 template <class Has>
 bool any_link(const Problem& problem, const Has& has) {
   const auto of_body = [&](const Body& body) {
-    return std::ranges::any_of(body.axis,
-                               [&](const AxisConstants& axis) { return has(body.law, axis); });
+    bool found = false;
+    body.each_kind(
+        [&](const AxisConstants& a, int axis) { found = found || has(body.law, a, axis); });
+    return found;
   };
   return std::ranges::any_of(problem.bodies, of_body) ||
-         std::ranges::any_of(problem.extra_links,
-                             [&](const ExtraLink& link) { return has(link.law, link.constants); });
+         std::ranges::any_of(problem.extra_links, [&](const ExtraLink& link) {
+           return has(link.law, link.constants, link.axis);
+         });
 }
 
 Need need(std::string name, bool is_needed, std::string why, std::string why_not) {
@@ -38,7 +41,7 @@ Need need(std::string name, bool is_needed, std::string why, std::string why_not
 
 Need damping(const Problem& problem, Model model) {
   const bool is_damped =
-      any_link(problem, [](LinkLaw, const AxisConstants& a) { return a.is_damped(); });
+      any_link(problem, [](LinkLaw, const AxisConstants& a, int) { return a.is_damped(); });
   return need("damping of links", is_damped && !is_in_translation(problem, model),
               "links have d or dt",
               is_damped ? "no link is strained" : "all constants d and dt are zero");
@@ -46,16 +49,18 @@ Need damping(const Problem& problem, Model model) {
 
 Need bending_stiffness(const Problem& problem, Model model) {
   const bool has =
-      any_link(problem, [](LinkLaw, const AxisConstants& a) { return a.k_rot != Vec3{}; });
+      any_link(problem, [](LinkLaw, const AxisConstants& a, int) { return a.k_rot != Vec3{}; });
   const bool is_turned = model != Model::axial && !is_in_translation(problem, model);
   return need("rotational stiffness of links", has && is_turned, "links resist relative rotation",
               has ? "no element turns" : "kt is zero: links resist by their arms alone");
 }
 
 Need orthotropy(const Problem& problem, Model model) {
-  const bool has = any_link(problem, [](LinkLaw law, const AxisConstants& a) {
+  const bool has = any_link(problem, [](LinkLaw law, const AxisConstants& a, int axis) {
+    const auto [base, third] = shear_axes(axis);
     return law == LinkLaw::material &&
-           (a.k_normal != a.k_shear || a.k_rot[0] != a.k_rot[1] || a.k_rot[1] != a.k_rot[2]);
+           (a.k_normal != a.k_shear[base] || a.k_normal != a.k_shear[third] ||
+            a.k_rot[0] != a.k_rot[1] || a.k_rot[1] != a.k_rot[2]);
   });
   const bool is_along = model == Model::axial;
   return need("orthotropy of links", has && !is_along,

@@ -8,12 +8,22 @@ static inline paper_law NAME(paper_law_of)(global const body_constants* body, in
                    SPLAT(body->kt2), SPLAT(body->dt)};
   return law;
 }
-static inline axis_law NAME(law_of)(global const body_constants* body, const int axis) {
-  material_law m = {
-      SPLAT(body->edge[axis]),      SPLAT(body->edge[axis]),      SPLAT(body->axis[axis].k_s),
-      SPLAT(body->axis[axis].k_ns), SPLAT(body->axis[axis].d_s),  SPLAT(body->axis[axis].d_ns),
-      SPLAT(body->axis[axis].k_z),  SPLAT(body->axis[axis].k_xz), SPLAT(body->axis[axis].k_yz),
-      SPLAT(body->axis[axis].d_z),  SPLAT(body->axis[axis].d_xz), SPLAT(body->axis[axis].d_yz)};
+/* Law of a pack's links along an axis. is_below: those across the lower faces. */
+static inline axis_law NAME(law_of)(device d, global const row_stage* task, const int pack,
+                                    const int axis, const int is_below) {
+  global const body_constants* body = d.bodies + task->body;
+#if HAS_LINK_KINDS
+  global const link_lanes* links =
+      d.links + d.link_index[6 * (task->masks + pack) + 3 * is_below + axis];
+#define OF_LINK(c) LOAD(links->c.lane + LANE)
+#else
+#define OF_LINK(c) SPLAT(body->axis[axis].c)
+#endif
+  const REAL edge = SPLAT(body->edge[axis]);
+  material_law m = {edge,          edge,         OF_LINK(k_s),  OF_LINK(k_ns), OF_LINK(k_ts),
+                    OF_LINK(d_s),  OF_LINK(d_ns), OF_LINK(d_ts), OF_LINK(k_z),  OF_LINK(k_xz),
+                    OF_LINK(k_yz), OF_LINK(d_z),  OF_LINK(d_xz), OF_LINK(d_yz)};
+#undef OF_LINK
   axis_law law = {NAME(paper_law_of)(body, 0), NAME(paper_law_of)(body, axis), m,
                   SPLAT(body->edge_ratio)};
   return law;

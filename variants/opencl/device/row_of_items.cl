@@ -13,7 +13,7 @@ static inline exchange NAME(exchange_x)(prepared i, prepared j, axis_law law) {
 /* Adds the links across y or z.
  * @param above, below  whether there is a link to the upper and to the lower element */
 static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law,
-                                      const int above, const int below,
+                                      axis_law law_below, const int above, const int below,
                                       global const NUMBER* upper, global const NUMBER* lower) {
   if (!(above || below)) return sum;
   const side own = side_across(i, axis, law, FLAGS);
@@ -22,8 +22,9 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   carried low = nothing_carried();
   if (below) {
     const element j = element_at(lower);
-    low =
-        carried_by(link_across(j, upper_across(j, axis, law, FLAGS), i.e, axis, law, FLAGS), FLAGS);
+    low = carried_by(link_across(j, upper_across(j, axis, law_below, FLAGS), i.e, axis, law_below,
+                                 FLAGS),
+                     FLAGS);
   }
   return wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
 }
@@ -32,15 +33,8 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
 static inline int NAME(run)(device d, global const row_stage* task, global const NUMBER* signals) {
   const int pack = PACK(task), lane = LANE;
   if (pack < 0 || pack >= task->packs) return 1;
-  global const body_constants* body = d.bodies + task->body;
   global const pack_masks* masks = d.masks + task->masks + pack;
-  const axis_law x = NAME(law_of)(body, 0);
-#if AXES > 1
-  const axis_law y = NAME(law_of)(body, 1);
-#endif
-#if AXES > 2
-  const axis_law z = NAME(law_of)(body, 2);
-#endif
+  const axis_law x = NAME(law_of)(d, task, pack, 0, 0), x_below = NAME(law_of)(d, task, pack, 0, 1);
   const int stride = task->fields * W;
   const long start = (long)pack * stride, place = start + lane;
   global const NUMBER* in = d.arena + task->in;
@@ -55,16 +49,21 @@ static inline int NAME(run)(device d, global const row_stage* task, global const
       lane > 0 ? masks->link_x >> (lane - 1) & 1 : pack > 0 && (masks[-1].link_x >> (W - 1) & 1);
   if (is_linked_below) {
     const long below = lane > 0 ? place - 1 : start - stride + W - 1;
-    low = carried_by(NAME(exchange_x)(prepare(element_at(in + below), x.x, FLAGS), i, x), FLAGS);
+    const prepared j = prepare(element_at(in + below), x.x, FLAGS);
+    low = carried_by(NAME(exchange_x)(j, i, x_below), FLAGS);
   }
   wrench sum = wrench_of_x(i, up, low, x, FLAGS);
 #if AXES > 1
-  sum = NAME(add_across)(sum, i, 1, y, masks->link_y >> lane & 1, masks->below_y >> lane & 1,
-                         d.arena + task->upper_y + place, d.arena + task->lower_y + place);
+  sum = NAME(add_across)(sum, i, 1, NAME(law_of)(d, task, pack, 1, 0),
+                         NAME(law_of)(d, task, pack, 1, 1), masks->link_y >> lane & 1,
+                         masks->below_y >> lane & 1, d.arena + task->upper_y + place,
+                         d.arena + task->lower_y + place);
 #endif
 #if AXES > 2
-  sum = NAME(add_across)(sum, i, 2, z, masks->link_z >> lane & 1, masks->below_z >> lane & 1,
-                         d.arena + task->upper_z + place, d.arena + task->lower_z + place);
+  sum = NAME(add_across)(sum, i, 2, NAME(law_of)(d, task, pack, 2, 0),
+                         NAME(law_of)(d, task, pack, 2, 1), masks->link_z >> lane & 1,
+                         masks->below_z >> lane & 1, d.arena + task->upper_z + place,
+                         d.arena + task->lower_z + place);
 #endif
   const REAL check = NAME(update)(d, task, signals, pack, place, i, sum, 0);
   return !(masks->own >> lane & 1) || IS_ZERO(check);

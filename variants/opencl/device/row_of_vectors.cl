@@ -104,15 +104,13 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
 /* @return whether the result of a last stage is finite */
 static inline int NAME(run_row)(device d, global const row_stage* task,
                                 global const NUMBER* signals) {
-  global const body_constants* body = d.bodies + task->body;
   global const pack_masks* masks = d.masks + task->masks;
-  const axis_law x = NAME(law_of)(body, 0);
-#if AXES > 1
-  const axis_law y = NAME(law_of)(body, 1);
-#endif
-#if AXES > 2
-  const axis_law z = NAME(law_of)(body, 2);
-#endif
+  axis_law x, y, z;
+#define SET_LAWS(pack)                            \
+  x = NAME(law_of)(d, task, pack, 0, 0);          \
+  if (AXES > 1) y = NAME(law_of)(d, task, pack, 1, 0); \
+  if (AXES > 2) z = NAME(law_of)(d, task, pack, 2, 0);
+  SET_LAWS(0)
   const int stride = task->fields * W, carry_size = CARRY_SIZE(FLAGS) * W;
   global const NUMBER* in = d.arena + task->in;
   REAL check = SPLAT(0);
@@ -125,6 +123,9 @@ static inline int NAME(run_row)(device d, global const row_stage* task,
     prepared i = next;
     i.e = element_at(in + place);
     next = prepare(element_at(in + place + stride), x.x, FLAGS);
+#if HAS_LINK_KINDS
+    SET_LAWS(pack)
+#endif
     PARK_NEXT(pack + 1)
     READ_AGAIN
     wrench sum = NAME(links_x)(i, next, x, masks[pack].link_x, &previous);
@@ -143,18 +144,19 @@ static inline int NAME(run_row)(device d, global const row_stage* task,
     READ_AGAIN
     check = NAME(update)(d, task, signals, pack, place, i, sum, check);
   }
+#undef SET_LAWS
   return IS_ZERO(check);
 }
 
 /* Computes only the links across an axis, for the rows above. */
 static inline void NAME(prime)(device d, global const row_stage* task, const int axis) {
-  const axis_law law = NAME(law_of)(d.bodies + task->body, axis);
   global const NUMBER* upper = d.arena + (axis == 1 ? task->upper_y : task->upper_z);
   global NUMBER* carry = d.arena + (axis == 1 ? task->carry_y : task->carry_z);
   for EACH_PACK(task) {
     const uint mask =
         axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
     if (mask == 0) continue;
+    const axis_law law = NAME(law_of)(d, task, pack, axis, 0);
     const long place = (long)pack * (task->fields * W) + LANE;
     const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
     const exchange up =

@@ -35,6 +35,19 @@ typedef struct {
   ushort link_x, link_y, link_z, below_y, below_z, own;
 } pack_masks;
 
+/* The constants of a pack's links across one face, if the links of a body differ. The host fills
+ * numbers in this order. */
+#ifdef W
+typedef struct {
+  NUMBER lane[W];
+} lane_numbers;
+typedef struct {
+#define CONSTANT lane_numbers
+#include "kernels/stage_row/link_constants.h"
+#undef CONSTANT
+} link_lanes;
+#endif
+
 /* An extra link: the places of both elements and of their wrenches. */
 typedef struct {
   /* lane_i, lane_j: offset of the first field from the start of the row */

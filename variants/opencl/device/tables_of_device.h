@@ -8,6 +8,10 @@ typedef struct {
   global const applied_row* applied;
   global const pattern* patterns;
   global const ushort* free_lanes;
+  global const link_lanes* links;
+  /* of each pack, in the order of `masks`, its upper faces across x, y, z in `links`, then its
+   * lower ones */
+  global const int* link_index;
   NUMBER step;
   int item; /* x of the element that a work-item computes */
 } device;
@@ -15,9 +19,13 @@ typedef struct {
   global NUMBER *arena, global const row_stage *restrict tasks,                                    \
       global const body_constants *restrict bodies, global const pack_masks *restrict masks,       \
       global const applied_row *restrict applied, global const pattern *restrict patterns,         \
-      global const ushort *restrict free_lanes, const NUMBER step_length
+      global const ushort *restrict free_lanes, global const link_lanes *restrict links,           \
+      global const int *restrict link_index, const NUMBER step_length
 #define DEVICE                                                                                     \
-  { arena, tasks, bodies, masks, applied, patterns, free_lanes, step_length, ITEM }
+  {                                                                                                \
+    arena, tasks, bodies, masks, applied, patterns, free_lanes, links, link_index, step_length,    \
+        ITEM                                                                                       \
+  }
 
 /* A row of a device, in the words of kernels/rk_update/row_update.h. */
 typedef struct {
