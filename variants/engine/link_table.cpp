@@ -1,9 +1,8 @@
 #include "variants/engine/link_table.hpp"
 
 #include "solver/model/link_constants.hpp"
+#include "variants/engine/lane_numbers.hpp"
 #include "variants/engine/packs.hpp"
-
-#include <cstring>
 
 namespace dss {
 
@@ -26,12 +25,7 @@ LinkLanes<T> LinkTable<T, W>::lanes_of(const FaceKinds<W>& face) const {
     const Body& body = member.bodies[std::size_t(face.body)];
     LinkConstants<T> one{};
     set_material_constants(one, body.link(face.axis, face.kinds[lane]), face.axis);
-    // Both structs hold their numbers in the same order.
-    const auto* const from = reinterpret_cast<const std::byte*>(&one);
-    auto* const to = reinterpret_cast<std::byte*>(&all);
-    for (std::size_t n = 0; n < sizeof one / sizeof(T); ++n)
-      std::memcpy(to + n * sizeof(LaneNumbers<T>) + lane * sizeof(T), from + n * sizeof(T),
-                  sizeof(T));
+    set_lane<T>(all, lane, one, sizeof one / sizeof(T));
   }
   return all;
 }

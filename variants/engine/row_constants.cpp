@@ -1,10 +1,10 @@
 /// Constants of bodies and extra links in the form that the kernels take.
 #include "solver/model/link_constants.hpp"
+#include "variants/engine/lane_numbers.hpp"
 #include "variants/engine/packed_rows.hpp"
 #include "variants/engine/packs.hpp"
 
 #include <cstddef>
-#include <cstring>
 
 namespace dss {
 
@@ -50,18 +50,14 @@ ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLi
   return c;
 }
 
-/// Sets a lane of all constants. Both structs hold their numbers in the same order, then an int.
+/// Sets a lane of all constants of a body: its numbers, and an int behind them.
 template <class T>
-static void set_lane(BodyConstants<LaneNumbers<T>>& all, std::size_t lane,
-                     const BodyConstants<T>& one) {
+static void set_body_lane(BodyConstants<LaneNumbers<T>>& all, std::size_t lane,
+                          const BodyConstants<T>& one) {
   constexpr std::size_t count = offsetof(BodyConstants<T>, is_accelerated) / sizeof(T);
   static_assert(offsetof(BodyConstants<LaneNumbers<T>>, is_accelerated) ==
                 count * sizeof(LaneNumbers<T>));
-  const auto* const from = reinterpret_cast<const std::byte*>(&one);
-  auto* const to = reinterpret_cast<std::byte*>(&all);
-  for (std::size_t n = 0; n < count; ++n)
-    std::memcpy(to + n * sizeof(LaneNumbers<T>) + lane * sizeof(T), from + n * sizeof(T),
-                sizeof(T));
+  set_lane<T>(all, lane, one, count);
   all.is_accelerated |= one.is_accelerated;
 }
 
@@ -76,7 +72,7 @@ PackedRows<T, W>::member_link_constants([[maybe_unused]] std::size_t link) const
       all.axis = one.axis;
       all.edge_i.value[m] = one.edge_i;
       all.edge_j.value[m] = one.edge_j;
-      set_lane(all.body, m, one.body);
+      set_body_lane(all.body, m, one.body);
     }
   return all;
 }
@@ -96,7 +92,7 @@ void PackedRows<T, W>::set_constants() {
     member_bodies_.emplace_back();
     if constexpr (W == simd::lanes<T>)
       for (std::size_t m = 0; m < members_.size(); ++m)
-        set_lane(member_bodies_.back(), m, constants(*members_[m], b));
+        set_body_lane(member_bodies_.back(), m, constants(*members_[m], b));
   }
 }
 
