@@ -77,6 +77,7 @@ int explain(const ExplainArguments& arguments) {
                           needed_terms = terms(problem, choice.chosen),
                           rotations{rotations_of(choice)};
   const std::vector<LinkSummary> links = summarize_links(problem);
+  const std::vector<PressureSummary> pressures = summarize_pressures(problem);
   const std::vector<std::string> notes = softness_notes(problem);
   if (!arguments.json.empty()) {
     nlohmann::ordered_json smaller = nlohmann::ordered_json::object();
@@ -93,6 +94,7 @@ int explain(const ExplainArguments& arguments) {
                                 {"terms", needs_json(needed_terms)},
                                 {"rotations", needs_json(rotations)},
                                 {"links_by_kind", links_json(links)},
+                                {"pressures", pressures_json(pressures)},
                                 {"notes", notes}});
   }
   if (arguments.json == "-") return exit_success;
@@ -104,6 +106,7 @@ int explain(const ExplainArguments& arguments) {
   print_needs("term", needed_terms);
   print_needs("", rotations);
   fmt::print("\n{}", links_text(links));
+  if (!pressures.empty()) fmt::print("\n{}", pressures_text(pressures));
   for (const std::string& note : notes) fmt::print("\nnote: {}\n", note);
   return exit_success;
 }

@@ -71,8 +71,8 @@ void restrict_terms(const Problem& original, const Addresses& addresses, Problem
     if (const auto element = addresses.local(clamp.element))
       problem.clamps.push_back({*element, clamp.dofs});
   for (const Load& load : original.loads)
-    problem.loads.push_back(
-        {restricted(load.elements, addresses), load.force, load.torque, load.signal});
+    problem.loads.push_back({restricted(load.elements, addresses), load.force, load.torque,
+                             load.signal, load.face_strain});
   problem.has_damped_links_elsewhere = original.has_damped_links_elsewhere;
   for (ExtraLink link : original.extra_links) {
     problem.has_damped_links_elsewhere =
@@ -103,11 +103,13 @@ void copy_common(const Problem& original, Problem& problem) {
   problem.tolerance_f32 = original.tolerance_f32;
 }
 
-void copy_link_kinds(const Problem& original, const Addresses& addresses, Problem& problem) {
-  if (original.link_kinds.empty()) return;
+/// Copies the kinds of the elements in this part.
+template <class Kinds>
+void copy_kinds(const Kinds& original, const Addresses& addresses, Kinds& kinds) {
+  if (original.empty()) return;
   for (const Run& run : addresses.runs()) {
-    const auto first = original.link_kinds.begin() + std::ptrdiff_t(run.global);
-    problem.link_kinds.insert(problem.link_kinds.end(), first, first + std::ptrdiff_t(run.count));
+    const auto first = original.begin() + std::ptrdiff_t(run.global);
+    kinds.insert(kinds.end(), first, first + std::ptrdiff_t(run.count));
   }
 }
 
@@ -123,7 +125,8 @@ Part make_part(const Problem& problem, const Decomposition& decomposition, int i
   part.problem.lattice = cut_rows(grid, zones.all, part.global_row);
   join_rows(part.problem.lattice, problem.lattice, part.global_row);
   copy_common(problem, part.problem);
-  copy_link_kinds(problem, addresses, part.problem);
+  copy_kinds(problem.link_kinds, addresses, part.problem.link_kinds);
+  copy_kinds(problem.pressure_kinds, addresses, part.problem.pressure_kinds);
   restrict_terms(problem, addresses, part.problem);
   part.own_elements = zones.own.cell_count();
   part.runs = addresses.runs_of(grid, zones.own);

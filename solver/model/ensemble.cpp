@@ -58,6 +58,8 @@ std::string why_other_topology(const Problem& one, const Problem& other) {
       one.lattice.present != other.lattice.present)
     return "its elements lie elsewhere";
   if (one.link_kinds != other.link_kinds) return "links of its bodies are of other kinds";
+  if (one.pressure_kinds != other.pressure_kinds)
+    return "elements of its bodies have other pressures, because nu is 0 in one of them";
   return where_links_differ(one, other);
 }
 

@@ -44,6 +44,16 @@ struct ShearAxes {
 };
 constexpr ShearAxes shear_axes(int axis) { return {axis == 1 ? 0U : 1U, axis == 2 ? 0U : 2U}; }
 
+/// How an element of a solid resists a change of its volume, and a thin one the sum of its
+/// curvatures. It couples all links of the element (solver/reference/pressure.hpp has the
+/// equation).
+struct ElementPressure {
+  double volume = 0; ///< [Pa]
+  /// About the normal of a plate that is one layer thick along x, y or z [N]; else 0.
+  Vec3 bending{};
+  bool operator==(const ElementPressure&) const = default;
+};
+
 /// A body of identical box elements. Its elements are those of the lattice rows whose `body` is its
 /// index.
 struct Body {
@@ -57,6 +67,8 @@ struct Body {
   std::array<AxisConstants, 3> axis{}; ///< constants of links along x, y, z: of the kind 0
   /// Of the kinds 1, 2, ... on each axis, if links differ (Problem::link_kinds).
   std::vector<std::array<AxisConstants, 3>> more_kinds;
+  /// The kinds of its elements, if their pressure counts (Problem::pressure_kinds); else empty.
+  std::vector<ElementPressure> pressures;
   std::size_t kinds() const { return 1 + more_kinds.size(); }
   const AxisConstants& link(int along, std::size_t kind) const {
     return (kind == 0 ? axis : more_kinds[kind - 1])[std::size_t(along)];
@@ -82,6 +94,9 @@ struct Load {
   std::vector<std::size_t> elements; ///< ascending
   Vec3 force{}, torque{};            ///< on each element [N], [N m], at signal value 1
   Signal signal;
+  /// What the force adds to the volume strain of each element, at signal value 1, if it is the
+  /// traction t of a free face with the normal n at rest: n.t / 4G.
+  double face_strain = 0;
 };
 
 /// A link outside the grid, between the upper (+axis) face of element i and the lower (-axis) face
@@ -118,6 +133,10 @@ struct Tolerance {
   double evaluation = 0, run = 0;
 };
 
+/// Why most variants do not compute a problem whose elements have a pressure.
+inline constexpr const char* pressure_is_missing =
+    "has no law \"solid\" with nu > 0 yet, whose elements have a pressure";
+
 /// A problem to compute. Element numbers are those of the lattice.
 struct Problem {
   std::string name; ///< name of the scene
@@ -126,6 +145,8 @@ struct Problem {
   /// For each element the kinds of its links to the upper neighbours along x, y, z. Empty if all
   /// are 0.
   std::vector<std::array<std::uint8_t, 3>> link_kinds;
+  /// For each element its kind in Body::pressures. Empty if no body has any.
+  std::vector<std::uint8_t> pressure_kinds;
   std::vector<Clamp> clamps; ///< ascending by element, at most one for each
   std::vector<Load> loads;
   std::vector<ExtraLink> extra_links;
@@ -144,6 +165,11 @@ struct Problem {
   /// Kind of the link from an element to its upper neighbour.
   std::size_t link_kind(std::size_t element, int axis) const {
     return link_kinds.empty() ? 0 : link_kinds[element][std::size_t(axis)];
+  }
+  bool has_pressure() const { return !pressure_kinds.empty(); }
+  /// @param body  the element's own
+  ElementPressure pressure(std::size_t element, const Body& body) const {
+    return body.pressures.empty() ? ElementPressure{} : body.pressures[pressure_kinds[element]];
   }
 };
 

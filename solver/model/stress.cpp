@@ -1,6 +1,7 @@
 #include "solver/model/stress.hpp"
 
 #include "kernels/physics.hpp"
+#include "solver/model/energy.hpp"
 #include "solver/model/link_constants.hpp"
 #include "solver/model/rotation_vector.hpp"
 
@@ -74,8 +75,36 @@ ElementStress stress_of(const Spatial::stress_tensor& s, double volume) {
           std::sqrt(Spatial::von_mises_squared(s)) / volume};
 }
 
+/// Force of the elements' pressures over a link, on its lower element [N].
+struct LinkTension {
+  std::size_t i, j;
+  int axis;
+  Vec3 force;
+};
+
+/// The reference has the pressures of elements.
+std::vector<LinkTension> link_tensions(const Problem& problem, std::span<const double> state,
+                                       Rotation equations) {
+  std::vector<LinkTension> tensions;
+  if (!problem.has_pressure()) return tensions;
+  reference::Dynamics<double> terms = energy_terms(problem, equations);
+  const std::vector<double> fields = placed(terms, state);
+  const auto strains = terms.strains(fields, {});
+  const auto resistance = [&](std::size_t e) { return terms.resistance(e, strains[e]); };
+  const auto motion = [&](std::size_t e) { return terms.placed(e, &fields[e * field_count]); };
+  for (const auto& link : terms.links()) {
+    if (!terms.has_pressure(link)) continue;
+    const auto pressure = terms.pressure_on(link, resistance(link.i), resistance(link.j));
+    const auto force =
+        terms.pressure_reaction_of(motion(link.i), motion(link.j), link, pressure).force;
+    tensions.push_back({link.i, link.j, terms.axis(link), {force[0], force[1], force[2]}});
+  }
+  return tensions;
+}
+
 template <class P>
-std::vector<ElementStress> stress_by(const Problem& problem, std::span<const double> state) {
+std::vector<ElementStress> stress_by(const Problem& problem, std::span<const double> state,
+                                     Rotation equations) {
   const Lattice& lattice = problem.lattice;
   std::vector<int> body_of(lattice.element_count);
   lattice.for_each_element([&](std::size_t e, const Row& row, int) { body_of[e] = row.body; });
@@ -83,6 +112,10 @@ std::vector<ElementStress> stress_by(const Problem& problem, std::span<const dou
     return problem.bodies[std::size_t(body_of[e])];
   };
   std::vector<std::array<Vec3, 3>> forces(lattice.element_count);
+  const std::vector<LinkTension> tensions = link_tensions(problem, state, equations);
+  for (const LinkTension& link : tensions)
+    for (const std::size_t e : {link.i, link.j})
+      for (std::size_t n = 0; n < 3; ++n) forces[e][std::size_t(link.axis)][n] += link.force[n];
   const auto add_link = [&](std::size_t i, std::size_t j, int axis, LinkLaw law,
                             const AxisConstants& c) {
     const std::size_t a = std::size_t(axis);
@@ -117,9 +150,10 @@ std::vector<ElementStress> stress_by(const Problem& problem, std::span<const dou
 std::vector<ElementStress> element_stress(const Problem& problem, std::span<const double> state,
                                           Rotation equations) {
   if (equations == Rotation::linearised)
-    return stress_by<Physics<Model::linear, double>>(problem, state);
-  if (equations == Rotation::small) return stress_by<Physics<Model::small, double>>(problem, state);
-  return stress_by<Spatial>(problem, state);
+    return stress_by<Physics<Model::linear, double>>(problem, state, equations);
+  if (equations == Rotation::small)
+    return stress_by<Physics<Model::small, double>>(problem, state, equations);
+  return stress_by<Spatial>(problem, state, equations);
 }
 
 } // namespace dss

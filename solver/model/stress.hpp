@@ -12,7 +12,8 @@ namespace dss {
 /// xx, yy, zz, yz, xz, xy and von Mises stress [Pa], in global axes.
 using ElementStress = std::array<double, 7>;
 
-/// Stress of every element from the forces of all its links, damping included.
+/// Stress of every element from the forces of all its links, damping and pressure included. What
+/// loads on faces add to the pressure (Load::face_strain) is left out.
 /// @param state  13 numbers an element (kernels/fields.hpp)
 /// @param equations  equations that the state comes from; links of other equations would be
 ///     strained by its rotations even at rest

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace dss {
 namespace {
@@ -23,8 +25,9 @@ double least_ratio(const Vector6& damping, const Vector6& stiffness) {
 
 /// Both laws are the same to first order: gap = u_j - u_i + c_i x theta_i + c_j x theta_j,
 /// turn = theta_j - theta_i.
+/// @param most  the largest pressures of its elements
 LinkMatrices link_matrices(int axis, const AxisConstants& constants, const Vec3& edge_i,
-                           const Vec3& edge_j) {
+                           const Vec3& edge_j, const ElementPressure& most = {}) {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity(), none = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 6, 12> strain;
   strain << -one, arm_matrix(axis, edge_i), one, arm_matrix(axis, edge_j), none, -one, none, one;
@@ -36,8 +39,91 @@ LinkMatrices link_matrices(int axis, const AxisConstants& constants, const Vec3&
   };
   const Vector6 k = diagonal(constants.k_normal, constants.k_shear, constants.k_rot);
   const Vector6 c = diagonal(constants.d_normal, constants.d_shear, constants.d_rot);
-  return {strain.transpose() * k.asDiagonal() * strain,
-          strain.transpose() * c.asDiagonal() * strain, least_ratio(c, k)};
+  const auto a = std::size_t(axis);
+  const double area_over_length = edge_i[(a + 1) % 3] * edge_i[(a + 2) % 3] / edge_i[a];
+  // S = 1/2 sum over at most 6 links, C = 1/2 sum over at most 4, of both elements.
+  Vector6 bound = k;
+  bound[axis] += 3 * most.volume * area_over_length;
+  for (int o = 0; o < 3; ++o)
+    if (o != axis) bound[3 + (3 - o - axis)] += 2 * most.bending[std::size_t(o)] * area_over_length;
+  const auto matrix = [&](const Vector6& of) {
+    return Matrix12(strain.transpose() * of.asDiagonal() * strain);
+  };
+  return {matrix(k), matrix(c), least_ratio(c, bound), matrix(bound)};
+}
+
+ElementPressure largest_pressure(const Body& body) {
+  ElementPressure most;
+  for (const ElementPressure& one : body.pressures) {
+    most.volume = std::max(most.volume, one.volume);
+    for (std::size_t o = 0; o < 3; ++o) most.bending[o] = std::max(most.bending[o], one.bending[o]);
+  }
+  return most;
+}
+
+/// Terms of elements with a pressure, whose parts are added link by link.
+class PressureTerms {
+public:
+  /// @param which  0: the volume strain; 1 + o: the curvatures about the normal o
+  void add_term(std::size_t e, int which, double weight) {
+    if (weight == 0) return;
+    index_[{e, which}] = terms_.size();
+    terms_.push_back({weight, {}});
+  }
+  void add_link(std::size_t i, std::size_t j, int axis, double length) {
+    for (const std::size_t e : {i, j}) {
+      add(e, 0, i, j, axis, 1 / (2 * length));
+      for (int o = 0; o < 3; ++o)
+        if (o != axis)
+          add(e, 1 + o, i, j, 3 + (3 - o - axis), ((o + 1) % 3 == axis ? 1 : -1) / (2 * length));
+    }
+  }
+  /// The terms; parts with the same degree of freedom are added up.
+  std::vector<PressureTerm> finished() {
+    for (PressureTerm& term : terms_) {
+      std::ranges::stable_sort(term.parts, {}, &PressureTerm::Part::dof);
+      std::vector<PressureTerm::Part> sums;
+      for (const PressureTerm::Part& part : term.parts)
+        if (!sums.empty() && sums.back().dof == part.dof)
+          sums.back().coefficient += part.coefficient;
+        else
+          sums.push_back(part);
+      std::erase_if(sums, [](const PressureTerm::Part& part) { return part.coefficient == 0; });
+      term.parts = std::move(sums);
+    }
+    return std::move(terms_);
+  }
+
+private:
+  void add(std::size_t e, int which, std::size_t i, std::size_t j, int dof, double coefficient) {
+    const auto found = index_.find({e, which});
+    if (found == index_.end()) return;
+    std::vector<PressureTerm::Part>& parts = terms_[found->second].parts;
+    parts.push_back({6 * i + std::size_t(dof), -coefficient});
+    parts.push_back({6 * j + std::size_t(dof), coefficient});
+  }
+  std::map<std::pair<std::size_t, int>, std::size_t> index_;
+  std::vector<PressureTerm> terms_;
+};
+
+std::vector<PressureTerm> pressure_terms(const Problem& problem, const std::vector<int>& body) {
+  if (!problem.has_pressure()) return {};
+  const auto body_of = [&](std::size_t e) -> const Body& {
+    return problem.bodies[std::size_t(body[e])];
+  };
+  PressureTerms terms;
+  for (std::size_t e = 0; e < body.size(); ++e) {
+    const Vec3& edge = body_of(e).edge;
+    const double volume = edge[0] * edge[1] * edge[2];
+    const ElementPressure own = problem.pressure(e, body_of(e));
+    terms.add_term(e, 0, volume * own.volume);
+    for (int o = 0; o < 3; ++o) terms.add_term(e, 1 + o, volume * own.bending[std::size_t(o)]);
+  }
+  problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
+    if (!body_of(i).pressures.empty())
+      terms.add_link(i, j, axis, body_of(i).edge[std::size_t(axis)]);
+  });
+  return terms.finished();
 }
 
 } // namespace
@@ -53,7 +139,7 @@ Linearised::Linearised(const Problem& problem)
     inverse_inertia.push_back(inertia.cwiseInverse());
     first_kind.push_back(kinds.size());
     b.each_kind([&](const AxisConstants& constants, int axis) {
-      kinds.push_back(link_matrices(axis, constants, b.edge, b.edge));
+      kinds.push_back(link_matrices(axis, constants, b.edge, b.edge, largest_pressure(b)));
     });
   }
   const auto add = [&](std::size_t i, std::size_t j, std::size_t kind) {
@@ -69,6 +155,7 @@ Linearised::Linearised(const Problem& problem)
                                   problem.bodies[std::size_t(body[extra.i])].edge,
                                   problem.bodies[std::size_t(body[extra.j])].edge));
   }
+  pressures = pressure_terms(problem, body);
   const Stabilization& tie = problem.stabilization;
   tie_stiffness << tie.k, tie.k, tie.k, tie.k_rot, tie.k_rot, tie.k_rot;
   tie_damping << tie.d, tie.d, tie.d, tie.d_rot, tie.d_rot, tie.d_rot;

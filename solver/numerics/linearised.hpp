@@ -20,7 +20,21 @@ using Matrix12 = Eigen::Matrix<double, 12, 12>;
 /// theta_j).
 struct LinkMatrices {
   Matrix12 k, c;
-  double least_damping = 0; ///< largest b [s] for which c - b k has no negative eigenvalue
+  double least_damping = 0; ///< largest b [s] for which c - b k_bound has no negative eigenvalue
+  /// Not less than k with the shares of its elements' pressures: (sum of n terms)^2 is at most n
+  /// times the sum of their squares, and an element has at most six links.
+  Matrix12 k_bound;
+};
+
+/// What the pressure of an element adds to the energy of a system of more than two elements:
+/// 1/2 weight (sum of coefficient x_dof)^2, a dof being 6 element + 0 .. 5.
+struct PressureTerm {
+  struct Part {
+    std::size_t dof;
+    double coefficient;
+  };
+  double weight;
+  std::vector<Part> parts; ///< ascending by dof
 };
 
 /// Kinds of links with their matrices, ties to the frame, and the inverse inertia of elements.
@@ -31,6 +45,7 @@ struct Linearised {
   };
   std::vector<LinkMatrices> kinds;
   std::vector<Link> links;
+  std::vector<PressureTerm> pressures;
   std::vector<int> body;                ///< of each element
   std::vector<std::uint8_t> clamped;    ///< bits of Dof of each element
   std::vector<Vector6> inverse_inertia; ///< of each body [1/kg, 1/(kg m^2)]

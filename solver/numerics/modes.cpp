@@ -55,6 +55,10 @@ Coupled assembled(const Problem& problem, double& rate) {
     add(all.k, system.kinds[kind].k, Index(6 * i), Index(6 * j));
     add(all.c, system.kinds[kind].c, Index(6 * i), Index(6 * j));
   }
+  for (const PressureTerm& term : system.pressures)
+    for (const auto& [row, a] : term.parts)
+      for (const auto& [column, b] : term.parts)
+        all.k(Index(row), Index(column)) += term.weight * a * b;
   all.k = scale.asDiagonal() * all.k * scale.asDiagonal();
   all.c = scale.asDiagonal() * all.c * scale.asDiagonal();
   rate = std::max(std::sqrt(all.k.cwiseAbs().maxCoeff()), all.c.cwiseAbs().maxCoeff());

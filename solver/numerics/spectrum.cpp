@@ -74,10 +74,20 @@ public:
       result.segment<6>(i) += reaction.head<6>();
       result.segment<6>(j) += reaction.tail<6>();
     }
+    if (part_ == &LinkMatrices::k) add_pressures(moved, result);
     return scale_.cwiseProduct(result);
   }
 
 private:
+  void add_pressures(const Eigen::VectorXd& moved, Eigen::VectorXd& result) const {
+    for (const PressureTerm& term : system_.pressures) {
+      double strain = 0;
+      for (const auto& [dof, coefficient] : term.parts)
+        strain += coefficient * moved[Eigen::Index(dof)];
+      for (const auto& [dof, coefficient] : term.parts)
+        result[Eigen::Index(dof)] += term.weight * strain * coefficient;
+    }
+  }
   const Linearised& system_;
   Matrix12 LinkMatrices::*part_;
   Vector6 tie_;
@@ -143,7 +153,7 @@ Spectrum spectrum_bound(const Problem& problem) {
     tie_stiffness = std::max(tie_stiffness, inverse.cwiseProduct(system.tie_stiffness).maxCoeff());
     tie_damping = std::max(tie_damping, inverse.cwiseProduct(system.tie_damping).maxCoeff());
   }
-  return {std::sqrt(pencil_bound(system, &LinkMatrices::k) + tie_stiffness),
+  return {std::sqrt(pencil_bound(system, &LinkMatrices::k_bound) + tie_stiffness),
           pencil_bound(system, &LinkMatrices::c) + tie_damping, least_damping(system), 0};
 }
 

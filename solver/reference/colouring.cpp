@@ -5,6 +5,17 @@
 
 namespace dss::reference {
 
+/// With the neighbours of neighbours: the pressure of a neighbour depends on all of its links.
+static std::vector<std::vector<std::size_t>>
+second_neighbourhoods(const std::vector<std::vector<std::size_t>>& first) {
+  std::vector<std::vector<std::size_t>> of = first;
+  for (std::size_t e = 0; e < of.size(); ++e)
+    for (const std::size_t near : first[e])
+      for (const std::size_t other : first[near])
+        if (std::ranges::find(of[e], other) == of[e].end()) of[e].push_back(other);
+  return of;
+}
+
 std::vector<std::vector<std::size_t>> neighbourhoods(const Problem& problem) {
   std::vector<std::vector<std::size_t>> of(problem.lattice.element_count);
   for (std::size_t e = 0; e < of.size(); ++e) of[e] = {e};
@@ -15,7 +26,7 @@ std::vector<std::vector<std::size_t>> neighbourhoods(const Problem& problem) {
   };
   problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int) { join(i, j); });
   for (const ExtraLink& extra : problem.extra_links) join(extra.i, extra.j);
-  return of;
+  return problem.has_pressure() ? second_neighbourhoods(of) : of;
 }
 
 std::vector<std::vector<std::size_t>>

@@ -8,7 +8,8 @@
 namespace dss::reference {
 
 /// For every element the elements that its acceleration depends on: first itself, then those joined
-/// to it by links of the grid and by extra links, each once.
+/// to it by links of the grid and by extra links, and with pressure those joined to these, each
+/// once.
 std::vector<std::vector<std::size_t>> neighbourhoods(const Problem& problem);
 
 /// Groups of elements. No two members of a group have a neighbour in common, so one evaluation

@@ -29,6 +29,7 @@ LinkProperties<T> properties_of(LinkLaw law, int axis, const AxisConstants& c, c
   link.d_shear = vector_of<T>(c.d_shear);
   link.k_rot = vector_of<T>(c.k_rot);
   link.d_rot = vector_of<T>(c.d_rot);
+  link.area = T(0);
   return link;
 }
 
@@ -52,10 +53,16 @@ Dynamics<T>::Dynamics(const Problem& problem, Rotation rotation)
       stabilization_(problem.stabilization), motions_(problem.lattice.element_count),
       wrenches_(problem.lattice.element_count) {
   for (const Body& body : problem.bodies)
-    bodies_.push_back({T(body.mass), vector_of<T>(body.inertia), body.has_tensor_inertia()});
+    bodies_.push_back({T(body.mass), vector_of<T>(body.inertia), body.has_tensor_inertia(),
+                       T(body.edge[0]) * T(body.edge[1]) * T(body.edge[2])});
   problem.lattice.for_each_element(
       [&](std::size_t e, const Row& row, int) { elements_[e].body = row.body; });
   for (const Clamp& clamp : problem.clamps) elements_[clamp.element].clamped |= clamp.dofs;
+  for (std::size_t e = 0; e < elements_.size() && problem.has_pressure(); ++e) {
+    const ElementPressure pressure =
+        problem.pressure(e, problem.bodies[std::size_t(elements_[e].body)]);
+    pressures_.push_back({T(pressure.volume), vector_of<T>(pressure.bending)});
+  }
   add_links(problem);
 }
 
@@ -66,6 +73,9 @@ void Dynamics<T>::add_links(const Problem& problem) {
     first_kind.push_back(properties_.size());
     body.each_kind([&](const AxisConstants& constants, int axis) {
       properties_.push_back(properties_of<T>(body.law, axis, constants, body.edge, body.edge));
+      if (!body.pressures.empty())
+        properties_.back().area =
+            bodies_[first_kind.size() - 1].volume / T(body.edge[std::size_t(axis)]);
     });
   }
   links_.reserve(problem.link_count());
@@ -112,13 +122,90 @@ Reaction<T> Dynamics<T>::link_reaction(const Motion<T>& i, const Motion<T>& j,
 }
 
 template <class T>
+void Dynamics<T>::add_reaction(const Link& link, const Reaction<T>& r) {
+  wrenches_[link.i].force += r.force;
+  wrenches_[link.j].force -= r.force;
+  wrenches_[link.i].moment += r.moment_i;
+  wrenches_[link.j].moment += r.moment_j;
+}
+
+template <class T>
 void Dynamics<T>::add_link_reactions() {
+  for (const Link& link : links_)
+    add_reaction(link, link_reaction(motions_[link.i], motions_[link.j], link));
+}
+
+template <class T>
+LinkStrain<T> Dynamics<T>::strain(const Motion<T>& i, const Motion<T>& j, const Link& link) const {
+  const LinkProperties<T>& properties = properties_[link.properties];
+  if (is_linearised()) return linearised_strain(i, j, properties);
+  const Vector<T> relative = has_vectors() ? Vector<T>(j.q.v - i.q.v) : relative_vector(i.q, j.q);
+  return link_strain(i, j, properties, relative);
+}
+
+template <class T>
+ElementStrain<T> Dynamics<T>::resistance(std::size_t e, const ElementStrain<T>& strain) const {
+  const ElementStrain<T>& constants = pressures_[e];
+  return {constants.volume * strain.volume, constants.curvature.cwiseProduct(strain.curvature)};
+}
+
+template <class T>
+LinkPressure<T> Dynamics<T>::pressure_on(const Link& link, const ElementStrain<T>& i,
+                                         const ElementStrain<T>& j) const {
+  const LinkProperties<T>& properties = properties_[link.properties];
+  return pressure_on_link(properties.axis, properties.area, i, j);
+}
+
+template <class T>
+Reaction<T> Dynamics<T>::pressure_reaction_of(const Motion<T>& i, const Motion<T>& j,
+                                              const Link& link,
+                                              const LinkPressure<T>& pressure) const {
+  const LinkProperties<T>& properties = properties_[link.properties];
+  if (is_linearised()) return linearised_pressure_reaction(properties, pressure);
+  const RelativeRotation<T> relative =
+      has_vectors() ? RelativeRotation<T>{j.q.v - i.q.v, T(1)} : relative_rotation(i, j);
+  return pressure_reaction(i, j, properties, relative, pressure);
+}
+
+template <class T>
+std::vector<ElementStrain<T>> Dynamics<T>::link_strains(std::span<const Motion<T>> motions) const {
+  std::vector<ElementStrain<T>> strains(pressures_.size());
   for (const Link& link : links_) {
-    const Reaction<T> r = link_reaction(motions_[link.i], motions_[link.j], link);
-    wrenches_[link.i].force += r.force;
-    wrenches_[link.j].force -= r.force;
-    wrenches_[link.i].moment += r.moment_i;
-    wrenches_[link.j].moment += r.moment_j;
+    if (!has_pressure(link)) continue;
+    const LinkStrain<T> own = strain(motions[link.i], motions[link.j], link);
+    for (const std::size_t e : {link.i, link.j}) add_strain(link, own, strains[e]);
+  }
+  return strains;
+}
+
+template <class T>
+void Dynamics<T>::add_load_strains(std::span<const double> signals,
+                                   std::span<ElementStrain<T>> strains) const {
+  for (std::size_t l = 0; l < loads_.size() && has_pressure(); ++l)
+    for (const std::size_t e : loads_[l].elements)
+      strains[e].volume += T(signals[3 + l]) * T(loads_[l].face_strain);
+}
+
+template <class T>
+std::vector<ElementStrain<T>> Dynamics<T>::strains(std::span<const T> state,
+                                                   std::span<const double> signals) const {
+  if (!has_pressure()) return {};
+  std::vector<Motion<T>> motions;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    motions.push_back(placed(e, state.data() + e * field_count));
+  std::vector<ElementStrain<T>> all = link_strains(motions);
+  if (!signals.empty()) add_load_strains(signals, all);
+  return all;
+}
+
+template <class T>
+void Dynamics<T>::add_pressure_reactions(std::span<const ElementStrain<T>> strains) {
+  if (!has_pressure()) return;
+  for (const Link& link : links_) {
+    if (!has_pressure(link)) continue;
+    const LinkPressure<T> pressure =
+        pressure_on(link, resistance(link.i, strains[link.i]), resistance(link.j, strains[link.j]));
+    add_reaction(link, pressure_reaction_of(motions_[link.i], motions_[link.j], link, pressure));
   }
 }
 
@@ -171,6 +258,11 @@ void Dynamics<T>::find_wrenches(std::span<const T> state, std::span<const double
   place(state);
   std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
   add_link_reactions();
+  if (has_pressure()) {
+    std::vector<ElementStrain<T>> strains = link_strains(motions_);
+    add_load_strains(signals, strains);
+    add_pressure_reactions(strains);
+  }
   add_loads(signals);
   add_stabilization();
 }
@@ -249,6 +341,12 @@ T Dynamics<T>::energy(std::span<const T> state) {
     energy +=
         is_linearised() ? linearised_energy(i, j, properties) : elastic_energy(i, j, properties);
   }
+  const std::vector<ElementStrain<T>> strains = link_strains(motions_);
+  for (std::size_t e = 0; e < strains.size(); ++e) {
+    const ElementStrain<T> resists = resistance(e, strains[e]);
+    energy += volume(e) / T(2) *
+              (resists.volume * strains[e].volume + resists.curvature.dot(strains[e].curvature));
+  }
   return energy;
 }
 
@@ -257,6 +355,9 @@ T Dynamics<T>::supplied_power(std::span<const T> state, std::span<const double> 
   place(state);
   std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
   add_loads(signals);
+  std::vector<ElementStrain<T>> loaded(pressures_.size());
+  add_load_strains(signals, loaded);
+  add_pressure_reactions(loaded);
   const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
   T power = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
@@ -292,7 +393,7 @@ template <class T>
 std::size_t Dynamics<T>::bytes() const {
   return elements_.size() * (sizeof(Element) + sizeof(Motion<T>) + sizeof(Wrench)) +
          links_.size() * sizeof(Link) + properties_.size() * sizeof(LinkProperties<T>) +
-         coordinates_.bytes();
+         pressures_.size() * sizeof(pressures_[0]) + coordinates_.bytes();
 }
 
 #define DSS_INSTANTIATE(T)                                                                         \

@@ -3,7 +3,7 @@
 /// energy.
 #include "solver/model/problem.hpp"
 #include "solver/reference/coordinates.hpp"
-#include "solver/reference/link_law.hpp"
+#include "solver/reference/pressure.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -61,7 +61,32 @@ public:
   Motion<T> placed(std::size_t e, const T* fields) const;
   Reaction<T> link_reaction(const Motion<T>& i, const Motion<T>& j, const Link& link) const;
 
-  /// Kinetic energy, elastic energy of all links and energy of the stabilizing springs [J].
+  bool has_pressure() const { return !pressures_.empty(); }
+  /// Whether the pressures of its elements act on a link. Extra links have none.
+  bool has_pressure(const Link& link) const {
+    return has_pressure() && properties_[link.properties].area > 0;
+  }
+  int axis(const Link& link) const { return properties_[link.properties].axis; }
+  LinkStrain<T> strain(const Motion<T>& i, const Motion<T>& j, const Link& link) const;
+  /// Adds the strain of a link to that of an element, and finds what pressures do to a link.
+  void add_strain(const Link& link, const LinkStrain<T>& strain, ElementStrain<T>& sum) const {
+    add_link(axis(link), strain, sum);
+  }
+  /// Pressure [Pa] and moments [N/m] of an element with a strain.
+  ElementStrain<T> resistance(std::size_t e, const ElementStrain<T>& strain) const;
+  /// @param resistances  of the two elements
+  LinkPressure<T> pressure_on(const Link& link, const ElementStrain<T>& i,
+                              const ElementStrain<T>& j) const;
+  Reaction<T> pressure_reaction_of(const Motion<T>& i, const Motion<T>& j, const Link& link,
+                                   const LinkPressure<T>& pressure) const;
+  /// Strains of all elements; empty without pressure. @param signals  as in rates(); empty: without
+  ///     what loads add
+  std::vector<ElementStrain<T>> strains(std::span<const T> state,
+                                        std::span<const double> signals) const;
+  T volume(std::size_t e) const { return bodies_[std::size_t(elements_[e].body)].volume; }
+
+  /// Kinetic energy, elastic energy of all links and pressures, and energy of the stabilizing
+  /// springs [J]. What loads add to pressures counts as their work (supplied_power).
   T energy(std::span<const T> state);
   T kinetic_energy(std::span<const T> state);
   /// Power of the loads and of the frame's acceleration [W]. @param signals as in rates()
@@ -81,6 +106,7 @@ private:
     T mass;
     Vector<T> inertia;
     bool has_tensor_inertia;
+    T volume; ///< [m^3]
   };
   struct Wrench {
     Vector<T> force = Vector<T>::Zero(), moment = Vector<T>::Zero();
@@ -89,7 +115,12 @@ private:
   void add_links(const Problem& problem);
   void place(std::span<const T> state);
   void find_wrenches(std::span<const T> state, std::span<const double> signals);
+  void add_reaction(const Link& link, const Reaction<T>& reaction);
   void add_link_reactions();
+  /// Strains of all elements by their links, and what loads add.
+  std::vector<ElementStrain<T>> link_strains(std::span<const Motion<T>> motions) const;
+  void add_load_strains(std::span<const double> signals, std::span<ElementStrain<T>> strains) const;
+  void add_pressure_reactions(std::span<const ElementStrain<T>> strains);
   void add_loads(std::span<const double> signals);
   void add_stabilization();
   T kinetic_energy_of(std::size_t e) const;
@@ -104,6 +135,7 @@ private:
   std::vector<BodyMass> bodies_;
   std::vector<LinkProperties<T>> properties_;
   std::vector<Link> links_;
+  std::vector<ElementStrain<T>> pressures_; ///< constants of each element; empty if it has none
   std::vector<Load> loads_;
   Stabilization stabilization_;
   std::vector<Motion<T>> motions_; ///< of the state under evaluation

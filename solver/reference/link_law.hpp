@@ -25,6 +25,7 @@ struct LinkProperties {
   T k_normal, d_normal;       ///< [N/m], [N s/m]
   Vector<T> k_shear, d_shear; ///< as in AxisConstants [N/m], [N s/m]
   Vector<T> k_rot, d_rot;     ///< [N m/rad], [N m s/rad]
+  T area = 0;                 ///< of the face, if pressures act on it; else 0 [m^2]
 };
 
 /// Forces and moments of a link on its two elements.

@@ -48,13 +48,20 @@ AxisConstants read_explicit_link(ObjectNode& constants, int axis) {
   return link;
 }
 
-Material read_material(ObjectNode& constants) {
+/// @param contracts  bodies of the law contract across a pull if nu is not 0
+Material read_material(ObjectNode& constants, bool contracts) {
   Material material;
   material.E = read_per_axis(constants.require("E"));
   const auto shear = constants.find("G"), poisson = constants.find("nu");
   if (shear && poisson) constants.fail("G and nu exclude each other; give one of them");
   const double nu = poisson ? poisson->number() : 0;
-  if (!(nu > -1 && nu <= 0.5)) poisson->fail(fmt::format("{} is out of range; -1 < nu <= 0.5", nu));
+  constexpr double most = 0.49; // beyond it the pressure oscillates at coarse curved surfaces
+  if (nu != 0 && !contracts)
+    poisson->fail("this law has no lateral contraction; give G in place of nu, or take the law "
+                  "\"solid\"");
+  if (!(nu >= 0 && nu <= most))
+    poisson->fail(fmt::format("{} is out of range; 0 <= nu <= {}", nu, most));
+  material.nu = nu;
   for (std::size_t a = 0; a < 3; ++a) material.G[a] = material.E[a] / (2 * (1 + nu));
   if (shear) material.G = read_per_axis(*shear);
   material.damping_ratio = constants.non_negative_or("damping_ratio", 0);
@@ -76,7 +83,7 @@ void read_density(ObjectNode& constants, Body& body) {
 
 void read_material_body(ObjectNode& constants, Body& body) {
   if (constants.require_one({"E", "links"}) == "E") {
-    const Material material = read_material(constants);
+    const Material material = read_material(constants, false);
     read_density(constants, body);
     body.has_links_of_beams = true;
     const Vec3 reduced = {body.inertia[0] / 2, body.inertia[1] / 2, body.inertia[2] / 2};
@@ -96,15 +103,13 @@ void read_material_body(ObjectNode& constants, Body& body) {
   links.finish();
 }
 
-/// A material with the same constants along every axis. Lateral contraction would need forces that
-/// links do not have.
+/// A material with the same constants along every axis. With G in place of nu there is no lateral
+/// contraction.
 Material read_solid_material(ObjectNode& constants) {
   for (const char* key : {"E", "G"})
     if (const auto value = constants.find(key); value && value->is_array())
       value->fail("a solid has one E and one G, the same along every axis");
-  if (const auto nu = constants.find("nu"); nu && nu->number() != 0)
-    nu->fail("this law has no lateral contraction; give G in place of nu");
-  return read_material(constants);
+  return read_material(constants, true);
 }
 
 } // namespace
@@ -182,12 +187,14 @@ std::optional<Material> read_link_constants(const Node& node, const Body& from, 
   std::optional<Material> of_solid;
   if (law == solid) {
     of_solid = read_solid_material(constants);
+    if (of_solid->nu > 0)
+      constants.require("nu").fail("an extra link passes no pressure on; give G in place of nu");
   } else if (law == paper) {
     link.constants = read_paper_link(constants, link.axis);
   } else if (constants.require_one({"E", "k_normal"}) == "E") {
     const PairOfElements pair = pair_of_elements(from, to, link.axis);
-    link.constants =
-        material_link(read_material(constants), link.axis, pair.edge, pair.mass, pair.inertia);
+    link.constants = material_link(read_material(constants, false), link.axis, pair.edge, pair.mass,
+                                   pair.inertia);
   } else {
     link.constants = read_explicit_link(constants, link.axis);
   }

@@ -13,6 +13,8 @@ struct Material {
   Vec3 E{}, G{}; ///< [Pa], of links along x, y, z; all equal for an isotropic material
   /// Damping ratio of each single spring, with the reduced mass or inertia of two elements.
   double damping_ratio = 0;
+  /// Poisson's ratio of a solid: 0 if G is given, because a body then has no lateral contraction.
+  double nu = 0;
 };
 
 /// Torsion constant [m^4] of a rectangle with sides b and c [m], to rounding. Source: Timoshenko

@@ -53,7 +53,7 @@ void read_terms(ObjectNode& root, Problem& problem, Solids& solids) {
   if (const auto links = root.find("extra_links")) read_extra_links(*links, problem, solids);
   set_solid_links(solids, problem);
   if (const auto clamps = root.find("clamps")) read_clamps(*clamps, problem);
-  if (const auto loads = root.find("loads")) read_loads(*loads, problem);
+  if (const auto loads = root.find("loads")) read_loads(*loads, solids, problem);
   if (const auto ties = root.find("stabilization"))
     problem.stabilization = read_stabilization(*ties);
   if (const auto initial = root.find("initial")) read_initial_motions(*initial, problem);

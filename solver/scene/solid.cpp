@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <utility>
 
@@ -19,6 +20,13 @@ double twist_constant(double b, double c, bool is_thin_b, bool is_thin_c) {
   if (is_thin_b && is_thin_c) return torsion_constant(b, c);
   if (is_thin_b || (!is_thin_c && b < c)) return c * b * b * b / 6;
   return b * c * c * c / 6;
+}
+
+bool is_of_chain(ThinAxes thin) { return std::popcount(thin) >= 2; }
+
+/// Modulus of an element's half of a link against stretching and bending.
+double modulus(const Material& material, ThinAxes thin) {
+  return material.nu == 0 || is_of_chain(thin) ? material.E[0] : 2 * material.G[0];
 }
 
 /// Links of a body are alike if their elements are thin along the same axes, in either order.
@@ -74,7 +82,61 @@ void set_extra_link(const Material& material, ThinAxes thin_i, ThinAxes thin_j, 
       solid_link(material, link.axis, pair.edge, thin_i, thin_j, pair.mass, pair.inertia);
 }
 
+using FreeFaces = std::array<int, 3>; // across x, y, z
+
+std::vector<FreeFaces> free_faces(const Lattice& lattice) {
+  std::vector<FreeFaces> free(lattice.element_count, FreeFaces{2, 2, 2});
+  lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
+    --free[i][std::size_t(axis)];
+    --free[j][std::size_t(axis)];
+  });
+  return free;
+}
+
+void set_pressures(const Solids& solids, std::span<const ThinAxes> thin, Problem& problem) {
+  const std::vector<FreeFaces> free = free_faces(problem.lattice);
+  problem.pressure_kinds.resize(problem.lattice.element_count);
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
+    const std::optional<Material>& material = solids.bodies[std::size_t(row.body)];
+    if (!material || material->nu == 0) return;
+    Body& body = problem.bodies[std::size_t(row.body)];
+    const ElementPressure own = element_pressure(*material, body.edge, free[e], thin[e]);
+    const auto alike = std::ranges::find(body.pressures, own);
+    problem.pressure_kinds[e] = std::uint8_t(alike - body.pressures.begin());
+    if (alike == body.pressures.end()) body.pressures.push_back(own);
+  });
+  // Chains have none.
+  const auto is_nothing = [](const Body& body) {
+    return std::ranges::all_of(body.pressures, [](const ElementPressure& pressure) {
+      return pressure == ElementPressure{};
+    });
+  };
+  for (Body& body : problem.bodies)
+    if (is_nothing(body)) body.pressures.clear();
+  if (std::ranges::all_of(problem.bodies, is_nothing)) problem.pressure_kinds.clear();
+}
+
 } // namespace
+
+void set_face_strain(const Material& material, const Vec3& edge, std::size_t face, Load& load) {
+  const std::size_t axis = face / 2;
+  const double area = edge[(axis + 1) % 3] * edge[(axis + 2) % 3];
+  load.face_strain = (face % 2 == 1 ? 1 : -1) * load.force[axis] / area / (4 * material.G[0]);
+}
+
+ElementPressure element_pressure(const Material& material, const Vec3& edge, const FreeFaces& free,
+                                 ThinAxes thin) {
+  ElementPressure pressure;
+  if (is_of_chain(thin)) return pressure;
+  const double G = material.G[0], lambda = 2 * G * material.nu / (1 - 2 * material.nu);
+  const auto with_free = [&](int faces) { return lambda / (1 + faces * lambda / (4 * G)); };
+  const int all = free[0] + free[1] + free[2];
+  pressure.volume = with_free(all);
+  for (std::size_t o = 0; o < 3; ++o)
+    if (thin == 1U << o)
+      pressure.bending[o] = edge[o] * edge[o] / 12 * with_free(2 + all - free[o]);
+  return pressure;
+}
 
 AxisConstants solid_link(const Material& material, int axis, const Vec3& edge, ThinAxes i,
                          ThinAxes j, double mass, const Vec3& inertia) {
@@ -82,6 +144,8 @@ AxisConstants solid_link(const Material& material, int axis, const Vec3& edge, T
   const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
   const double G_over_L = material.G[a] / edge[a], area = edge[b] * edge[c];
   AxisConstants link = material_link(material, axis, edge, mass, inertia);
+  const double share = (modulus(material, i) + modulus(material, j)) / (2 * material.E[a]);
+  for (double* const k : {&link.k_normal, &link.k_rot[b], &link.k_rot[c]}) *k *= share;
   for (const std::size_t d : {b, c})
     link.k_shear[d] = 4 * G_over_L * area / (shear_divisor(i, d) + shear_divisor(j, d));
   const auto twist = [&](ThinAxes thin) {
@@ -116,6 +180,8 @@ void set_solid_links(const Solids& solids, Problem& problem) {
     };
     set_extra_link(material, thin[link.i], thin[link.j], body(link.i), body(link.j), link);
   }
+  const auto is_contracting = [](const std::optional<Material>& m) { return m && m->nu > 0; };
+  if (std::ranges::any_of(solids.bodies, is_contracting)) set_pressures(solids, thin, problem);
   if (std::ranges::all_of(problem.bodies, [](const Body& body) { return body.kinds() == 1; }))
     return;
   problem.link_kinds.resize(thin.size());

@@ -88,9 +88,10 @@ std::uint8_t read_dofs(const Node& node) {
   return std::uint8_t(dofs);
 }
 
-Load read_load(const Node& node, const Problem& problem) {
+Load read_load(const Node& node, const Problem& problem, const Solids& solids) {
   ObjectNode object(node);
   Load load;
+  const int body = read_body(object, problem);
   load.elements = read_selected(object, problem, false);
   if (!object.has("force") && !object.has("torque"))
     object.fail("a load needs \"force\" or \"torque\"");
@@ -104,6 +105,11 @@ Load read_load(const Node& node, const Problem& problem) {
       load.torque[a] /= double(load.elements.size());
     }
   object.finish();
+  const std::optional<Material>& solid = solids.bodies[std::size_t(body)];
+  ObjectNode select(object.require("select"));
+  if (const auto face = select.find("face"); face && solid && solid->nu > 0)
+    set_face_strain(*solid, problem.bodies[std::size_t(body)].edge,
+                    face->choice("face", face_names), load);
   return load;
 }
 
@@ -204,6 +210,7 @@ void read_extra_links(const Node& node, Problem& problem, Solids& solids) {
       link.constants = body_from.axis[std::size_t(link.axis)];
     }
     joint.finish();
+    if (solid) solid->nu = 0; // pressure does not pass a joint
     for (std::size_t k = 0; k < from.elements.size(); ++k) {
       link.i = from.elements[k];
       link.j = to.elements[k];
@@ -228,8 +235,8 @@ void read_clamps(const Node& node, Problem& problem) {
     if (held[element] != 0) problem.clamps.push_back({element, held[element]});
 }
 
-void read_loads(const Node& node, Problem& problem) {
-  for (const Node& item : node.items()) problem.loads.push_back(read_load(item, problem));
+void read_loads(const Node& node, const Solids& solids, Problem& problem) {
+  for (const Node& item : node.items()) problem.loads.push_back(read_load(item, problem, solids));
 }
 
 void read_initial_motions(const Node& node, Problem& problem) {

@@ -16,7 +16,7 @@ Signal read_signal(const Node& node);
 /// @param solids  gets the extra links of the law `solid`
 void read_extra_links(const Node& node, Problem& problem, Solids& solids);
 void read_clamps(const Node& node, Problem& problem);
-void read_loads(const Node& node, Problem& problem);
+void read_loads(const Node& node, const Solids& solids, Problem& problem);
 void read_initial_motions(const Node& node, Problem& problem);
 Stabilization read_stabilization(const Node& node);
 

@@ -7,6 +7,7 @@
 /// keep ten digits, and no link formula exists twice.
 #include "kernels/model.hpp"
 #include "solver/model/problem.hpp"
+#include "solver/numerics/linearised.hpp"
 #include "solver/reference/dynamics.hpp"
 
 #include <Eigen/SparseCore>
@@ -88,7 +89,11 @@ private:
   using Link = reference::Dynamics<Real>::Link;
   void turn_fields(Real* fields, const reference::Vector<Real>& turn) const;
   Vector free_part(const std::vector<Real>& all) const;
-  Eigen::Matrix<double, 12, 12> link_stiffness(const Link& link, const State& state) const;
+  template <class Value>
+  auto link_slope(const Link& link, const State& state, Value&& value) const;
+  Eigen::Matrix<double, 12, 12> link_stiffness(const Link& link, const State& state,
+                                               const reference::LinkPressure<Real>* pressure) const;
+  std::vector<PressureTerm> pressure_terms(const State& state) const;
 
   const Problem& problem_;
   std::uint8_t moving_;

@@ -183,7 +183,7 @@ class Models(ProgramTest):
     def test_every_term_is_named_where_a_scene_has_it(self):
         terms = json.loads(dssbench("explain", "two_bodies", "--json", "-").stdout)["terms"]
         self.assertEqual([name for name, need in terms.items() if not need["is_needed"]],
-                         ["loads", "initial motions"])
+                         ["pressure of elements", "loads", "initial motions"])
         self.assertIn("k 20 N/m", terms["stabilization"]["why"])
 
 

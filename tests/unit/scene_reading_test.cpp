@@ -52,8 +52,7 @@ protected:
 
 TEST(scene_solid, takes_one_isotropic_material_without_lateral_contraction) {
   const std::string constants = "bodies/0/constants/";
-  expect_part(refusal("ribbed_plate", {{constants + "nu", "0.3"}}),
-              "no lateral contraction; give G in place of nu");
+  expect_part(refusal("ribbed_plate", {{constants + "nu", "0.3"}}), "exclude each other");
   expect_part(refusal("ribbed_plate", {{constants + "nu", "0"}}), "exclude each other");
   expect_part(refusal("two_bodies", {{"bodies/1/constants/law", "solid"}}),
               "the same along every axis");

@@ -1,10 +1,12 @@
 #include "variants/engine/packed_rows.hpp"
 
+#include "solver/error.hpp"
 #include "solver/model/needed_terms.hpp"
 #include "variants/engine/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <stdexcept>
 #include <utility>
 
@@ -63,6 +65,10 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
       members_(ensemble != nullptr && !ensemble->members.empty() ? ensemble->members
                                                                  : std::vector{&problem}),
       applied_index_(lattice.rows.size(), -1) {
+  if (problem.has_pressure())
+    throw InputError(
+        fmt::format("{}: this variant {}; give --variant reference, or G in place of nu",
+                    problem.name, pressure_is_missing));
   if (is_ensemble() && members_.size() != std::size_t(W))
     throw std::logic_error("packed_rows.hpp: an ensemble has a member a lane");
   reach = lattice.row_reach();

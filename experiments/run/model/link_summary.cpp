@@ -38,6 +38,44 @@ std::vector<LinkSummary> summarize_links(const Problem& problem) {
   return links;
 }
 
+std::vector<PressureSummary> summarize_pressures(const Problem& problem) {
+  std::vector<PressureSummary> all;
+  if (!problem.has_pressure()) return all;
+  std::map<std::pair<int, int>, std::size_t> counts;
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
+    ++counts[{row.body, problem.pressure_kinds[e]}];
+  });
+  for (const auto& [key, count] : counts)
+    if (const Body& body = problem.bodies[std::size_t(key.first)]; !body.pressures.empty())
+      all.push_back({body.name, count, body.pressures[std::size_t(key.second)]});
+  return all;
+}
+
+nlohmann::ordered_json pressures_json(const std::vector<PressureSummary>& pressures) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const PressureSummary& one : pressures)
+    list.push_back({{"body", one.body},
+                    {"count", one.count},
+                    {"volume_pa", one.constants.volume},
+                    {"bending_n", one.constants.bending}});
+  return list;
+}
+
+std::string pressures_text(const std::vector<PressureSummary>& pressures) {
+  std::vector<std::vector<std::string>> rows;
+  for (const PressureSummary& one : pressures) {
+    std::vector<std::string> row = {one.body, std::to_string(one.count),
+                                    fmt::format("{:.6g}", one.constants.volume)};
+    for (const double bending : one.constants.bending)
+      row.push_back(bending == 0 ? "" : fmt::format("{:.6g}", bending));
+    rows.push_back(row);
+  }
+  return "pressures of elements, from nu: resistance to changes of volume [Pa], and of curvature "
+         "about the "
+         "normal of a plate [N]\n" +
+         text_table({"body", "count", "volume", "bending_x", "bending_y", "bending_z"}, rows);
+}
+
 nlohmann::ordered_json links_json(const std::vector<LinkSummary>& links) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const LinkSummary& link : links) {

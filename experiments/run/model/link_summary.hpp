@@ -20,6 +20,17 @@ struct LinkSummary {
 /// All links of a problem, by body, axis and kind; then the extra links.
 std::vector<LinkSummary> summarize_links(const Problem& problem);
 
+/// Elements with the same pressure.
+struct PressureSummary {
+  std::string body;
+  std::size_t count = 0;
+  ElementPressure constants;
+};
+/// Of all bodies that have pressures, by body and kind.
+std::vector<PressureSummary> summarize_pressures(const Problem& problem);
+nlohmann::ordered_json pressures_json(const std::vector<PressureSummary>& pressures);
+std::string pressures_text(const std::vector<PressureSummary>& pressures);
+
 /// One object each; units are in the names of the keys.
 nlohmann::ordered_json links_json(const std::vector<LinkSummary>& links);
 

@@ -332,6 +332,9 @@ RunPlan plan_run(const RunRequest& request) {
     throw InputError(
         fmt::format("{}: variant {} {}; give {}", lack->option, plan.plugin->name, lack->what,
                     plan.plugin->has_all ? "another --variant" : "--variant reference"));
+  if (problem.has_pressure() && !plan.plugin->has_all)
+    throw InputError(fmt::format("{}: variant {} {}; give --variant reference, or G in place of nu",
+                                 plan.scene.name, plan.plugin->name, pressure_is_missing));
   require_sensible(request, plan);
   if (request.is_root) require_outputs_writable(request);
   plan.adaptive = chosen_tolerance(request, *plan.method, plan.precision);

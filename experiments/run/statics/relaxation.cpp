@@ -31,6 +31,9 @@ std::vector<Vector6> largest_stiffness(const Problem& problem) {
     own[i] += system.kinds[kind].k.diagonal().head<6>();
     own[j] += system.kinds[kind].k.diagonal().tail<6>();
   }
+  for (const PressureTerm& term : system.pressures)
+    for (const auto& [dof, coefficient] : term.parts)
+      own[dof / 6][Eigen::Index(dof % 6)] += term.weight * coefficient * coefficient;
   for (std::size_t e = 0; e < own.size(); ++e) {
     Vector6& body = of_body[std::size_t(system.body[e])];
     body = body.cwiseMax(own[e]);

@@ -149,13 +149,23 @@ std::string links_across(const Problem& problem) {
   return {};
 }
 
+std::string pressure_across(const Problem& problem) {
+  for (const Body& body : problem.bodies)
+    if (!body.pressures.empty() && std::ranges::any_of(body.pressures, [](const auto& pressure) {
+          return pressure.volume != 0;
+        }))
+      return fmt::format("body \"{}\" contracts across x, because its nu is not 0", body.name);
+  return {};
+}
+
 } // namespace
 
 // Clamps need no check: a clamp of another degree of freedom holds something that does not move.
 std::string why_not_axial(const Problem& problem) {
   for (std::string reason :
        {load_along(problem, {1, 2}, {0, 1, 2}), acceleration_along(problem, {1, 2}),
-        start_with(problem, {uy, uz, vy, vz, qs, qx, qy, qz, wx, wy, wz}), links_across(problem)})
+        start_with(problem, {uy, uz, vy, vz, qs, qx, qy, qz, wx, wy, wz}), links_across(problem),
+        pressure_across(problem)})
     if (!reason.empty()) return reason;
   return rows_that_differ(problem);
 }

@@ -21,11 +21,13 @@ std::string thickness_in_z(const Problem& problem) {
 // the plane have moments about z. The constants are the same along and about the global axes at all
 // times. So the two halves are independent. (An arm along z would couple them: rx and ry would
 // slide faces within the plane.) Clamps and ties hold single degrees of freedom and do not couple
-// them either.
+// them either. The pressure of an element acts along links, and its moments are about x and y; both
+// are of first order in strains of the same half.
 std::string why_not_bending(const Problem& problem) {
   for (const std::string& reason :
        {thickness_in_z(problem), load_along(problem, {0, 1}, {2}),
-        acceleration_along(problem, {0, 1}), start_with(problem, {ux, uy, vx, vy, qz, wz})})
+        acceleration_along(problem, {0, 1}), start_with(problem, {ux, uy, vx, vy, qz, wz}),
+        pressed_faces(problem)})
     if (!reason.empty()) return reason;
   return {};
 }

@@ -33,6 +33,8 @@ private:
   std::vector<std::size_t> parent_;
 };
 
+/// Visits the constants of all kinds of links, with the stiffness of their elements' pressures in
+/// k_normal.
 template <class Visit>
 void for_each_link_kind(const Problem& problem, const Visit& visit) {
   std::vector<int> body_of(problem.lattice.element_count);
@@ -49,7 +51,9 @@ void for_each_link_kind(const Problem& problem, const Visit& visit) {
     if (met[place]) return;
     met[place] = true;
     const Body& b = problem.bodies[body];
-    visit(b.law, axis, b.link(axis, kind), b.edge[std::size_t(axis)]);
+    AxisConstants constants = b.link(axis, kind);
+    constants.k_normal += pressed_stiffness(b, axis);
+    visit(b.law, axis, constants, b.edge[std::size_t(axis)]);
   });
   for (const ExtraLink& link : problem.extra_links) {
     const auto a = std::size_t(link.axis);
@@ -120,6 +124,13 @@ double longest_way(const Problem& problem) {
 }
 
 } // namespace
+
+double pressed_stiffness(const Body& body, int axis) {
+  double volume = 0;
+  for (const ElementPressure& pressure : body.pressures) volume = std::max(volume, pressure.volume);
+  const auto a = std::size_t(axis);
+  return 3 * volume * body.edge[(a + 1) % 3] * body.edge[(a + 2) % 3] / body.edge[a];
+}
 
 BoundStructure bound_structure(const Problem& problem) {
   BoundStructure structure;

@@ -91,29 +91,55 @@ void ModelErrorBound::look(std::span<const double> state, double time) {
   if (needs_links()) look_at_links(state);
 }
 
+/// Pressure of each element under the linear law [Pa]; empty if none has.
+std::vector<double> ModelErrorBound::pressures_of(std::span<const double> state) const {
+  if (!problem_.has_pressure()) return {};
+  std::vector<double> pressures(body_of_.size());
+  const auto body = [&](std::size_t e) -> const Body& {
+    return problem_.bodies[std::size_t(body_of_[e])];
+  };
+  problem_.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
+    const auto at = [&](std::size_t e) { return state[e * field_count + std::size_t(ux + axis)]; };
+    const double strain = (at(j) - at(i)) / body(i).edge[std::size_t(axis)];
+    pressures[i] += strain / 2, pressures[j] += strain / 2;
+  });
+  for (const Load& load : problem_.loads)
+    for (const std::size_t e : load.elements) pressures[e] += load.face_strain * load.signal(time_);
+  for (std::size_t e = 0; e < pressures.size(); ++e)
+    pressures[e] *= problem_.pressure(e, body(e)).volume;
+  return pressures;
+}
+
 void ModelErrorBound::look_at_links(std::span<const double> state) {
+  const std::vector<double> pressures = pressures_of(state);
   double force2 = 0, gap2 = 0, rate2 = 0, strain_energy = 0, arms_energy = 0;
-  const auto add = [&](std::size_t e, std::size_t f, int axis, LinkLaw law,
-                       const AxisConstants& c) {
+  const auto add = [&](std::size_t e, std::size_t f, int axis, LinkLaw law, const AxisConstants& c,
+                       double pressed, double pressed_stiffness) {
     const double *i = state.data() + e * field_count, *j = state.data() + f * field_count;
     const auto a = std::size_t(axis);
     const double arm_i = problem_.bodies[std::size_t(body_of_[e])].edge[a] / 2,
                  arm_j = problem_.bodies[std::size_t(body_of_[f])].edge[a] / 2;
     const LinearLink link = linear_link(i, j, axis, law, c, arm_i, arm_j);
-    force2 = std::max(force2, link.force2);
+    const double force = std::sqrt(link.force2) + pressed;
+    force2 = std::max(force2, force * force);
     gap2 = std::max(gap2, link.gap2);
     rate2 = std::max(rate2, link.rate2);
     strain_energy += link.energy;
     // An arm turned by t is too long by the fraction t^2 / 2, and t <= 2 tan(t / 2).
     const double longer = 2 * (arm_i * tangent_squared(i) + arm_j * tangent_squared(j));
-    arms_energy += c.k_normal * longer * longer;
+    arms_energy += (c.k_normal + pressed_stiffness) * longer * longer;
   };
   problem_.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
     const Body& body = problem_.bodies[std::size_t(body_of_[i])];
-    add(i, j, axis, body.law, body.link(axis, problem_.link_kind(i, axis)));
+    const auto a = std::size_t(axis);
+    const double half_area = body.edge[(a + 1) % 3] * body.edge[(a + 2) % 3] / 2;
+    const double pressed =
+        pressures.empty() ? 0 : half_area * std::abs(pressures[i] + pressures[j]);
+    add(i, j, axis, body.law, body.link(axis, problem_.link_kind(i, axis)), pressed,
+        pressed_stiffness(body, axis));
   });
   for (const ExtraLink& link : problem_.extra_links)
-    add(link.i, link.j, link.axis, link.law, link.constants);
+    add(link.i, link.j, link.axis, link.law, link.constants, 0, 0);
   force_ = std::max(force_, std::sqrt(force2));
   gap_ = std::max(gap_, std::sqrt(gap2));
   rate_ = std::max(rate_, std::sqrt(rate2));

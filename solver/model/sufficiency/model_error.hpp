@@ -42,6 +42,7 @@ public:
   }
 
 private:
+  std::vector<double> pressures_of(std::span<const double> state) const;
   void look_at_links(std::span<const double> state);
   double operator_error(double rotation, double growth) const;
   KindBounds turned_forces(double rotation, double growth, double time) const;

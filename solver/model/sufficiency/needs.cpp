@@ -69,6 +69,14 @@ Need orthotropy(const Problem& problem, Model model) {
                   : "links are as stiff along their normal as across");
 }
 
+Need pressure(const Problem& problem, Model model) {
+  const bool has = problem.has_pressure(), is_along = model == Model::axial;
+  return need("pressure of elements", has && !is_along,
+              "links along different axes share the change of an element's volume, because nu is "
+              "not 0",
+              has ? "chains are free to contract" : "no body has a nu");
+}
+
 Need tensor_inertia(const Problem& problem, Model model) {
   const bool has = std::ranges::any_of(problem.bodies, &Body::has_tensor_inertia);
   std::string why_not = "inertia is a scalar: w x J w vanishes";
@@ -131,6 +139,7 @@ std::vector<Need> terms(const Problem& problem, Model model) {
   std::vector<Need> needs{damping(problem, model),
                           bending_stiffness(problem, model),
                           orthotropy(problem, model),
+                          pressure(problem, model),
                           tensor_inertia(problem, model),
                           ties(problem),
                           loads(problem),

@@ -54,12 +54,20 @@ std::string acceleration_along(const Problem& problem, std::initializer_list<int
   return {};
 }
 
+std::string pressed_faces(const Problem& problem) {
+  for (std::size_t l = 0; l < problem.loads.size() && problem.has_pressure(); ++l)
+    if (problem.loads[l].face_strain != 0 && !is_zero_always(problem.loads[l].signal))
+      return fmt::format("load {} presses on faces, and the body gets wider", l);
+  return {};
+}
+
 std::string why_not_in_translation(const Problem& problem) {
   if (!problem.clamps.empty())
     return fmt::format("element {} is clamped, and others move", problem.clamps[0].element);
   if (std::string reason = load_along(problem, {}, {0, 1, 2}); !reason.empty()) return reason;
   if (std::string reason = start_with(problem, {qs, qx, qy, qz, wx, wy, wz}); !reason.empty())
     return reason;
+  if (std::string reason = pressed_faces(problem); !reason.empty()) return reason;
   const std::size_t count = problem.lattice.element_count;
   for (std::size_t l = 0; l < problem.loads.size(); ++l) {
     const Load& load = problem.loads[l];

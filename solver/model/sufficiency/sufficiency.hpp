@@ -46,6 +46,9 @@ std::string start_with(const Problem& problem, std::initializer_list<Field> fiel
 std::string load_along(const Problem& problem, std::initializer_list<int> forces,
                        std::initializer_list<int> torques);
 
+/// A load whose tractions on faces add to the pressure of elements; empty if there is none.
+std::string pressed_faces(const Problem& problem);
+
 /// Returns e.g. "gravity or base acceleration acts along z", or an empty text.
 std::string acceleration_along(const Problem& problem, std::initializer_list<int> axes);
 
