@@ -1,5 +1,7 @@
 #include "solver/numerics/linearised.hpp"
 
+#include "solver/model/pressed_link.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -25,9 +27,9 @@ double least_ratio(const Vector6& damping, const Vector6& stiffness) {
 
 /// Both laws are the same to first order: gap = u_j - u_i + c_i x theta_i + c_j x theta_j,
 /// turn = theta_j - theta_i.
-/// @param most  the largest pressures of its elements
+/// @param most  of the pressures of its elements
 LinkMatrices link_matrices(int axis, const AxisConstants& constants, const Vec3& edge_i,
-                           const Vec3& edge_j, const ElementPressure& most = {}) {
+                           const Vec3& edge_j, const PressedLink& most = {}) {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity(), none = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 6, 12> strain;
   strain << -one, arm_matrix(axis, edge_i), one, arm_matrix(axis, edge_j), none, -one, none, one;
@@ -39,26 +41,13 @@ LinkMatrices link_matrices(int axis, const AxisConstants& constants, const Vec3&
   };
   const Vector6 k = diagonal(constants.k_normal, constants.k_shear, constants.k_rot);
   const Vector6 c = diagonal(constants.d_normal, constants.d_shear, constants.d_rot);
-  const auto a = std::size_t(axis);
-  const double area_over_length = edge_i[(a + 1) % 3] * edge_i[(a + 2) % 3] / edge_i[a];
-  // S = 1/2 sum over at most 6 links, C = 1/2 sum over at most 4, of both elements.
   Vector6 bound = k;
-  bound[axis] += 3 * most.volume * area_over_length;
-  for (int o = 0; o < 3; ++o)
-    if (o != axis) bound[3 + (3 - o - axis)] += 2 * most.bending[std::size_t(o)] * area_over_length;
+  bound[axis] += most.normal;
+  for (int m = 0; m < 3; ++m) bound[3 + m] += most.turn[std::size_t(m)];
   const auto matrix = [&](const Vector6& of) {
     return Matrix12(strain.transpose() * of.asDiagonal() * strain);
   };
   return {matrix(k), matrix(c), least_ratio(c, bound), matrix(bound)};
-}
-
-ElementPressure largest_pressure(const Body& body) {
-  ElementPressure most;
-  for (const ElementPressure& one : body.pressures) {
-    most.volume = std::max(most.volume, one.volume);
-    for (std::size_t o = 0; o < 3; ++o) most.bending[o] = std::max(most.bending[o], one.bending[o]);
-  }
-  return most;
 }
 
 /// Terms of elements with a pressure, whose parts are added link by link.
@@ -139,7 +128,8 @@ Linearised::Linearised(const Problem& problem)
     inverse_inertia.push_back(inertia.cwiseInverse());
     first_kind.push_back(kinds.size());
     b.each_kind([&](const AxisConstants& constants, int axis) {
-      kinds.push_back(link_matrices(axis, constants, b.edge, b.edge, largest_pressure(b)));
+      kinds.push_back(
+          link_matrices(axis, constants, b.edge, b.edge, largest_pressed_link(b, axis)));
     });
   }
   const auto add = [&](std::size_t i, std::size_t j, std::size_t kind) {

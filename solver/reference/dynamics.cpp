@@ -29,7 +29,6 @@ LinkProperties<T> properties_of(LinkLaw law, int axis, const AxisConstants& c, c
   link.d_shear = vector_of<T>(c.d_shear);
   link.k_rot = vector_of<T>(c.k_rot);
   link.d_rot = vector_of<T>(c.d_rot);
-  link.area = T(0);
   return link;
 }
 

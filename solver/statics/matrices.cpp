@@ -110,13 +110,13 @@ Matrix12 StaticSystem::link_stiffness(const Link& link, const State& state,
                                       const reference::LinkPressure<Real>* pressure) const {
   const auto slope = link_slope(link, state, [&](const Motion& i, const Motion& j) {
     reference::Reaction<Real> r = dynamics_.link_reaction(i, j, link);
+    if (pressure != nullptr) {
+      const auto more = dynamics_.pressure_reaction_of(i, j, link, *pressure);
+      r.force += more.force, r.moment_i += more.moment_i, r.moment_j += more.moment_j;
+    }
     Eigen::Matrix<Real, 12, 1> forces;
     forces << r.force, r.moment_i, -r.force, r.moment_j;
-    if (pressure == nullptr) return forces;
-    r = dynamics_.pressure_reaction_of(i, j, link, *pressure);
-    Eigen::Matrix<Real, 12, 1> more;
-    more << r.force, r.moment_i, -r.force, r.moment_j;
-    return Eigen::Matrix<Real, 12, 1>(forces + more);
+    return forces;
   });
   return Matrix12(-slope.template cast<double>());
 }

@@ -71,8 +71,7 @@ std::string pressures_text(const std::vector<PressureSummary>& pressures) {
     rows.push_back(row);
   }
   return "pressures of elements, from nu: resistance to changes of volume [Pa], and of curvature "
-         "about the "
-         "normal of a plate [N]\n" +
+         "about the normal of a plate [N]\n" +
          text_table({"body", "count", "volume", "bending_x", "bending_y", "bending_z"}, rows);
 }
 

@@ -1,4 +1,5 @@
 #include "solver/model/sufficiency/bound_structure.hpp"
+#include "solver/model/pressed_link.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ void for_each_link_kind(const Problem& problem, const Visit& visit) {
     met[place] = true;
     const Body& b = problem.bodies[body];
     AxisConstants constants = b.link(axis, kind);
-    constants.k_normal += pressed_stiffness(b, axis);
+    constants.k_normal += largest_pressed_link(b, axis).normal;
     visit(b.law, axis, constants, b.edge[std::size_t(axis)]);
   });
   for (const ExtraLink& link : problem.extra_links) {
@@ -124,13 +125,6 @@ double longest_way(const Problem& problem) {
 }
 
 } // namespace
-
-double pressed_stiffness(const Body& body, int axis) {
-  double volume = 0;
-  for (const ElementPressure& pressure : body.pressures) volume = std::max(volume, pressure.volume);
-  const auto a = std::size_t(axis);
-  return 3 * volume * body.edge[(a + 1) % 3] * body.edge[(a + 2) % 3] / body.edge[a];
-}
 
 BoundStructure bound_structure(const Problem& problem) {
   BoundStructure structure;

@@ -24,8 +24,4 @@ struct BoundStructure {
 };
 BoundStructure bound_structure(const Problem& problem);
 
-/// At most what the pressures of its two elements add to the normal stiffness of a link [N/m]: the
-/// square of a sum of six strains is at most six times the sum of their squares.
-double pressed_stiffness(const Body& body, int axis);
-
 } // namespace dss

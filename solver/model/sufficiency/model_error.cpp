@@ -1,4 +1,5 @@
 #include "solver/model/sufficiency/model_error.hpp"
+#include "solver/model/pressed_link.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,7 +137,7 @@ void ModelErrorBound::look_at_links(std::span<const double> state) {
     const double pressed =
         pressures.empty() ? 0 : half_area * std::abs(pressures[i] + pressures[j]);
     add(i, j, axis, body.law, body.link(axis, problem_.link_kind(i, axis)), pressed,
-        pressed_stiffness(body, axis));
+        largest_pressed_link(body, axis).normal);
   });
   for (const ExtraLink& link : problem_.extra_links)
     add(link.i, link.j, link.axis, link.law, link.constants, 0, 0);
