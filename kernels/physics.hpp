@@ -58,6 +58,7 @@ struct Physics;
 template <Model model, class Real>
 struct PhysicsTraits {
   using real = Real;
+  static constexpr Model of_model = model;
   static constexpr int fields = int(descriptor(model).fields.size()), axes = descriptor(model).axes,
                        vec_size = descriptor(model).vec_size(),
                        spin_size = descriptor(model).spin_size();

@@ -14,6 +14,9 @@ struct Terms {
   bool is_oblong = false;
   /// Gaps across a link have two constants of shear. Used by the material law.
   bool has_two_shears = false;
+  /// Elements have a pressure. With two shears also moments, because only bodies with elements that
+  /// are one layer thick have either.
+  bool has_pressure = false;
   constexpr bool has_couples() const { return is_material || is_damped || is_bending; }
   /// True if forces depend on velocities. The leapfrog method then carries predicted velocities.
   constexpr bool is_velocity_dependent() const { return is_damped || is_gyroscopic || is_tied; }
@@ -24,7 +27,7 @@ struct Terms {
     return is_material == need.is_material && is_damped >= need.is_damped &&
            (is_material || is_bending >= need.is_bending) && is_gyroscopic >= need.is_gyroscopic &&
            is_tied >= need.is_tied && (is_material || is_oblong >= need.is_oblong) &&
-           has_two_shears >= need.has_two_shears;
+           has_two_shears >= need.has_two_shears && has_pressure == need.has_pressure;
   }
 };
 

@@ -58,7 +58,8 @@ constexpr dss::Plugin plugin = {.abi = dss::plugin_abi,
                                 .is_distributed = false,
                                 .create = create,
                                 .kernels = nullptr,
-                                .is_compensated = false};
+                                .is_compensated = false,
+                                .has_pressure = true};
 
 } // namespace
 

@@ -30,9 +30,25 @@ static inline vec vec_axpy(REAL k, vec a, vec b) {
   return r;
 }
 
+static inline vec vec_along(vec a, const int axis, REAL c) {
+  if (axis == 0) a.x = a.x + c;
+  return a;
+}
+static inline REAL vec_component(vec a, const int axis) { return axis == 0 ? a.x : SPLAT(0); }
+
 static inline spin spin_zero(void) {
   spin r = {0};
   return r;
+}
+static inline REAL spin_component(spin a, const int axis) {
+  (void)a;
+  (void)axis;
+  return SPLAT(0);
+}
+static inline spin spin_along(spin a, const int axis, REAL c) {
+  (void)axis;
+  (void)c;
+  return a;
 }
 static inline spin spin_add(spin a, spin b) {
   (void)b;

@@ -31,9 +31,23 @@ static inline vec vec_axpy(REAL k, vec a, vec b) {
   return r;
 }
 
+static inline vec vec_along(vec a, const int axis, REAL c) {
+  if (axis == 2) a.z = a.z + c;
+  return a;
+}
+static inline REAL vec_component(vec a, const int axis) { return axis == 2 ? a.z : SPLAT(0); }
+
 static inline spin spin_zero(void) {
   spin r = {SPLAT(0), SPLAT(0)};
   return r;
+}
+static inline REAL spin_component(spin a, const int axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : SPLAT(0);
+}
+static inline spin spin_along(spin a, const int axis, REAL c) {
+  if (axis == 0) a.x = a.x + c;
+  if (axis == 1) a.y = a.y + c;
+  return a;
 }
 static inline spin spin_add(spin a, spin b) {
   spin r = {a.x + b.x, a.y + b.y};

@@ -31,6 +31,8 @@ static inline vec vec_along(vec a, const int axis, REAL c) {
   return a;
 }
 
+static inline REAL vec_component(vec a, const int axis) { return axis == 0 ? a.x : a.y; }
+
 static inline spin spin_zero(void) {
   spin r = {SPLAT(0)};
   return r;
@@ -50,6 +52,11 @@ static inline spin spin_scale(REAL k, spin a) {
 static inline spin spin_axpy(REAL k, spin a, spin b) {
   spin r = {FMA(k, a.z, b.z)};
   return r;
+}
+static inline REAL spin_component(spin a, const int axis) { return axis == 2 ? a.z : SPLAT(0); }
+static inline spin spin_along(spin a, const int axis, REAL c) {
+  if (axis == 2) a.z = a.z + c;
+  return a;
 }
 static inline REAL spin_norm2(spin a) { return a.z * a.z; }
 /* A spin about z has no component along a direction in the plane, so the twist terms vanish. */

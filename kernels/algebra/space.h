@@ -34,6 +34,10 @@ static inline vec vec_along(vec a, const int axis, REAL c) {
   return a;
 }
 
+static inline REAL vec_component(vec a, const int axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+
 static inline spin spin_zero(void) {
   spin r = {SPLAT(0), SPLAT(0), SPLAT(0)};
   return r;
@@ -53,6 +57,16 @@ static inline spin spin_scale(REAL k, spin a) {
 static inline spin spin_axpy(REAL k, spin a, spin b) {
   spin r = {FMA(k, a.x, b.x), FMA(k, a.y, b.y), FMA(k, a.z, b.z)};
   return r;
+}
+static inline REAL spin_component(spin a, const int axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+/* a + c e_axis */
+static inline spin spin_along(spin a, const int axis, REAL c) {
+  if (axis == 0) a.x = a.x + c;
+  if (axis == 1) a.y = a.y + c;
+  if (axis == 2) a.z = a.z + c;
+  return a;
 }
 static inline REAL spin_norm2(spin a) { return FMA(a.z, a.z, FMA(a.y, a.y, a.x * a.x)); }
 /* n.a: component of a spin along the direction n */

@@ -90,7 +90,31 @@ static inline spin couple_moment(spin couples, paper_law law, const int is_bendi
  * along the third axis. The terms of k_t and d_t are left out if the two are equal in all links of
  * a body (has_two_shears).
  * The net moment of a link is zero. Its damping takes the power V.F_d + W.T_d >= 0,
- * W = w_j - w_i. */
+ * W = w_j - w_i.
+ *
+ * Pressure of elements
+ * --------------------
+ * An element of a solid with nu > 0 has the energy
+ *   V (lambda S^2 / 2 + sum over o of beta_o C_o^2 / 2),   S = sum of e / 2 + t,
+ *   C_o = sum of +-g_m / 2
+ * over its links, e = n.D / L, g_m = 2 n_m.r / L, m the axis across a link and o (+: m is along
+ * o x a). t is the load's share (Load::face_strain), and beta_o is not 0 if the body is one layer
+ * thick along o. Half of the forces' potentials, times V, are
+ *   P = V lambda S / 2,   Q_o = V beta_o C_o / 2                                      [N m]
+ * and a link gets from its two elements the tension (P_i + P_j) / L along n and the moments
+ * +-(Q_oi + Q_oj) / L about n_m. They take the places of (k_n - k_s) (n.D) and of
+ * 2 (k_m - k_z) (n_m.r) in F, X and T. */
+
+/* P, and Q about the body's axes, of an element; or the strains of which they are sums. */
+typedef struct {
+  REAL s, x, y, z;
+} pressure;
+
+/* What the pressures of its two elements add to a link: tension along n [N], moments about n_x, n_y
+ * and n_z [N m]; the one about n itself is 0. */
+typedef struct {
+  REAL tension, x, y, z;
+} link_pressure;
 
 typedef struct {
   REAL edge_i, edge_j;                   /* along the link [m] */
@@ -99,12 +123,53 @@ typedef struct {
    * [N m/rad] */
   REAL k_z, k_xz, k_yz;
   REAL d_z, d_xz, d_yz; /* the same for damping, not doubled [N m s/rad] */
+  link_pressure pressure;
 } material_law;
 
 /* The axis of n_t. */
 static inline int third_axis(const int axis) { return axis == 2 ? 0 : 2; }
 
+static inline link_pressure no_pressure(void) {
+  link_pressure p = {SPLAT(0), SPLAT(0), SPLAT(0), SPLAT(0)};
+  return p;
+}
+/* @param is_bent  the body has elements that are one layer thick */
+static inline link_pressure pressure_on_link(pressure i, pressure j, const int axis,
+                                             REAL inverse_edge, const int is_bent) {
+  link_pressure p = no_pressure();
+  p.tension = inverse_edge * (i.s + j.s);
+  if (!is_bent) return p;
+  if (axis == 0) p.y = inverse_edge * (i.z + j.z), p.z = -(inverse_edge * (i.y + j.y));
+  if (axis == 1) p.z = inverse_edge * (i.x + j.x), p.x = -(inverse_edge * (i.z + j.z));
+  if (axis == 2) p.x = inverse_edge * (i.y + j.y), p.y = -(inverse_edge * (i.x + j.x));
+  return p;
+}
+/* From the strain e = along and the curvatures of a link, its share in the sums of S and C_o. */
+static inline pressure link_share(const int axis, REAL along, REAL x, REAL y, REAL z) {
+  pressure s = {along, SPLAT(0), SPLAT(0), SPLAT(0)};
+  if (axis == 0) s.y = -z, s.z = y;
+  if (axis == 1) s.z = -x, s.x = z;
+  if (axis == 2) s.x = -y, s.y = x;
+  return s;
+}
+
+/* D of the link from i to j */
+static inline vec gap_of(element i, element j, const int axis, REAL edge_i, REAL edge_j) {
+  return vec_sub(vec_sub(j.u, i.u),
+                 vec_add(rotor_turn(i.q, axis, edge_i), rotor_turn(j.q, axis, edge_j)));
+}
+
 #ifdef LINEAR
+
+/* Share of a link in the strains of either of its elements: e and g_m / 2.
+ * @param is_bent  as in pressure_on_link */
+static inline pressure link_strain(element i, element j, const int axis, REAL edge,
+                                   REAL inverse_edge, const int is_bent) {
+  REAL along = inverse_edge * vec_component(gap_of(i, j, axis, edge, edge), axis);
+  if (!is_bent) return link_share(axis, along, SPLAT(0), SPLAT(0), SPLAT(0));
+  spin r = spin_scale(inverse_edge, rotor_relative(i.q, j.q));
+  return link_share(axis, along, spin_component(r, 0), spin_component(r, 1), spin_component(r, 2));
+}
 
 /* Exchange of the material law (parameters as in the other version below), to first order in
  * displacements and rotations about rest: directions are the axes of the frame,
@@ -112,13 +177,19 @@ static inline int third_axis(const int axis) { return axis == 2 ? 0 : 2; }
  *   F = k_s D + (k_n - k_s) (e.D) e + (k_t - k_s) (e_t.D) e_t,   T = 2 (k_x r_x, k_y r_y, k_z r_z)
  * and the same for damping with V and w_j - w_i. */
 static inline exchange material_link(element i, element j, const int axis, material_law law,
-                                     const int is_damped, const int has_two_shears) {
+                                     const int is_damped, const int has_two_shears,
+                                     const int has_pressure) {
   exchange x;
-  vec gap = vec_sub(vec_sub(j.u, i.u),
-                    vec_add(rotor_turn(i.q, axis, law.edge_i), rotor_turn(j.q, axis, law.edge_j)));
+  vec gap = gap_of(i, j, axis, law.edge_i, law.edge_j);
   spin couple = spin_principal(rotor_relative(i.q, j.q), law.k_z, law.k_xz, law.k_yz);
   x.force = vec_principal(gap, axis, law.k_s, law.k_ns);
   if (has_two_shears) x.force = vec_axpy_along(law.k_ts, gap, third_axis(axis), x.force);
+  if (has_pressure) {
+    x.force = vec_along(x.force, axis, law.pressure.tension);
+    if (has_two_shears && axis != 0) couple = spin_along(couple, 0, law.pressure.x);
+    if (has_two_shears && axis != 1) couple = spin_along(couple, 1, law.pressure.y);
+    if (has_two_shears && axis != 2) couple = spin_along(couple, 2, law.pressure.z);
+  }
   if (is_damped) {
     REAL half_i = SPLAT(0.5) * law.edge_i, half_j = SPLAT(0.5) * law.edge_j;
     vec v_i = lever_rate(i.w, lever_of(i.u, axis, half_i), axis, i.v);
@@ -139,11 +210,32 @@ static inline vec half_sum(vec a, vec b) { return vec_scale(SPLAT(0.5), vec_add(
 
 /* Adds the part of T that belongs to the body axis m:
  *   t + kr [p0 n_m + r x (n_mi - n_mj) / 2],   kr = 2 (k_m - k_z) (n_m.r) */
-static inline spin bend_about(spin r, REAL p0, vec ni, vec nj, REAL k, spin t) {
-  vec n = half_sum(ni, nj);
-  REAL kr = k * spin_dot(r, n);
+static inline spin turn_about(spin r, REAL p0, vec ni, vec nj, vec n, REAL kr, spin t) {
   t = spin_about(kr * p0, n, t);
   return spin_turn(spin_scale(SPLAT(0.5) * kr, r), vec_sub(ni, nj), t);
+}
+/* @param moment  of pressures about n_m, if the link has one */
+static inline spin bend_about(spin r, REAL p0, vec ni, vec nj, REAL k, const int has_moment,
+                              REAL moment, spin t) {
+  vec n = half_sum(ni, nj);
+  REAL kr = has_moment ? FMA(k, spin_dot(r, n), moment) : k * spin_dot(r, n);
+  return turn_about(r, p0, ni, nj, n, kr, t);
+}
+
+static inline pressure link_strain(element i, element j, const int axis, REAL edge,
+                                   REAL inverse_edge, const int is_bent) {
+  vec n = half_sum(rotor_column(i.q, axis), rotor_column(j.q, axis));
+  REAL along = inverse_edge * vec_dot(n, gap_of(i, j, axis, edge, edge));
+  if (!is_bent) return link_share(axis, along, SPLAT(0), SPLAT(0), SPLAT(0));
+  spin r = spin_scale(inverse_edge, rotor_relative(i.q, j.q));
+  REAL x = spin_dot(r, half_sum(rotor_column(i.q, 0), rotor_column(j.q, 0))),
+       y = spin_dot(r, half_sum(rotor_column(i.q, 1), rotor_column(j.q, 1)));
+#ifdef PLANAR
+  REAL z = spin_component(r, 2);
+#else
+  REAL z = spin_dot(r, half_sum(rotor_column(i.q, 2), rotor_column(j.q, 2)));
+#endif
+  return link_share(axis, along, x, y, z);
 }
 
 /* Exchange of the material law for one pair of elements.
@@ -151,24 +243,28 @@ static inline spin bend_about(spin r, REAL p0, vec ni, vec nj, REAL k, spin t) {
  * @return force on i [N]; couples on i and on j [N m], to which the caller adds arm x force
  * No errors: any finite input is valid. */
 static inline exchange material_link(element i, element j, const int axis, material_law law,
-                                     const int is_damped, const int has_two_shears) {
+                                     const int is_damped, const int has_two_shears,
+                                     const int has_pressure) {
   exchange x;
-#ifdef PLANAR
-  (void)has_two_shears;
-#endif
+  const int is_bent = has_pressure && has_two_shears;
   vec turn_i = rotor_turn(i.q, axis, law.edge_i), turn_j = rotor_turn(j.q, axis, law.edge_j);
   vec gap = vec_sub(vec_sub(j.u, i.u), vec_add(turn_i, turn_j));
   vec ni = rotor_column(i.q, axis), nj = rotor_column(j.q, axis), n = half_sum(ni, nj);
-  REAL stretch = law.k_ns * vec_dot(n, gap);
+  REAL stretch = has_pressure ? FMA(law.k_ns, vec_dot(n, gap), law.pressure.tension)
+                              : law.k_ns * vec_dot(n, gap);
   vec xi = rotor_column(i.q, 0), xj = rotor_column(j.q, 0), yi = rotor_column(i.q, 1),
       yj = rotor_column(j.q, 1);
   spin r = rotor_relative(i.q, j.q), couple = spin_scale(law.k_z, r);
   REAL p0 = rotor_relative_s(i.q, j.q) + SPLAT(1);
   x.force = vec_axpy(stretch, n, vec_scale(law.k_s, gap));
-  couple = bend_about(r, p0, xi, xj, law.k_xz, couple);
-  couple = bend_about(r, p0, yi, yj, law.k_yz, couple);
+  couple = bend_about(r, p0, xi, xj, law.k_xz, is_bent && axis != 0, law.pressure.x, couple);
+  couple = bend_about(r, p0, yi, yj, law.k_yz, is_bent && axis != 1, law.pressure.y, couple);
   couple = vec_moment(vec_scale(SPLAT(0.25) * stretch, gap), vec_sub(ni, nj), couple);
 #ifndef PLANAR
+  if (is_bent && axis != 2) {
+    vec zi = rotor_column(i.q, 2), zj = rotor_column(j.q, 2);
+    couple = turn_about(r, p0, zi, zj, half_sum(zi, zj), law.pressure.z, couple);
+  }
   vec t = n;
   if (has_two_shears) {
     vec ti = rotor_column(i.q, third_axis(axis)), tj = rotor_column(j.q, third_axis(axis));

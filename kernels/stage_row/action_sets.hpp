@@ -25,18 +25,19 @@ constexpr bool is_kept(row_action action) {
   return action == kept_stage || action == kept_step || action == kept_leapfrog ||
          action == kept_predicted || action == kept_error;
 }
-/// True if rows of a set (or of a single action) have the code of an action in line. Rows that hold
-/// predictions have a function of their own for predicted_step, or are of any_action.
+/// True for actions that common rows have a function of their own for.
+constexpr bool has_function(row_action action) {
+  return action == plain_stage || action == combined_stage || action == predicted_step ||
+         action == kept_stage || action == kept_step;
+}
+/// True if rows of a set (or of a single action) have the code of an action in line.
 template <class T>
 constexpr bool has_action(int set, row_action action) {
   if (action == bare_rates || (is_kept(action) && sizeof(T) > sizeof(float))) return false;
   if (set == any_action) return !is_rare(action);
   if (set == rest_called) return false;
-  if (action == predicted_step && (set == apart_action || set == rest_in_line)) return false;
-  if (set == apart_action) return action != plain_stage && action != combined_stage;
-  if (set == rest_in_line)
-    return action != plain_stage && action != combined_stage && action != kept_stage &&
-           action != kept_step;
+  if (set == apart_action) return true;
+  if (set == rest_in_line) return !has_function(action);
   return action == set;
 }
 

@@ -4,6 +4,7 @@
  * for the material law. Masses and ties are scaled to match. */
 NUMBER edge[3], half_edge[3]; /* half: a product in the row would cost a register */
 NUMBER edge_ratio;            /* edge along y over edge along x */
+NUMBER inverse_edge[3];       /* pressure of elements */
 NUMBER inverse_unit;          /* 1 / unit */
 NUMBER tau, kt2, dt;          /* paper's law */
 #define CONSTANT NUMBER

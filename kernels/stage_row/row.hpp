@@ -62,6 +62,15 @@ struct LinkConstants {
 template <class T>
 using LinkLanes = LinkConstants<LaneNumbers<T>>;
 
+/// Constants of the elements of a pack, from sums of strains to P and Q
+/// (kernels/stage_row/element_pressure.hpp): V lambda / 4, and V beta_o / 2 for o = x, y, z [N m].
+template <class Number>
+struct PressureConstants {
+  Number s, x, y, z;
+};
+template <class T>
+using PressureLanes = PressureConstants<LaneNumbers<T>>;
+
 /// What lies in the lanes of a pack.
 enum class LaneKind {
   neighbours, ///< elements that follow one another along x
@@ -88,8 +97,17 @@ struct Applied {
   const simd::LaneMask* free_lanes = nullptr;
 };
 
-/// One stage of one row. Pointers start at the row's first pack. Neighbour rows are already aligned
-/// with it.
+/// Pressures of a row's elements. They are the last numbers of its packs.
+template <class T>
+struct RowPressure {
+  const PressureLanes<T>* constants = nullptr;
+  const int* index = nullptr; ///< of each pack, which of the constants its elements have
+  /// Shares of loads, as patterns of one component: 2 t at signal value 1. Null for most rows.
+  const Applied<T>* loads = nullptr;
+};
+
+/// One stage of one row, or the pressures at its input. Pointers start at the row's first pack.
+/// Neighbour rows are already aligned with it.
 template <class T>
 struct RowTask {
   static constexpr int most_increments = 6;
@@ -104,7 +122,8 @@ struct RowTask {
   const PackMaps<T>* maps = nullptr; ///< of each pack; null if neighbours lie in the same lanes
   const int* places = nullptr;       ///< of scattered neighbours, in lanes from their row's first
   const BodyConstants<T>* body = nullptr;
-  const Applied<T>* applied = nullptr; ///< null for most rows
+  const Applied<T>* applied = nullptr;      ///< null for most rows
+  const RowPressure<T>* pressure = nullptr; ///< null if the elements have none
   /// Frame acceleration x, y, z, then the loads' values. Of an ensemble: each of all lanes.
   const T* signals = nullptr;
   /// Of an ensemble, in place of `body`: the constants of each lane.

@@ -38,6 +38,7 @@ BodyConstants<T> row_case_body() {
   BodyConstants<T> body{};
   for (T& edge : body.edge) edge = T(0.5);
   for (T& half : body.half_edge) half = T(0.25);
+  for (T& inverse : body.inverse_edge) inverse = T(2);
   body.edge_ratio = body.inverse_unit = body.mass = body.inverse_mass = T(1);
   body.tau = body.dt = T(0.125);
   for (int axis = 0; axis < 3; ++axis) body.inertia[axis] = body.inverse_inertia[axis] = T(1);

@@ -4,6 +4,7 @@
 /// before the lower; then ties; then wrenches. It depends on neither threads nor lanes.
 #include "kernels/physics.hpp"
 #include "kernels/rk_update/update.hpp"
+#include "kernels/stage_row/element_pressure.hpp"
 #include "kernels/stage_row/row_packs.hpp"
 
 #include <array>
@@ -38,8 +39,11 @@ struct StageRow {
   using axis_law = typename P::axis_law;
   using exchange = typename P::exchange;
   static constexpr typename P::term_flags flags{
-      terms.is_material, terms.is_damped, terms.is_bending,    terms.is_gyroscopic,
-      terms.is_tied,     terms.is_oblong, terms.has_two_shears};
+      terms.is_material, terms.is_damped, terms.is_bending,     terms.is_gyroscopic,
+      terms.is_tied,     terms.is_oblong, terms.has_two_shears, terms.has_pressure};
+  using pressure = typename P::pressure;
+  static constexpr PressureParts parts = pressure_parts(P::of_model, terms);
+  using Stored = StoredPressure<R, P::of_model, terms>;
 
   const RowTask<T>& task;
   static constexpr bool is_ensemble = kind == LaneKind::members;
@@ -98,8 +102,9 @@ struct StageRow {
     if constexpr (!terms.is_material) return {};
     const LinkLanes<T>& a = task.links[links == nullptr ? axis : links[axis]];
     const R edge(body.edge[axis]);
-    return {edge,      edge,     R(a.k_s),  R(a.k_ns), R(a.k_ts), R(a.d_s),  R(a.d_ns),
-            R(a.d_ts), R(a.k_z), R(a.k_xz), R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
+    return {edge,      edge,      R(a.k_s),  R(a.k_ns), R(a.k_ts),
+            R(a.d_s),  R(a.d_ns), R(a.d_ts), R(a.k_z),  R(a.k_xz),
+            R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz), P::no_pressure()};
   }
 
   axis_law law(int axis, const int* links) const {
@@ -142,12 +147,38 @@ struct StageRow {
     return c;
   }
 
-  element load_upper(const T* upper, int pack, std::ptrdiff_t stride, int axis) const {
+  template <class Tuple = element, int numbers = P::fields>
+  Tuple load_upper(const T* upper, int pack, std::ptrdiff_t stride, int axis) const {
     if constexpr (is_filled)
-      return load_mapped<element, P::fields>(upper, stride, task.maps[pack].upper(axis),
-                                             task.places);
+      return load_mapped<Tuple, numbers>(upper, stride, task.maps[pack].upper(axis), task.places);
     else
-      return load_at<element>(upper + std::ptrdiff_t(pack) * stride);
+      return load_at<Tuple>(upper + std::ptrdiff_t(pack) * stride);
+  }
+
+  static pressure widened(const Stored& stored) {
+    pressure p = zero<pressure>();
+    if constexpr (parts.has_volume) p.s = stored.s;
+    if constexpr (parts.has_bending_x) p.x = stored.x;
+    if constexpr (parts.has_bending_y) p.y = stored.y;
+    if constexpr (parts.has_bending_z) p.z = stored.z;
+    return p;
+  }
+  /// Place of the pressures in a pack: behind all else.
+  std::ptrdiff_t pressure_at() const { return task.stride - parts.count() * W; }
+  /// Of a pack's elements.
+  Stored load_pressure(const T* pack) const {
+    if constexpr (terms.has_pressure)
+      return load_at<Stored>(pack + pressure_at());
+    else
+      return {};
+  }
+  Stored load_upper_pressure(const T* upper, int pack, std::ptrdiff_t stride, int axis) const {
+    return load_upper<Stored, parts.count()>(upper + pressure_at(), pack, stride, axis);
+  }
+  /// Adds what the pressures of i and j do to their link.
+  void press(axis_law& law, const Stored& i, const Stored& j, const int axis) const {
+    law.material.pressure = P::pressure_on_link(widened(i), widened(j), axis,
+                                                R(body.inverse_edge[axis]), parts.has_bending());
   }
   carried load_lower(const T* from, int pack, int axis, simd::LaneMask below) const {
     if constexpr (is_filled) {
@@ -170,14 +201,17 @@ struct StageRow {
   /// Links across y or z. `upper` is the upper row; `carry` and `from` are carry buffers. Each may
   /// be null if no mask needs it.
   template <bool is_plain>
-  void add_across(const prepared& i, const int axis, simd::LaneMask above, simd::LaneMask below,
-                  const T* upper, T* carry, const T* from, int pack, const int* links,
-                  std::ptrdiff_t stride, wrench& sum) const {
+  void add_across(const prepared& i, const Stored& own_pressure, const int axis,
+                  simd::LaneMask above, simd::LaneMask below, const T* upper, T* carry,
+                  const T* from, int pack, const int* links, std::ptrdiff_t stride,
+                  wrench& sum) const {
     if (!is_plain && (above | below) == 0) return;
-    const axis_law own_law = law(axis, links);
+    axis_law own_law = law(axis, links);
     const typename P::side own = P::side_across(i, axis, own_law, flags);
     exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
+      if constexpr (terms.has_pressure)
+        press(own_law, own_pressure, load_upper_pressure(upper, pack, stride, axis), axis);
       up = P::link_across(i.e, own.upper, load_upper(upper, pack, stride, axis), axis, own_law,
                           flags);
       mask_links<is_plain>(above, up);
@@ -191,9 +225,12 @@ struct StageRow {
   }
 
   template <bool is_plain>
-  wrench links_x(const prepared& i, const prepared& next, const int* links, simd::LaneMask mask,
+  wrench links_x(const prepared& i, const prepared& next, const Stored& own_pressure,
+                 const Stored& next_pressure, const int* links, simd::LaneMask mask,
                  carried& previous) const {
-    const axis_law own_law = law(0, links);
+    axis_law own_law = law(0, links);
+    if constexpr (terms.has_pressure)
+      press(own_law, own_pressure, from_above<kind>(own_pressure, next_pressure), 0);
     element j{};
     vec lower, upper;
     if constexpr (terms.is_material) {
@@ -264,8 +301,9 @@ struct StageRow {
   void prime_x() const {
     const int last = task.packs - 1;
     carried previous{zero<vec>(), zero<spin>()};
-    links_x<false>(prepare(task.in + std::ptrdiff_t(last) * task.stride), prepare(task.ahead),
-                   links_of(last), task.masks[last].link_x, previous);
+    const T* const pack = task.in + std::ptrdiff_t(last) * task.stride;
+    links_x<false>(prepare(pack), prepare(task.ahead), load_pressure(pack),
+                   load_pressure(task.ahead), links_of(last), task.masks[last].link_x, previous);
     store_carry(task.carry_x, previous);
   }
   /// Computes only the links across `axis` from this row to the upper one, into the carry buffer.
@@ -274,10 +312,13 @@ struct StageRow {
       const simd::LaneMask above = axis == 1 ? task.masks[pack].link_y : task.masks[pack].link_z;
       if (above == 0) continue;
       const std::ptrdiff_t place = std::ptrdiff_t(pack) * task.stride;
+      const T* const upper = axis == 1 ? task.upper_y : task.upper_z;
       const element i = load_at<element>(task.in + place);
-      const element j =
-          load_upper(axis == 1 ? task.upper_y : task.upper_z, pack, task.stride, axis);
-      const axis_law own_law = law(axis, links_of(pack));
+      const element j = load_upper(upper, pack, task.stride, axis);
+      axis_law own_law = law(axis, links_of(pack));
+      if constexpr (terms.has_pressure)
+        press(own_law, load_pressure(task.in + place),
+              load_upper_pressure(upper, pack, task.stride, axis), axis);
       exchange up =
           P::link_across(i, P::upper_across(i, axis, own_law, flags), j, axis, own_law, flags);
       mask_links(above, up);
@@ -308,6 +349,7 @@ struct StageRow {
     const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot),
                                   R(body.tie_d_rot)};
     prepared next = prepare(in);
+    Stored next_pressure = load_pressure(in);
     alignas(64) T places[2][std::size_t(parked_size)];
     if constexpr (is_parked) park(places[0], next);
     carried previous = link_before();
@@ -326,7 +368,10 @@ struct StageRow {
         for (int line = fetch_lines; line > 0; --line, fetch += 64) simd::fetch(fetch);
       prepared i = next;
       i.e = load_at<element>(in + place);
-      next = prepare(pack + 1 < packs ? in + place + stride : ahead);
+      const T* const next_pack = pack + 1 < packs ? in + place + stride : ahead;
+      next = prepare(next_pack);
+      const Stored own_pressure = next_pressure;
+      next_pressure = load_pressure(next_pack);
       const auto read_again = [&] {
         if constexpr (is_parked) {
           // Fence for the compiler, which would otherwise keep earlier loads and spill them.
@@ -336,15 +381,16 @@ struct StageRow {
       };
       if constexpr (is_parked) park(places[~pack & 1], next);
       read_again();
-      wrench sum = links_x<taken == plane_path>(i, next, links, masks.link_x, previous);
+      wrench sum = links_x<taken == plane_path>(i, next, own_pressure, next_pressure, links,
+                                                masks.link_x, previous);
       read_again();
       if constexpr (P::axes > 1)
-        add_across<is_plain>(i, 1, masks.link_y, masks.below_y, upper_y, carry_y, from_y, pack,
-                             links, stride, sum);
+        add_across<is_plain>(i, own_pressure, 1, masks.link_y, masks.below_y, upper_y, carry_y,
+                             from_y, pack, links, stride, sum);
       if constexpr (taken == solid_path) read_again();
       if constexpr (P::axes > 2 && taken != plane_path)
-        add_across<is_plain>(i, 2, masks.link_z, masks.below_z, upper_z, carry_z, from_z, pack,
-                             links, stride, sum);
+        add_across<is_plain>(i, own_pressure, 2, masks.link_z, masks.below_z, upper_z, carry_z,
+                             from_z, pack, links, stride, sum);
       sum = P::wrench_finished(sum, i, laws[0], tie, flags);
       if (is_applied) apply_wrenches(pack, sum);
       if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);

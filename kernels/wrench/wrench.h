@@ -5,7 +5,8 @@
 /* Which terms are compiled in. The flags are constants at every call; C++ has them as Terms
  * (kernels/terms.hpp). */
 typedef struct {
-  int is_material, is_damped, is_bending, is_gyroscopic, is_tied, is_oblong, has_two_shears;
+  int is_material, is_damped, is_bending, is_gyroscopic, is_tied, is_oblong, has_two_shears,
+      has_pressure;
 } term_flags;
 static inline int has_couples(const term_flags terms) {
   return terms.is_material || terms.is_damped || terms.is_bending;
@@ -100,7 +101,8 @@ static inline exchange link_exchange(element i, vec upper, element j, vec lower,
                                      axis_law law, const term_flags terms) {
   exchange x;
   if (terms.is_material)
-    return material_link(i, j, axis, law.material, terms.is_damped, terms.has_two_shears);
+    return material_link(i, j, axis, law.material, terms.is_damped, terms.has_two_shears,
+                         terms.has_pressure);
   x.force = vec_sub(lower, upper);
   x.couple_i = has_couples(terms)
                    ? paper_couple(i.q, i.w, j.q, j.w, law.own, terms.is_bending, terms.is_damped)
@@ -204,7 +206,7 @@ static inline pair_wrench wrench_of_pair(element i, element j, const int axis,
                                          const int is_material, material_law material,
                                          paper_law law_i, paper_law law_j) {
   pair_wrench w;
-  exchange x = is_material ? material_link(i, j, axis, material, 1, 1)
+  exchange x = is_material ? material_link(i, j, axis, material, 1, 1, 0)
                            : paper_link(i, j, axis, law_i, law_j, 1, 1);
   w.force = x.force;
   w.moment_i =

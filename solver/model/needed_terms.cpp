@@ -1,8 +1,18 @@
 #include "solver/model/needed_terms.hpp"
 
+#include "kernels/stage_row/element_pressure.hpp"
 #include "solver/model/link_constants.hpp"
 
+#include <algorithm>
+
 namespace dss {
+
+/// Whether pressures of a body's elements have moments. Then links have two shears too, unless
+/// their constants happen to be equal.
+static bool bends(const Body& body) {
+  return std::ranges::any_of(
+      body.pressures, [](const ElementPressure& pressure) { return pressure.bending != Vec3{}; });
+}
 
 std::vector<Terms> needed_terms(const Problem& problem, Model model) {
   const int axes = descriptor(model).axes;
@@ -25,7 +35,10 @@ std::vector<Terms> needed_terms(const Problem& problem, Model model) {
     const Body& body = problem.bodies[b];
     needs[b].is_material = body.law == LinkLaw::material;
     needs[b].has_two_shears = needs[b].is_material && axes > 1 &&
-                              (degrees_of(model) & dof_uz) != 0 && has_two_shears(body);
+                              (degrees_of(model) & dof_uz) != 0 &&
+                              (has_two_shears(body) || bends(body));
+    needs[b].has_pressure = !body.pressures.empty();
+    needs[b].has_pressure = pressure_parts(model, needs[b]).count() > 0;
     needs[b].is_oblong =
         (axes > 1 && body.edge[1] != body.edge[0]) || (axes > 2 && body.edge[2] != body.edge[0]);
   }

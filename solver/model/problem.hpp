@@ -133,9 +133,9 @@ struct Tolerance {
   double evaluation = 0, run = 0;
 };
 
-/// Why most variants do not compute a problem whose elements have a pressure.
+/// Why a variant does not compute a problem whose elements have a pressure.
 inline constexpr const char* pressure_is_missing =
-    "has no law \"solid\" with nu > 0 yet, whose elements have a pressure";
+    "has no law \"solid\" with nu > 0, whose elements have a pressure";
 
 /// A problem to compute. Element numbers are those of the lattice.
 struct Problem {

@@ -165,8 +165,8 @@ Tries tries_in_parts(const AdaptiveRun& run, const State& start, int parts, bool
   std::vector<std::thread> team;
   for (int p = 0; p < parts; ++p)
     team.emplace_back([&, p] {
-      const Part part =
-          make_part(run.problem, decomposition, p, is_every_stage ? 1 : dopri5_adaptive().stages);
+      const Part part = make_part(run.problem, decomposition, p,
+                                  StepSweeps(dopri5_adaptive(), run.problem).halo(is_every_stage));
       LocalHalo halo(part, mailboxes, false);
       const PartSetup setup{part, halo, is_every_stage, is_overlapped};
       const auto executor = run.plugin.create({part.problem, dopri5_adaptive(), run.model,

@@ -29,11 +29,16 @@ Problem varied(Problem problem, std::size_t member) {
     for (AxisConstants& c : body.axis) scale(c, 1 + 0.1 * more, 1 + 0.2 * more);
     for (auto& kind : body.more_kinds)
       for (AxisConstants& c : kind) scale(c, 1 + 0.12 * more, 1 + 0.17 * more);
+    for (ElementPressure& pressure : body.pressures) {
+      pressure.volume *= 1 + 0.1 * more;
+      for (double& bending : pressure.bending) bending *= 1 + 0.13 * more;
+    }
   }
   for (ExtraLink& link : problem.extra_links)
     scale(link.constants, 1 + 0.15 * more, 1 + 0.1 * more);
   for (Load& load : problem.loads) {
     load.force[0] += more, load.torque[2] -= 0.01 * more;
+    load.face_strain *= 1 - 0.03 * more;
     load.signal.amplitude *= 1 - 0.05 * more;
   }
   // Loads on other elements, and other clamps.
@@ -143,6 +148,7 @@ TEST_P(EveryEnsemble, has_the_bits_of_single_runs_in_every_method) {
     expect_bits_of_single_runs(fixture::make_everything(), scheme, Model::spatial);
     expect_bits_of_single_runs(fixture::make_sponge(5, 4, 3, LinkLaw::paper, 1), scheme,
                                Model::spatial);
+    expect_bits_of_single_runs(fixture::make_pressed_sponge(5, 4, 3), scheme, Model::spatial);
   }
 }
 
@@ -158,6 +164,8 @@ TEST_P(EveryEnsemble, has_the_bits_of_single_runs_in_every_model) {
       expect_bits_of_single_runs(fixture::make_flat_everything(model == Model::bending), scheme,
                                  model);
       expect_bits_of_single_runs(fixture::make_plate(6), scheme, model);
+      expect_bits_of_single_runs(
+          fixture::pressed(fixture::make_flat_everything(model == Model::bending)), scheme, model);
       if (descriptor(model).axes < 3) continue;
       for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material})
         expect_bits_of_single_runs(fixture::make_block(4, 3, 5, law), scheme, model);
@@ -170,6 +178,7 @@ TEST_P(EveryEnsemble, has_the_same_bits_on_several_threads) {
                                Model::spatial, {2, 3});
     expect_bits_of_single_runs(fixture::make_block(3, 4, 20, LinkLaw::material), scheme,
                                Model::spatial, {2, 3});
+    expect_bits_of_single_runs(fixture::make_pressed_plate(3, 140), scheme, Model::spatial, {2, 3});
   }
 }
 

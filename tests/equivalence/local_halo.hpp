@@ -1,6 +1,7 @@
 #pragma once
 /// A halo whose neighbours are threads or fibres of the same process: parts without MPI.
 #include "variants/api/message_order.hpp"
+#include "variants/api/step_sweeps.hpp"
 
 #include <array>
 #include <condition_variable>

@@ -129,7 +129,7 @@ struct ScheduledPart {
   ScheduledPart(const ScheduledRun& run, const Decomposition& decomposition, int index,
                 FibreMailboxes& mailboxes)
       : part(make_part(run.problem, decomposition, index,
-                       run.is_every_stage ? 1 : run.method->stages)),
+                       StepSweeps(*run.method, run.problem).halo(run.is_every_stage))),
         local(part, mailboxes, false),
         halo(local, run.death && run.death->part == index ? std::optional(run.death->receive)
                                                           : std::nullopt),

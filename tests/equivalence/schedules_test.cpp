@@ -52,8 +52,9 @@ TEST_P(EverySchedule, has_bitwise_equal_states_for_tiles_of_any_size_and_threads
     GTEST_SKIP() << "has no tiles, or parts that choose their own";
   const bool is_brief = is_composed(plugin);
   const std::vector<Problem> problems{fixture::make_sponge(13, 7, 8, LinkLaw::paper, 1),
-                                      fixture::make_sponge(21, 4, 11, LinkLaw::material, 2)};
-  for (const Problem& problem : std::span(problems).first(is_brief ? 1 : 2))
+                                      fixture::make_sponge(21, 4, 11, LinkLaw::material, 2),
+                                      fixture::make_pressed_sponge(21, 5, 8)};
+  for (const Problem& problem : std::span(problems).first(is_brief ? 1 : 3))
     for (const auto& [method, precision] : brief_schemes()) {
       if (is_brief && (method.name != std::string("rk4") || precision != Precision::f64)) continue;
       const State state = rounded(fixture::random_state(problem, 3, 2e-4, 0.02, 0.01), precision);
@@ -80,7 +81,7 @@ TEST_P(EverySchedule, has_bitwise_equal_states_for_rows_cut_anywhere_and_threads
   Problem mixed = fixture::make_block(300, 12, 1, LinkLaw::material);
   fixture::mix_links(mixed);
   const std::vector<Problem> problems{driven(mixed), fixture::make_block(701, 1, 1, LinkLaw::paper),
-                                      two_plates};
+                                      two_plates, fixture::make_pressed_plate(350, 7)};
   for (const Problem& problem : problems)
     for (const auto& [method, precision] : brief_schemes()) {
       const State state = rounded(fixture::random_state(problem, 3, 2e-4, 0.02, 0.01), precision);
@@ -127,7 +128,7 @@ std::vector<Problem> long_blocks() {
   Problem mixed = fixture::make_block(3, 2, 100, LinkLaw::material, 0);
   fixture::mix_links(mixed);
   return {driven(fixture::make_block(3, 140, 1, LinkLaw::paper)), driven(mixed), driven(uneven),
-          fixture::make_bars(9, 5, LinkLaw::paper)};
+          fixture::make_bars(9, 5, LinkLaw::paper), fixture::make_pressed_plate(5, 170)};
 }
 
 /// After 29 steps by teams of these numbers of threads. Each team continues where the last one
@@ -208,6 +209,9 @@ Problem bodies_end_to_end(LinkLaw law) {
   return problem;
 }
 
+/// The same with pressures, or in the paper's law without them.
+Problem driven_and_pressed(LinkLaw law) { return fixture::pressed(driven(bodies_end_to_end(law))); }
+
 /// Side by side: rows of the second body are far from those of the first. Many threads go stage by
 /// stage.
 Problem pair_side_by_side(LinkLaw law) {
@@ -231,7 +235,8 @@ TEST_P(EverySchedule, has_bitwise_equal_states_with_extra_links_for_any_number_o
   if (!plugin.is_threaded || is_composed(plugin)) GTEST_SKIP() << "has teams of others";
   for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material})
     for (const LinkedCase& c : {LinkedCase{driven(bodies_end_to_end(law)), {1, 2}, {30}, {3, 7}},
-                                LinkedCase{pair_side_by_side(law), {1}, {7}, {2, 3}}})
+                                LinkedCase{pair_side_by_side(law), {1}, {7}, {2, 3}},
+                                LinkedCase{driven_and_pressed(law), {1}, {30}, {2, 3, 7}}})
       for (const Scheme& scheme : brief_schemes()) {
         const Method& method = scheme.method;
         const Precision precision = scheme.precision;
@@ -278,6 +283,8 @@ TEST_P(EverySchedule, reports_the_same_first_failure_however_many_steps_and_thre
   std::vector<Problem> problems{fixture::make_block(9, 7, 1, LinkLaw::paper)};
   if (!is_composed(plugin)) {
     problems.push_back(fixture::make_block(9, 8, 5, LinkLaw::paper)); // swept along y
+    problems.push_back(fixture::make_pressed_sponge(9, 8, 5));
+    problems.back().loads.clear();
     problems.push_back(bodies_end_to_end(LinkLaw::paper));
     problems.push_back(pair_side_by_side(LinkLaw::paper)); // of many threads: stage by stage
     problems.push_back(long_blocks().front());

@@ -48,6 +48,11 @@ std::vector<Case> cases() {
       {"flat_comb", fixture::make_comb(47, 5, 1, LinkLaw::material), true},
       {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::paper, 3), true},
       {"tumbling_box", fixture::make_tumbling_box(1)},
+      {"pressed_sponge", fixture::make_pressed_sponge(13, 6, 5)},
+      {"pressed_plate", fixture::make_pressed_plate(19, 7), true},
+      {"pressed_everything", fixture::pressed(fixture::make_everything())},
+      {"pressed_flat_everything", fixture::pressed(fixture::make_flat_everything()), true},
+      {"pressed_comb", fixture::pressed(fixture::make_comb(47, 3, 2, LinkLaw::material))},
       {"bar", fixture::make_block(37, 1, 1, LinkLaw::paper), false, 0.02, true},
       {"undamped_bar", fixture::make_block(21, 1, 1, LinkLaw::material, 0), false, 0.02, true}};
   for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material}) {
@@ -76,6 +81,7 @@ struct TestedVariant {
   /// hybrids, because devices compile each model of each problem. Variants that compute by others
   /// take a few of these rows: one element, and packs that are full, one short, one over.
   std::vector<Model> tested_models(const Case& c) const {
+    if (c.problem.has_pressure() && !plugin.has_pressure) return {};
     const bool is_row = c.name.starts_with("row_of");
     if (is_composed(plugin) && ((is_row && !is_row_for_all(c)) || !is_for_joined(c))) return {};
     // Another description of finite rotations: the rest is the code of the same oracle.
@@ -90,7 +96,7 @@ struct TestedVariant {
   /// Hybrids and ranks have tests of their own. Their members run all cases.
   bool is_for_joined(const Case& c) const {
     return plugin.devices != nullptr || c.name == "plate" || c.name == "everything" ||
-           c.name == "sponge" || c.name == "lean_sheet_paper";
+           c.name == "sponge" || c.name == "lean_sheet_paper" || c.name == "pressed_plate";
   }
   /// What devices compile: every pairing for the problem with all terms and for the paper's plate.
   /// Other problems take the first pairing. If forces do not depend on velocities, they also take
@@ -174,6 +180,7 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
       if (is_on_device &&
           ((c.name.starts_with("row_of") && !c.name.starts_with("row_of_17")) || !is_for_joined(c)))
         continue;
+      if (c.problem.has_pressure() && !plugin.has_pressure) continue;
       const State state =
           rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
       const State one =

@@ -43,7 +43,7 @@ public:
     const auto all = block_sweeps(division_, rows, sweeps);
     for (const auto& of_block : all)
       orders_.push_back(order_pass(lattice, division_.order, of_block, form, extra));
-    reads_.stages = stages;
+    reads_.sweeps = stages;
     reads_.increments.resize(std::size_t(stages));
     if (stages == 4) reads_.increments.back() = {0, 1, 2};
     reads_.extra = extra_;

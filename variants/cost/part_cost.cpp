@@ -7,14 +7,15 @@ namespace {
 
 /// Times of the passes of an overlapped step, cut as RowExecutor::make_blocks does. Exact for
 /// strips of full rows, approximate for other parts.
-void cut_passes(const PartSize& size, int stages, int reach, double speed, PartTimes& times) {
+void cut_passes(const PartSize& size, StepSweeps sweeps, int reach, double speed,
+                PartTimes& times) {
   const auto has = [&](Side side) {
     return std::ranges::any_of(size.faces,
                                [&](const PartSize::Face& face) { return face.side == side; });
   };
   // Time of one row in one stage.
   const double row_s = double(size.row_elements[0]) / size.own_rows / speed;
-  const int halo = stages * reach;
+  const int stages = sweeps.stages, halo = sweeps.count() * reach;
   const bool is_split = has(Side::upper) && size.own_rows >= 4 * halo;
   // Its last stage has `halo` rows. Each stage before has one reach more on both sides.
   if (is_split) times.upper_s = row_s * stages * (halo + reach * (stages - 1));
@@ -28,26 +29,28 @@ void cut_passes(const PartSize& size, int stages, int reach, double speed, PartT
 
 } // namespace
 
-int halo_depth(const HaloStrategy& strategy, const Method& method) {
-  return strategy.is_every_stage ? 1 : method.stages;
+int halo_depth(const HaloStrategy& strategy, StepSweeps sweeps) {
+  return sweeps.halo(strategy.is_every_stage);
 }
 
-double element_stages(const PartSize& size, const HaloStrategy& strategy, int stages) {
-  if (strategy.is_every_stage) return double(size.row_elements[0]) * stages;
+double element_stages(const PartSize& size, const HaloStrategy& strategy, StepSweeps sweeps) {
+  if (strategy.is_every_stage) return double(size.row_elements[0]) * sweeps.stages;
   double sum = 0;
-  for (std::size_t layer = 0; layer < size.row_elements.size(); ++layer)
-    sum += double(size.row_elements[layer]) * std::max(0, stages - int(layer));
+  for (std::size_t layer = 0; layer < size.row_elements.size(); ++layer) {
+    const int without = (int(layer) + sweeps.a_stage() - 1) / sweeps.a_stage();
+    sum += double(size.row_elements[layer]) * std::max(0, sweeps.stages - without);
+  }
   return sum;
 }
 
-PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, int stages, int reach,
-                     const NodeSpeed& speed) {
+PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, StepSweeps sweeps,
+                     int reach, const NodeSpeed& speed) {
   PartTimes times;
-  times.compute_s = element_stages(size, strategy, stages) / speed.of(strategy);
+  times.compute_s = element_stages(size, strategy, sweeps) / speed.of(strategy);
   times.inner_s = times.compute_s * double(size.inner_elements) /
                   double(std::max<std::size_t>(1, size.row_elements[0]));
   if (strategy.is_overlapped && !strategy.is_every_stage)
-    cut_passes(size, stages, reach, speed.of(strategy), times);
+    cut_passes(size, sweeps, reach, speed.of(strategy), times);
   return times;
 }
 

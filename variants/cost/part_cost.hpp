@@ -5,6 +5,7 @@
 #include "solver/decomposition/part.hpp"
 #include "solver/numerics/method.hpp"
 #include "variants/api/distribution.hpp"
+#include "variants/api/step_sweeps.hpp"
 
 #include <string>
 #include <vector>
@@ -31,17 +32,17 @@ struct PartTimes {
   double edge_s = 0;
 };
 
-/// Layers of halo that a strategy needs: one, or one for each stage of the method.
-int halo_depth(const HaloStrategy& strategy, const Method& method);
+/// Layers of halo that a strategy needs: one for each sweep of a stage, or of a step.
+int halo_depth(const HaloStrategy& strategy, StepSweeps sweeps);
 
 /// Elements times stages that a part computes in a step. Rows are computed whole, and a halo row
 /// only in the stages whose result a later stage reads.
-double element_stages(const PartSize& size, const HaloStrategy& strategy, int stages);
+double element_stages(const PartSize& size, const HaloStrategy& strategy, StepSweeps sweeps);
 
 /// @param size   the part with halo_depth layers
 /// @param reach  largest distance of two linked elements [rows]
-PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, int stages, int reach,
-                     const NodeSpeed& speed);
+PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, StepSweeps sweeps,
+                     int reach, const NodeSpeed& speed);
 
 /// Times and messages of a part in a step under one strategy.
 struct PlannedPart {

@@ -24,13 +24,14 @@ class Trial {
 public:
   Trial(const Setup& whole, const Plugin& plugin, const Decomposition& decomposition, int index,
         const HaloStrategy& strategy)
-      : part_(make_part(whole.problem, decomposition, index, halo_depth(strategy, whole.method))),
+      : part_(make_part(whole.problem, decomposition, index,
+                        halo_depth(strategy, {whole.method, whole.problem}))),
         part_setup_{part_, halo_, strategy.is_every_stage, strategy.is_overlapped},
         setup_{part_.problem, whole.method, whole.model, whole.precision, whole.dt,
                whole.threads, &part_setup_, nullptr,     whole.device},
         executor_(plugin.create(setup_)),
         work_(element_stages(part_size(whole.problem, decomposition, index, part_.depth), strategy,
-                             whole.method.stages)) {
+                             {whole.method, whole.problem})) {
     steps_ = trial_steps([this](long steps) { return run_s(steps); });
   }
   Trial(const Trial&) = delete;

@@ -23,8 +23,9 @@ void PackedRows<T, W>::apply_loads() {
 }
 
 template <class T, int W>
-void PackedRows<T, W>::apply_load(std::size_t n) {
-  const std::size_t components = layout.wrench.size();
+template <class RowAt, class Value>
+void PackedRows<T, W>::add_patterns(std::size_t n, std::size_t components, RowAt&& row_at,
+                                    Value&& value) {
   struct Loaded {
     Place place;
     const Load* load;
@@ -39,17 +40,58 @@ void PackedRows<T, W>::apply_load(std::size_t n) {
     const std::size_t r = all[from].place.row;
     while (to < all.size() && all[to].place.row == r) ++to;
     const int first = all[from].place.pack, packs = all[to - 1].place.pack - first + 1;
-    AppliedRow& row = applied_row(r);
+    AppliedRow& row = row_at(r);
     Buffer<T> values(std::size_t(packs) * components * W, memory);
     for (const auto& [place, load] : std::span(all).subspan(from, to - from))
-      for (std::size_t c = 0; c < components; ++c) {
-        const std::size_t w = std::size_t(layout.wrench[c]);
+      for (std::size_t c = 0; c < components; ++c)
         values.data()[(std::size_t(place.pack - first) * components + c) * W +
-                      std::size_t(place.lane)] = T(w < 3 ? load->force[w] : load->torque[w - 3]);
-      }
+                      std::size_t(place.lane)] = T(value(*load, c));
     row.patterns.push_back({values.data(), int(3 + n), first, packs});
     row.values.push_back(std::move(values));
   }
+}
+
+template <class T, int W>
+void PackedRows<T, W>::apply_load(std::size_t n) {
+  add_patterns(
+      n, layout.wrench.size(), [&](std::size_t r) -> AppliedRow& { return applied_row(r); },
+      [&](const Load& load, std::size_t c) {
+        const std::size_t w = std::size_t(layout.wrench[c]);
+        return w < 3 ? load.force[w] : load.torque[w - 3];
+      });
+}
+
+template <class T, int W>
+void PackedRows<T, W>::apply_face_strains() {
+  if (row_pressures_.empty()) return;
+  face_strains_.resize(rows.size());
+  const auto row_at = [&](std::size_t r) -> AppliedRow& {
+    if (face_strains_[r] == nullptr) face_strains_[r] = std::make_unique<AppliedRow>();
+    return *face_strains_[r];
+  };
+  for (std::size_t n = 0; n < members_.front()->loads.size(); ++n)
+    if (std::ranges::any_of(
+            members_, [&](const Problem* member) { return member->loads[n].face_strain != 0; }))
+      add_patterns(n, 1, row_at,
+                   [](const Load& load, std::size_t) { return 2 * load.face_strain; });
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (face_strains_[r] == nullptr) continue;
+    face_strains_[r]->cover_patterns();
+    row_pressures_[r].loads = &face_strains_[r]->applied;
+  }
+}
+
+template <class T, int W>
+void PackedRows<T, W>::AppliedRow::cover_patterns() {
+  applied.patterns = patterns.data();
+  applied.pattern_count = int(patterns.size());
+  applied.first = patterns.front().first;
+  int end = 0;
+  for (const auto& p : patterns) {
+    applied.first = std::min(applied.first, p.first);
+    end = std::max(end, p.first + p.packs);
+  }
+  applied.packs = end - applied.first;
 }
 
 template <class T, int W>
@@ -91,19 +133,10 @@ void PackedRows<T, W>::hand_out_applied() {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (applied_index_[r] < 0) continue;
     AppliedRow& row = *applied_[std::size_t(applied_index_[r])];
-    row.applied.patterns = row.patterns.data();
-    row.applied.pattern_count = int(row.patterns.size());
-    row.applied.first = 0;
-    row.applied.packs = rows[r].packs;
-    if (row.free_lanes.empty() &&
-        !row.patterns.empty()) { // loads but no clamps: only the packs with a load
-      row.applied.first = row.patterns.front().first;
-      int end = 0;
-      for (const auto& p : row.patterns) {
-        row.applied.first = std::min(row.applied.first, p.first);
-        end = std::max(end, p.first + p.packs);
-      }
-      row.applied.packs = end - row.applied.first;
+    if (!row.patterns.empty()) row.cover_patterns();
+    if (!row.free_lanes.empty()) { // clamps: all packs
+      row.applied.first = 0;
+      row.applied.packs = rows[r].packs;
     }
     row.applied.free_lanes = row.free_lanes.empty() ? nullptr : row.free_lanes.data();
     rows[r].applied = &row.applied;
@@ -112,6 +145,7 @@ void PackedRows<T, W>::hand_out_applied() {
 
 #define DSS_INSTANTIATE(T, W)                                                                      \
   template void PackedRows<T, W>::apply_loads();                                                   \
+  template void PackedRows<T, W>::apply_face_strains();                                            \
   template void PackedRows<T, W>::apply_extra_links(const Problem&);                               \
   template void PackedRows<T, W>::apply_clamps();                                                  \
   template void PackedRows<T, W>::hand_out_applied();

@@ -1,5 +1,6 @@
 #pragma once
 /// Compiles the table of kernel_set.hpp for one model, type and kind of lanes.
+#include "kernels/stage_row/pressure_row.hpp"
 #include "kernels/stage_row/stage_row.hpp"
 #include "variants/engine/kernel_set.hpp"
 
@@ -45,7 +46,7 @@ void compute_link(const ExtraLinkConstants<Number>& link, const T* fields_i, con
     const auto w = S::wrench_of_pair(i, j, axis, link.is_material,
                                      {edge_i, edge_j, R(a.k_s), R(a.k_ns), R(a.k_ts), R(a.d_s),
                                       R(a.d_ns), R(a.d_ts), R(a.k_z), R(a.k_xz), R(a.k_yz),
-                                      R(a.d_z), R(a.d_xz), R(a.d_yz)},
+                                      R(a.d_z), R(a.d_xz), R(a.d_yz), S::no_pressure()},
                                      {edge_i, edge_i * half, R(b.tau), R(b.kt2), R(b.dt)},
                                      {edge_j, edge_j * half, R(b.tau), R(b.kt2), R(b.dt)});
     typename S::vec back = w.force;
@@ -76,7 +77,7 @@ struct RowKernels {
   static constexpr bool has_own_functions =
       (has_all_kernels ||
        (model == Model::spatial && kind == LaneKind::neighbours && !terms.is_full())) &&
-      kind != LaneKind::filled &&
+      kind != LaneKind::filled && !terms.has_pressure &&
       (is_single || is_ensemble ? P::is_common && !terms.is_full() : P::is_common || has_packs);
   /// The rest of the actions: in line in common damped rows, else called for each pack.
   static constexpr int rest = P::is_common && terms.is_damped && !terms.is_oblong &&
@@ -91,20 +92,26 @@ struct RowKernels {
     row.template run<fields>(update);
     return simd::is_zero(row.checked(update.check()));
   }
+  /// Rows beside those of a body with pressures have more numbers.
+  template <int action, int fields>
+  static bool run_own(const RowTask<T>& task) {
+    if (task.stride != fields * simd::lanes<T>) return run_stage<rest, any_fields>(task);
+    return run_stage<action, fields>(task);
+  }
   static bool stage(const RowTask<T>& task) {
     if constexpr (has_own_functions) {
       switch (task.action) {
       case plain_stage:
-        return run_stage<plain_stage, P::fields>(task);
+        return run_own<plain_stage, P::fields>(task);
       case combined_stage:
-        return run_stage<combined_stage, P::fields>(task);
+        return run_own<combined_stage, P::fields>(task);
       case in_place:
-        return run_stage<in_place, leapfrog_fields>(task);
+        return run_own<in_place, leapfrog_fields>(task);
       case kept_stage:
-        if constexpr (is_single && has_packs) return run_stage<kept_stage, 2 * P::fields>(task);
+        if constexpr (is_single && has_packs) return run_own<kept_stage, 2 * P::fields>(task);
         break;
       case kept_step:
-        if constexpr (is_single && has_packs) return run_stage<kept_step, 2 * P::fields>(task);
+        if constexpr (is_single && has_packs) return run_own<kept_step, 2 * P::fields>(task);
         break;
       default:
         break;
@@ -113,8 +120,9 @@ struct RowKernels {
     }
     return run_stage<any_action, any_fields>(task);
   }
-  DSS_FLATTEN static void prime(const RowTask<T>& task, int axis) {
-    const StageRow<P, T, terms, kind> row{task};
+  template <class Row>
+  DSS_FLATTEN static void prime_with(const RowTask<T>& task, int axis) {
+    const Row row{task};
     if constexpr (kind == LaneKind::neighbours)
       if (axis == 0) row.prime_x();
     if constexpr (P::axes > 1)
@@ -122,12 +130,24 @@ struct RowKernels {
     if constexpr (P::axes > 2)
       if (axis == 2) row.prime(2);
   }
+  DSS_FLATTEN static void pressure(const RowTask<T>& task) {
+    PressureRow<P, T, terms, kind>(task).run();
+  }
 
   static constexpr KernelSet<T> make_set() {
+    KernelSet<T> made{};
+    made.terms = terms;
+    made.stage = stage;
+    made.prime = prime_with<StageRow<P, T, terms, kind>>;
+    if constexpr (terms.has_pressure) {
+      made.pressure = pressure;
+      made.prime_pressure = prime_with<PressureRow<P, T, terms, kind>>;
+    }
     if constexpr (is_ensemble)
-      return {terms, stage, prime, nullptr, compute_link<model, T, simd::Pack<T>, LaneNumbers<T>>};
+      made.member_links = compute_link<model, T, simd::Pack<T>, LaneNumbers<T>>;
     else
-      return {terms, stage, prime, compute_link<model, T, T, T>, nullptr};
+      made.extra_link = compute_link<model, T, T, T>;
+    return made;
   }
 
   static constexpr KernelSet<T> set = make_set();

@@ -3,6 +3,7 @@
 /// engine around them is compiled only once for each precision.
 #include "kernels/model.hpp"
 #include "kernels/physics.hpp"
+#include "kernels/stage_row/element_pressure.hpp"
 #include "kernels/stage_row/row.hpp"
 
 #include <array>
@@ -13,7 +14,7 @@ namespace dss {
 /// The combinations of terms that are compiled: for each law from lean to full. A problem takes the
 /// first one that covers what it needs. Each row of this table costs compile time (README.md).
 inline constexpr std::array compiled_terms{
-    // material, damped, bending, gyroscopic, tied, oblong, two shears
+    // material, damped, bending, gyroscopic, tied, oblong, two shears, pressure
     Terms{false, false, false, false, false, false},
     Terms{false, true, false, false, false, false},
     Terms{false, true, false, false, false, true},
@@ -23,6 +24,9 @@ inline constexpr std::array compiled_terms{
     Terms{true, true, false, false, false, false, true},
     Terms{true, true, true, true, true, false},
     Terms{true, true, true, true, true, false, true},
+    Terms{true, true, false, false, false, false, false, true},
+    Terms{true, true, false, false, false, false, true, true},
+    Terms{true, true, true, true, true, false, true, true},
 };
 
 /// False with DSS_FEWER_KERNELS: only the models planar and spatial, whose rows are damped, or
@@ -41,6 +45,7 @@ inline constexpr bool has_all_kernels = true;
 /// rows have both.
 constexpr bool is_compiled(Model model, const Terms& terms) {
   if (!has_all_kernels && (!terms.is_damped || (terms.is_oblong && !terms.is_full()))) return false;
+  if (terms.has_pressure && pressure_parts(model, terms).count() == 0) return false;
   if (terms.is_material && terms.has_two_shears != terms.is_full()) return model == Model::spatial;
   if (model == Model::spatial || model == Model::planar) return true;
   return terms.is_full() || terms.is_material || !terms.is_oblong;
@@ -53,6 +58,7 @@ struct RowShape {
   /// Numbers of an element in a leapfrog row. They include half-step velocities if forces depend on
   /// velocities.
   int leapfrog_fields = 0;
+  int pressure_fields = 0; ///< numbers of its pressure
 };
 /// The shape of the rows of a body.
 /// @throws std::logic_error if no compiled combination covers what the body needs
@@ -79,6 +85,10 @@ struct KernelSet {
   /// axis (1 or 2; of a piece of a cut row also 0). A block of rows needs them from the row before
   /// its first.
   void (*prime)(const RowTask<T>& task, int axis);
+  /// Computes the pressures of a row's elements at its `in`, which is its `out` too, and, as prime,
+  /// only the strains that a row leaves for the next. Null for terms without pressure.
+  void (*pressure)(const RowTask<T>& task);
+  void (*prime_pressure)(const RowTask<T>& task, int axis);
   /// Computes an extra link, or of an ensemble the same link of all members.
   /// @param i, j                fields of the two elements; of an ensemble: packs
   /// @param wrench_i, wrench_j  output: the link's force, then moment, in units of its body

@@ -1,12 +1,10 @@
 #include "variants/engine/packed_rows.hpp"
 
-#include "solver/error.hpp"
 #include "solver/model/needed_terms.hpp"
 #include "variants/engine/packs.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <utility>
 
@@ -18,7 +16,8 @@ RowShape row_shape(Model model, const Terms& need) {
     const ModelDescriptor& layout = descriptor(model);
     const int all = int(layout.wrench.size());
     return {terms, terms.has_couples() ? all : layout.vec_size(),
-            int(layout.fields.size()) + (terms.is_velocity_dependent() ? all : 0)};
+            int(layout.fields.size()) + (terms.is_velocity_dependent() ? all : 0),
+            pressure_parts(model, terms).count()};
   }
   throw std::logic_error("kernel_set.hpp: no compiled combination covers the terms of the problem");
 }
@@ -65,10 +64,6 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
       members_(ensemble != nullptr && !ensemble->members.empty() ? ensemble->members
                                                                  : std::vector{&problem}),
       applied_index_(lattice.rows.size(), -1) {
-  if (problem.has_pressure())
-    throw InputError(
-        fmt::format("{}: this variant {}; give --variant reference, or G in place of nu",
-                    problem.name, pressure_is_missing));
   if (is_ensemble() && members_.size() != std::size_t(W))
     throw std::logic_error("packed_rows.hpp: an ensemble has a member a lane");
   reach = lattice.row_reach();
@@ -95,9 +90,11 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
   set_place_sizes();
   mark_links();
   set_link_constants();
+  set_pressures();
   if constexpr (W == simd::lanes<T>) maps_ = LaneMaps<T>(filled, cells); // only these are filled
   for (std::size_t r = 0; r < rows.size(); ++r) rows[r].maps = maps_.of_row(r);
   apply_loads();
+  apply_face_strains();
   apply_extra_links(problem);
   apply_clamps();
   hand_out_applied();
@@ -137,6 +134,7 @@ void PackedRows<T, W>::choose_shapes(const Problem& problem, Model model) {
   for (const RowShape& shape : shapes_) {
     carry_size = std::max(carry_size, shape.carry_components * W);
     leapfrog_fields = std::max(leapfrog_fields, shape.leapfrog_fields);
+    pressure_fields = std::max(pressure_fields, shape.pressure_fields);
   }
 }
 
@@ -216,6 +214,22 @@ void PackedRows<T, W>::set_link_constants() {
 }
 
 template <class T, int W>
+void PackedRows<T, W>::set_pressures() {
+  if (pressure_fields == 0) return;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    pressures_.add_packs(lattice.rows[r].body, rows[r].packs, [&](auto&& visit) {
+      each_element(int(r), [&](std::size_t element, int x) {
+        visit(element / members_.size(), x - rows[r].first_pack * W);
+      });
+    });
+  pressures_.finish();
+  for (const PackedRow<T>& row : rows)
+    row_pressures_.push_back({pressures_.lanes().data(), &pressures_.index()[row.pack_offset]});
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (rows[r].shape.pressure_fields > 0) rows[r].pressure = &row_pressures_[r];
+}
+
+template <class T, int W>
 std::size_t PackedRows<T, W>::bytes() const {
   std::size_t sum = rows.size() * sizeof(PackedRow<T>) + applied_index_.size() * sizeof(int) +
                     filled.bytes() + maps_.bytes() + links_.bytes();
@@ -228,6 +242,10 @@ std::size_t PackedRows<T, W>::bytes() const {
     for (const Buffer<T>& values : row->values) sum += values.bytes();
   }
   for (const Buffer<T>& wrench : extra_) sum += wrench.bytes();
+  sum += pressures_.bytes() + row_pressures_.size() * sizeof(row_pressures_[0]);
+  for (const auto& row : face_strains_)
+    for (std::size_t n = 0; row != nullptr && n < row->values.size(); ++n)
+      sum += sizeof(AppliedRow) + row->values[n].bytes();
   return sum;
 }
 

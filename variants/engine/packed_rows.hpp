@@ -3,10 +3,12 @@
 #include "kernels/model.hpp"
 #include "solver/decomposition/part.hpp"
 #include "solver/model/ensemble.hpp"
+#include "variants/api/step_sweeps.hpp"
 #include "variants/engine/buffer.hpp"
 #include "variants/engine/kernel_set.hpp"
 #include "variants/engine/lane_maps.hpp"
 #include "variants/engine/link_table.hpp"
+#include "variants/engine/pressure_table.hpp"
 
 #include <optional>
 #include <set>
@@ -34,7 +36,8 @@ struct PackedRow {
   const int* link_index = nullptr;                        ///< as in RowTask
   const PackMasks* masks = nullptr;
   const Applied<T>* applied = nullptr;
-  const PackMaps<T>* maps = nullptr; ///< null if neighbours have the same lanes
+  const RowPressure<T>* pressure = nullptr; ///< null if its elements have none
+  const PackMaps<T>* maps = nullptr;        ///< null if neighbours have the same lanes
 };
 
 /// @tparam W  lanes of a pack: those of the module, or of a device
@@ -71,6 +74,7 @@ public:
   int tiled_packs = 0;          ///< packs of the longest row that is not merged
   int carry_size = 0; ///< numbers of a pack in a carry buffer; the largest over the bodies
   int leapfrog_fields = 0;
+  int pressure_fields = 0; ///< numbers of an element's pressure; the most over the bodies
   int fields() const { return int(layout.fields.size()); }
   bool is_cut() const { return !cut.cuts.empty(); }
   /// A row's first pack, counted from the start of the body's grid, or of the piece.
@@ -81,6 +85,7 @@ public:
   }
   const LaneMaps<T>& maps() const { return maps_; }
   const LinkTable<T, W>& links() const { return links_; }
+  const PressureTable<T, W>& pressures() const { return pressures_; }
   /// Calls visit(element, x) for each element of a row, in ascending x of `lattice`.
   template <class Visit>
   void each_element(int row, Visit&& visit) const {
@@ -111,10 +116,12 @@ public:
   /// From the first row with an own element to behind the last such row. A whole problem: all rows.
   int own_begin = 0, own_end = 0;
   bool is_part() const { return part_ != nullptr; }
-  /// Whether a row is computed in a stage after which `stages_left` more follow before the next
+  /// The sweeps of a step.
+  StepSweeps sweeps(const Method& method) const { return {method, *members_.front()}; }
+  /// Whether a row is computed in a sweep after which `sweeps_left` more follow before the next
   /// exchange. Each of these needs one layer of halo less.
-  bool is_computed(int row, int stages_left) const {
-    return row_layer_.empty() || row_layer_[std::size_t(row)] <= stages_left;
+  bool is_computed(int row, int sweeps_left) const {
+    return row_layer_.empty() || row_layer_[std::size_t(row)] <= sweeps_left;
   }
   /// Whether computing a row reads halo elements, in the row itself or in a row beside it.
   bool reads_halo(int row) const;
@@ -148,6 +155,8 @@ private:
     std::vector<typename Applied<T>::Pattern> patterns;
     std::vector<Buffer<T>> values;
     std::vector<simd::LaneMask> free_lanes;
+    /// Lets `applied` have all patterns, on the packs of these.
+    void cover_patterns();
   };
   void set_place_sizes();
   void choose_shapes(const Problem& problem, Model model);
@@ -155,8 +164,15 @@ private:
   void find_layers();
   void mark_links();
   void set_link_constants();
+  void set_pressures();
+  void apply_face_strains();
   void apply_loads();
   void apply_load(std::size_t n);
+  /// Adds a pattern of load n to each row with loaded elements.
+  /// @param row_at  (row) -> what the pattern is added to
+  /// @param value   (load, component) -> at signal value 1
+  template <class RowAt, class Value>
+  void add_patterns(std::size_t n, std::size_t components, RowAt&& row_at, Value&& value);
   void apply_clamps();
   void apply_extra_links(const Problem& problem);
   void hand_out_applied();
@@ -170,6 +186,10 @@ private:
   std::vector<RowShape> shapes_;
   std::vector<const Problem*> members_;
   LinkTable<T, W> links_{members_};
+  PressureTable<T, W> pressures_{members_};
+  /// Of each row, if any has pressures.
+  std::vector<RowPressure<T>> row_pressures_;
+  std::vector<std::unique_ptr<AppliedRow>> face_strains_;    ///< of each row; may be null
   std::vector<BodyConstants<T>> bodies_;                     ///< unless it is an ensemble
   std::vector<BodyConstants<LaneNumbers<T>>> member_bodies_; ///< of an ensemble
   /// Equal rows share them, so that they stay in L1.

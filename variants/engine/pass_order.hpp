@@ -1,17 +1,20 @@
 #pragma once
-/// The order of the tasks of a pass over rows (DESIGN.md section 4). A pass makes one sweep for
-/// each stage of its steps. Sweeps follow one another over the rows, so that a row is used again
+/// The order of the tasks of a pass over rows (DESIGN.md section 4). A pass makes the sweeps of its
+/// steps (step_sweeps.hpp). Sweeps follow one another over the rows, so that a row is used again
 /// while it is in the cache.
+#include "variants/api/step_sweeps.hpp"
 #include "variants/engine/row_order.hpp"
 
 #include <string>
 
 namespace dss {
 
-/// What a task does: a stage of a row, or only links that the row leaves for upper rows; an extra
-/// link; or the sum of a row's extra links, before its stage.
+/// What a task does: a stage of a row, or the pressures at its input; only links that the row
+/// leaves for upper rows in one of both; an extra link; or the sum of a row's extra links, before
+/// its stage.
 enum class RowWork : std::uint8_t {
   stage,
+  pressure,
   upper_links,
   upper_link_x,
   upper_link_y,
@@ -23,7 +26,12 @@ enum class RowWork : std::uint8_t {
 /// Whether a task computes the links that a row leaves for its upper row across an axis.
 constexpr bool leaves_links(RowWork work, int axis) {
   constexpr RowWork alone[] = {RowWork::upper_link_x, RowWork::upper_link_y, RowWork::upper_link_z};
-  return work == RowWork::stage || work == RowWork::upper_links || work == alone[axis];
+  return work == RowWork::stage || work == RowWork::pressure || work == RowWork::upper_links ||
+         work == alone[axis];
+}
+/// Whether a task reads the links that lower rows left.
+constexpr bool reads_links(RowWork work) {
+  return work == RowWork::stage || work == RowWork::pressure || work == RowWork::upper_links;
 }
 
 struct PassTask {
@@ -94,9 +102,10 @@ struct SweepForm {
 /// rows that a sweep
 ///   needs beside its own), or a halo higher (seams.hpp)
 /// @param extra   of each extra link; its rows are at most a halo apart
+/// @param kinds   those of a step
 std::vector<PassTask> order_pass(const Lattice& lattice, const RowOrder& rows,
                                  std::span<const SweepRows> sweeps, SweepForm form,
-                                 std::span<const LinkedRows> extra = {});
+                                 std::span<const LinkedRows> extra = {}, StepSweeps kinds = {});
 
 /// Most rows across the sweeps' direction, over all bodies without extra links; 0 if there are
 /// none.

@@ -64,8 +64,9 @@ template <class T, int W>
 int steps_a_pass(const PackedRows<T, W>& packed, const Method& method, int blocks, int halo) {
   if (!method.is_in_place() || packed.is_part()) return 1;
   int steps = packed.reach <= 1 || packed.is_cut() ? 8 : 4;
+  const int sweeps = packed.sweeps(method).count();
   const int rows = int(packed.rows.size()) / blocks;
-  while (steps > 1 && blocks > 1 && 2 * steps * halo > rows) --steps;
+  while (steps > 1 && blocks > 1 && 2 * steps * sweeps * halo > rows) --steps;
   return steps;
 }
 
@@ -92,10 +93,10 @@ static double bytes_across(const PackedRows<T, W>& packed, const Method& method,
                            const RowStorage& storage, int steps) {
   // Planes of rows between the first and the last touch of a row: of the state and of the links one
   // for each sweep, of the output of a stage those up to its last reader.
-  const int sweeps = steps * method.stages;
+  const int sweeps = steps * packed.sweeps(method).count();
   double planes = sweeps * (1 + double(packed.carry_size) / (storage.stored() * W));
   for (int stage = 0; stage + 1 < method.stages; ++stage)
-    planes += last_reader(method, stage) - stage;
+    planes += (last_reader(method, stage) - stage) * packed.sweeps(method).a_stage();
   return planes * double(packed.tiled_packs) * storage.stored() * W * sizeof(T);
 }
 
@@ -125,7 +126,7 @@ RowCuts choose_cuts(const PackedRows<T, W>& packed, const Method& method, const 
   constexpr double share = 2.0 / 3;
   const int width =
       asked > 0 ? (asked + W - 1) / W : int(share * double(tile_bytes()) / pack_bytes);
-  return cut_for_tiles(first, end, width, steps * method.stages, W);
+  return cut_for_tiles(first, end, width, steps * packed.sweeps(method).count(), W);
 }
 
 template <class T, int W>

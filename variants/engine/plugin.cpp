@@ -18,6 +18,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .is_distributed = false,
                                       .create = dss::create_row_executor,
                                       .kernels = dss::compiled_kernels,
+                                      .has_pressure = true,
                                       .has_tiles = true,
                                       .ensemble_lanes = ensemble_lanes};
   return &plugin;

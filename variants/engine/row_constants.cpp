@@ -22,6 +22,7 @@ BodyConstants<T> body_constants(const Body& body, const Stabilization& tie) {
   for (std::size_t a = 0; a < 3; ++a) {
     c.edge[a] = T(body.edge[a]);
     c.half_edge[a] = c.edge[a] / 2;
+    c.inverse_edge[a] = T(1 / body.edge[a]);
     set_material_constants(c.axis[a], body.axis[a], int(a));
     c.inertia[a] = T(body.inertia[a] / unit);
     c.inverse_inertia[a] = T(unit / body.inertia[a]);

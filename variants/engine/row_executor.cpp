@@ -76,7 +76,7 @@ std::string_view RowExecutor<T>::why_staged() {
   // Else sweeps would differ by more than a block, so that threads would compute in turn.
   const ExtraLinks<T> extra_links(packed_);
   const long halo = divide_rows(packed_, extra_links.rows(), setup_.threads).halo;
-  if (setup_.method.stages * halo * setup_.threads > long(packed_.rows.size()))
+  if (sweeps_.count() * halo * setup_.threads > long(packed_.rows.size()))
     return "extra links join distant rows of several threads";
   return "";
 }
@@ -88,12 +88,12 @@ void RowExecutor<T>::make_blocks() {
   const ExtraLinks<T> extra_links(packed_);
   division_ = divide_rows(packed_, extra_links.rows(), setup_.threads);
   shape_.steps = steps_a_pass(packed_, method, std::min(setup_.threads, rows), division_.halo);
-  const int sweeps = shape_.steps * method.stages;
+  const int sweeps = shape_.steps * sweeps_.count();
   cut_evenly(division_, packed_, setup_.threads, sweeps);
   threads_ = division_.blocks();
   // The rows that the upper neighbours wait for are the last ones of a block that is computed
   // first.
-  const int halo = method.stages * division_.halo, edge = packed_.own_end - halo;
+  const int halo = sweeps_.count() * division_.halo, edge = packed_.own_end - halo;
   if (is_part() && part_->is_overlapped && threads_ == 1 && packed_.own_end < rows &&
       edge - packed_.own_begin >= 3 * halo)
     division_.cuts = {packed_.own_begin, edge + division_.halo - halo, packed_.own_end};
@@ -174,14 +174,15 @@ void RowExecutor<T>::restore(std::size_t first, std::span<const double> kept) {
 }
 
 // A row's input is its own fields and those of its upper rows, so copies of the next `reach` rows
-// are enough.
+// are enough; with pressures, which have the same inputs, as many more.
 template <class T>
 template <class Rates, class Done>
 void RowExecutor<T>::evaluate(std::span<const double> signals, Rates&& rates, Done&& done) {
   refresh_halo();
-  const int rows = int(packed_.rows.size()), kept = packed_.reach + 1;
+  const int rows = int(packed_.rows.size()), reach = packed_.reach;
+  const int kept = sweeps_.a_stage() * reach + 1;
   const std::size_t row_size =
-      std::size_t(packed_.max_packs + 1) * std::size_t(packed_.fields() * W);
+      std::size_t(packed_.max_packs + 1) * std::size_t(rows_.plain_fields() * W);
   Buffer<T> plain(std::size_t(kept) * row_size), zero(row_size), ones(std::size_t{W});
   const auto plain_row = [&](int r) { return plain.data() + std::size_t(r % kept) * row_size; };
   ExtraLinks<T> extra_links(packed_);
@@ -192,12 +193,20 @@ void RowExecutor<T>::evaluate(std::span<const double> signals, Rates&& rates, Do
   StepSignals<T> values(signal_count(setup_.problem), 1, packed_.members().size());
   std::fill_n(ones.data(), W, T(1));
   values.set(signals.data(), 1);
-  CarryRings<T> carry(packed_);
-  for (int r = 0, copied = 0; r < rows; ++r) {
+  CarryRings<T> carry(packed_), strains(packed_);
+  for (int r = 0, copied = 0, pressed = 0; r < rows; ++r) {
     for (; copied < std::min(rows, r + kept); ++copied)
       rows_.copy_plain_row(copied, row(copied), plain_row(copied));
+    for (; sweeps_.has_pressure && pressed < std::min(rows, r + reach + 1); ++pressed) {
+      RowTask<T> task;
+      set_row(task, packed_, pressed, rows_.plain_fields(), strains, plain_row);
+      task.signals = values.stage(0);
+      task.out = plain_row(pressed);
+      const FlushDenormals guard;
+      find_pressures(*packed_.rows[std::size_t(pressed)].kernels, task);
+    }
     RowTask<T> task;
-    set_row(task, packed_, r, packed_.fields(), carry, plain_row);
+    set_row(task, packed_, r, rows_.plain_fields(), carry, plain_row);
     task.signals = values.stage(0);
     task.base = zero.data(); // out = 0 + 1 f
     task.out = rates(r);
@@ -237,7 +246,7 @@ void RowExecutor<T>::stop_leapfrog() {
 
 template <class T>
 void RowExecutor<T>::start_leapfrog(std::span<const double> signals) {
-  Buffer<T> rates(std::size_t(packed_.max_packs) * std::size_t(packed_.fields() * W));
+  Buffer<T> rates(std::size_t(packed_.max_packs) * std::size_t(rows_.plain_fields() * W));
   evaluate(
       signals, [&](int) { return rates.data(); }, [&](int r) { rows_.start_row(r, rates.data()); });
   blocks_.publish_all(parity_);
@@ -337,7 +346,7 @@ template <class T>
 void RowExecutor<T>::step_overlapped(const double* signals, long pass, int parity, bool is_last) {
   const bool is_split = wavefront_->steps().size() == 2;
   const int edge =
-      std::min(packed_.own_begin + setup_.method.stages * packed_.reach, packed_.own_end) - 1;
+      std::min(packed_.own_begin + sweeps_.count() * packed_.reach, packed_.own_end) - 1;
   overlapped_step(
       part_->halo, parity, parity ^ 1, is_last, is_split,
       [&] { wavefront_->pass(1, signals, 1, parity, pass); },

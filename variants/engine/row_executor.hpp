@@ -84,8 +84,8 @@ private:
   }
   /// Exchanges the whole halo of the present state. All parts must call it.
   void refresh_halo();
-  /// Computes the rates of all model fields at the present state, in packs of packed_.fields()
-  /// fields, row by row in the order of numbers. A row may be changed when it is done.
+  /// Computes the rates of all model fields at the present state, in plain packs, row by row in the
+  /// order of numbers. A row may be changed when it is done.
   /// @param rates  (row) -> where its rates go
   /// @param done   called with each row after its rates
   template <class Rates, class Done>
@@ -123,6 +123,7 @@ private:
   static Rows make_rows(const Setup& setup);
   const Rows made_;
   PackedRows<T>& packed_ = *made_.packed;
+  const StepSweeps sweeps_{setup_.method, setup_.problem};
   StateRows<T> rows_;
   std::string_view why_staged_;
   RowDivision division_; ///< of the wavefront

@@ -14,17 +14,18 @@ namespace dss {
 /// 2. if the method is staggered and forces depend on velocities: the velocities of the half step
 /// (those among the fields are then predictions);
 /// 3. in compensated precision: a low part for each field, in the order of the fields; if there are
-///    half-step velocities, the low parts of the velocities are theirs.
+///    half-step velocities, the low parts of the velocities are theirs;
+/// 4. if elements have a pressure: its numbers, which belong to the row as the input of a stage.
 /// In 3. the rows of stages hold increments instead of low parts.
 struct RowStorage {
-  int fields = 0, half_velocities = 0, lows = 0;
+  int fields = 0, half_velocities = 0, lows = 0, pressures = 0;
   template <class T, int W>
   RowStorage(const PackedRows<T, W>& packed, const Method& method, Precision precision)
       : fields(packed.fields()),
         half_velocities(method.is_staggered() ? packed.leapfrog_fields - packed.fields() : 0),
-        lows(precision == Precision::f32c ? fields : 0) {}
+        lows(precision == Precision::f32c ? fields : 0), pressures(packed.pressure_fields) {}
 
-  int stored() const { return fields + half_velocities + lows; }
+  int stored() const { return fields + half_velocities + lows + pressures; }
   int first_low() const { return fields + half_velocities; }
   bool is_predicted() const { return half_velocities > 0; }
   bool is_compensated() const { return lows > 0; }

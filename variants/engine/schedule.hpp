@@ -65,6 +65,7 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   task.link_index = p.link_index;
   task.live_lanes = &packed.live_lanes;
   task.applied = p.applied;
+  task.pressure = p.pressure;
   task.in = input(row);
   task.ahead = r.upper_x >= 0 ? input(r.upper_x) : task.in + p.packs * pack_size;
   if (r.upper_x >= 0) task.carry_x = carry.x(row);
@@ -75,12 +76,26 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   if (r.lower_z >= 0) task.from_z = carry.z(r.lower_z) + carry_offset;
 }
 
-/// Computes only the links that a row leaves for its upper neighbours.
+/// Finds the pressures of a row, if its elements have any.
 template <class T>
-void prime_uppers(const KernelSet<T>& kernels, const RowTask<T>& task) {
-  if (task.carry_x != nullptr) kernels.prime(task, 0);
-  if (task.upper_y != nullptr) kernels.prime(task, 1);
-  if (task.upper_z != nullptr) kernels.prime(task, 2);
+void find_pressures(const KernelSet<T>& kernels, const RowTask<T>& task) {
+  if (task.pressure != nullptr) kernels.pressure(task);
+}
+/// Computes only the links that a row leaves for its upper neighbour across an axis; their strains
+/// in a sweep for pressures.
+template <class T>
+void leave_links(const KernelSet<T>& kernels, const RowTask<T>& task, int axis, bool is_pressure) {
+  if (!is_pressure)
+    kernels.prime(task, axis);
+  else if (task.pressure != nullptr)
+    kernels.prime_pressure(task, axis);
+}
+/// The same for all upper neighbours.
+template <class T>
+void prime_uppers(const KernelSet<T>& kernels, const RowTask<T>& task, bool is_pressure = false) {
+  if (task.carry_x != nullptr) leave_links(kernels, task, 0, is_pressure);
+  if (task.upper_y != nullptr) leave_links(kernels, task, 1, is_pressure);
+  if (task.upper_z != nullptr) leave_links(kernels, task, 2, is_pressure);
 }
 
 /// Calls visit(row, task, axis) for the links that rows before `begin` leave for rows from `begin`

@@ -52,7 +52,7 @@ Seams::Seams(const Lattice& lattice, const RowDivision& division,
               end = std::min(int(is_near_.size()), high.begin + division.halo);
     std::fill(is_near_.begin() + begin, is_near_.begin() + end, true);
   }
-  if (reads_.stages == 1) find_overwritten(orders);
+  if (reads_.sweeps.stages == 1) find_overwritten(orders);
   hand_over(orders);
   make_waits(orders);
   make_events();
@@ -81,28 +81,32 @@ int Seams::handed_over(int block, int output, int row) const {
   return found == places.end() ? nowhere : found->second;
 }
 
+int Seams::input_of(int block, const PassTask& task, int row) const {
+  const StepSweeps& sweeps = reads_.sweeps;
+  if (const int stage = sweeps.stage(task.sweep); stage > 0) return stage - 1;
+  const int overwriting = sweeps.of_stage(sweeps.stage_of_pass(task.sweep));
+  const bool is_kept =
+      overwritten_.contains(key(overwriting, row)) && owner(overwriting, row, block) > block;
+  return is_kept ? overwriting : state;
+}
+
 /// Calls visit(output, row, is_written) for all that a task touches, with `state` for the state.
 template <class Visit>
 void Seams::each_touch(int block, const PassTask& task, Visit&& visit) const {
-  const int stage = task.sweep % reads_.stages;
-  const bool is_single = reads_.stages == 1;
+  const int stage = reads_.sweeps.stage(task.sweep), stages = reads_.sweeps.stages;
   const auto touch = [&](int output, int row, bool is_written = false) {
     if (is_near(row)) visit(output, row, is_written);
   };
   each_input(lattice_, reads_.extra, task, [&](int row) {
-    if (!is_near(row)) return;
-    if (stage > 0)
-      touch(stage - 1, row);
-    else if (overwritten_.contains(key(task.sweep, row)) && owner(task.sweep, row, block) > block)
-      touch(int(task.sweep), row);
-    else
-      touch(state, row);
+    if (is_near(row)) visit(input_of(block, task, row), row, false);
   });
+  if (task.work == RowWork::pressure && is_near(task.row))
+    visit(input_of(block, task, task.row), task.row, true);
   if (task.work != RowWork::stage) return;
   touch(state, task.row);
   for (const int m : reads_.increments[std::size_t(stage)]) touch(m, task.row);
-  if (is_single) touch(int(task.sweep), task.row, true);
-  if (stage + 1 < reads_.stages)
+  if (stages == 1) touch(int(task.sweep), task.row, true);
+  if (stage + 1 < stages)
     touch(stage, task.row, true);
   else
     touch(state, task.row, true);
@@ -120,7 +124,7 @@ void Seams::hand_over(const std::vector<std::vector<PassTask>>& orders) {
     for (const PassTask& task : orders[std::size_t(b)])
       each_touch(b, task, [&](int output, int row, bool) {
         if (output == state) return;
-        const int from = owner(output, row, b);
+        const int from = owner(writer(output), row, b);
         if (from == b) return;
         BlockSeams& block = blocks_[std::size_t(from)];
         if (!block.places.emplace(key(output, row), block.size).second) return;

@@ -22,7 +22,7 @@ std::vector<std::vector<SweepRows>> block_sweeps(const RowDivision& division, in
 
 /// What a pass reads and writes, as far as other blocks may touch it too.
 struct PassReads {
-  int stages; ///< of a step; sweep n computes stage n % stages
+  StepSweeps sweeps; ///< of a step
   /// Of each stage, the stages whose outputs the update reads.
   std::vector<std::vector<int>> increments;
   std::span<const LinkedRows> extra; ///< rows of the extra links
@@ -81,6 +81,12 @@ private:
   };
   using Touches = std::unordered_map<Key, std::vector<LastTouch>>;
   static constexpr int state = -1; ///< as an output
+  /// The output that is a task's input of a row.
+  int input_of(int block, const PassTask& task, int row) const;
+  /// The sweep that writes an output.
+  int writer(int output) const {
+    return reads_.sweeps.stages == 1 ? output : reads_.sweeps.of_stage(output);
+  }
   static Key key(int output, int row) { return Key(unsigned(row)) << 32 | unsigned(output + 1); }
   bool is_near(int row) const { return is_near_[std::size_t(division_.order.place(row))]; }
   void find_overwritten(const std::vector<std::vector<PassTask>>& orders);

@@ -17,7 +17,7 @@ template <class T, int W>
 StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Method& method, double dt,
                              const RowStorage& storage, int threads, const PartSetup* exchange,
                              bool is_swapped)
-    : packed_(packed), method_(method), exchange_(exchange),
+    : packed_(packed), method_(method), sweeps_(packed.sweeps(method)), exchange_(exchange),
       is_swapped_(is_swapped || method.stages == 1), fields_(storage.stored()),
       pack_size_(std::size_t(fields_) * std::size_t(W)), cuts_(cut_rows(packed, threads)),
       failed_(cuts_.size() - 1), storage_(storage),
@@ -55,10 +55,13 @@ void StagedRows<T, W>::plan_rows() {
               end = t + 1 == threads ? rows : cuts_[std::size_t(t) + 1];
     plan_.emplace_back();
     for (int s = 0; s < method_.stages; ++s) {
-      const int stages_left =
-          exchange_ != nullptr && exchange_->is_every_stage ? 0 : method_.stages - 1 - s;
-      const auto is_computed = [&](int r) { return packed_.is_computed(r, stages_left); };
+      const int left =
+          exchange_ != nullptr && exchange_->is_every_stage ? 0 : sweeps_.left(sweeps_.of_stage(s));
+      const auto is_computed = [&](int r) { return packed_.is_computed(r, left); };
       StageRows stage;
+      if (sweeps_.has_pressure)
+        stage.pressures =
+            actions(begin, end, [&](int r) { return packed_.is_computed(r, left + 1); });
       if (is_overlapped)
         stage.inner =
             actions(begin, end, [&](int r) { return is_computed(r) && !packed_.reads_halo(r); });
@@ -100,6 +103,25 @@ void StagedRows<T, W>::compute(int thread, int stage, const StepSignals<T>& sign
     if (const auto element = packed_.first_failed(r, task.out, fields_))
       failed = std::min(*element, failed.value_or(*element));
   }
+}
+
+template <class T, int W>
+RowTask<T> StagedRows<T, W>::pressure_task(int thread, int stage, int r) {
+  RowTask<T> task = task_of(thread, stage, r, false);
+  task.out = stage_row(stage, r);
+  return task;
+}
+
+template <class T, int W>
+void StagedRows<T, W>::press(int thread, int stage, const StepSignals<T>& signals) {
+  each_pressure_task(thread, stage, [&](int r, bool is_whole, RowTask<T> task) {
+    task.signals = signals.stage(stage);
+    const KernelSet<T>& kernels = *packed_.rows[std::size_t(r)].kernels;
+    if (is_whole)
+      find_pressures(kernels, task);
+    else
+      prime_uppers(kernels, task, true);
+  });
 }
 
 template <class T, int W>

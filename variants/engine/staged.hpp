@@ -1,7 +1,7 @@
 #pragma once
 /// The schedule "stage by stage". It serves adaptive steps, parts whose halo is exchanged after
 /// every stage, and extra links that join rows of parts or of distant blocks. Every stage keeps all
-/// rows. The threads of a team meet twice in a stage.
+/// rows. The threads of a team meet twice in a stage, and once more after pressures.
 #include "variants/api/api.hpp"
 #include "variants/api/halo.hpp"
 #include "variants/engine/extra_links.hpp"
@@ -64,6 +64,12 @@ public:
       for (const RowAction& action : *rows)
         visit(action.row, action.is_whole, task_of(thread, stage, action.row, action.is_whole));
   }
+  /// The same for the pressures at the input of a stage.
+  template <class Visit>
+  void each_pressure_task(int thread, int stage, Visit&& visit) {
+    for (const RowAction& action : plan_[std::size_t(thread)][std::size_t(stage)].pressures)
+      visit(action.row, action.is_whole, pressure_task(thread, stage, action.row));
+  }
   /// A row of the input of a stage, which is the output of the stage before it.
   T* stage_row(int stage, int r) {
     const bool is_state = stage == 0 || stage == method_.stages;
@@ -96,6 +102,7 @@ private:
   /// The rows of a thread in two groups: those that read no halo, and the others.
   struct StageRows {
     RowActions inner, outer;
+    RowActions pressures; ///< at the input of the stage
   };
   T* buffer_row(std::size_t buffer, int r) {
     return stages_[buffer].data() + packed_.rows[std::size_t(r)].pack_offset * pack_size_;
@@ -104,10 +111,14 @@ private:
   RowActions actions(int begin, int end, IsComputed&& is_computed) const;
   void plan_rows();
   RowTask<T> task_of(int thread, int stage, int r, bool is_whole);
+  RowTask<T> pressure_task(int thread, int stage, int r);
   void compute(int thread, int stage, const StepSignals<T>& signals, const RowActions& rows);
+  /// Finds the pressures at the input of a stage.
+  void press(int thread, int stage, const StepSignals<T>& signals);
 
   PackedRows<T, W>& packed_;
   const Method& method_;
+  const StepSweeps sweeps_;
   const PartSetup* exchange_;
   const bool is_swapped_;
   const int fields_;
@@ -137,12 +148,17 @@ void StagedRows<T, W>::step(int thread, const StepSignals<T>& signals, bool is_l
   };
   for (int s = 0; s < method_.stages; ++s) {
     const bool is_last = s + 1 == method_.stages;
-    // Extra links may read the halo and come first.
-    const bool is_hidden = is_exchanged(s) && exchange_->is_overlapped && extra_links_.empty();
+    // Extra links and pressures may read the halo and come first.
+    const bool is_hidden = is_exchanged(s) && exchange_->is_overlapped && extra_links_.empty() &&
+                           !sweeps_.has_pressure;
     const StageRows& rows = plan_[std::size_t(thread)][std::size_t(s)];
     if (thread == 0 && is_exchanged(s) && !is_hidden) receive(s);
     if (thread == 0) extra_links_.evaluate([&](int r) { return stage_row(s, r); }, fields_);
     synchronise();
+    if (sweeps_.has_pressure) {
+      press(thread, s, signals);
+      synchronise();
+    }
     compute(thread, s, signals, rows.inner);
     if (is_hidden) {
       if (thread == 0) receive(s);

@@ -56,7 +56,7 @@ void StateRows<T, W>::read(std::size_t first, std::span<double> fields, const T*
     if (end_rates == nullptr) return;
     const Place place = place_of(packed_, element);
     const std::size_t pack = packed_.rows[place.row].pack_offset + std::size_t(place.pack);
-    const T* const rates = end_rates + pack * std::size_t(packed_.fields() * W) + place.lane;
+    const T* const rates = end_rates + pack * std::size_t(plain_fields() * W) + place.lane;
     const T half = half_step(place.lane);
     each_velocity([&](int f, int at) {
       out[std::size_t(packed_.layout.fields[std::size_t(f)])] =
@@ -107,7 +107,7 @@ bool StateRows<T, W>::restore(std::size_t first, std::span<const double> kept) {
 
 template <class T, int W>
 std::size_t StateRows<T, W>::plain_size() const {
-  return packed_.readable_packs() * std::size_t(packed_.fields() * W);
+  return packed_.readable_packs() * std::size_t(plain_fields() * W);
 }
 
 template <class T, int W>
@@ -118,10 +118,12 @@ void StateRows<T, W>::copy_plain(T* plain, const RowAddress& row) {
 
 template <class T, int W>
 void StateRows<T, W>::copy_plain_row(int r, const T* row, T* plain) const {
-  const std::size_t pack_size = std::size_t(packed_.fields() * W),
+  const std::size_t fields_size = std::size_t(packed_.fields() * W),
+                    plain_size = std::size_t(plain_fields() * W),
                     stored_size = std::size_t(stored_fields() * W);
   for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
-    std::copy_n(row + std::size_t(p) * stored_size, pack_size, plain + std::size_t(p) * pack_size);
+    std::copy_n(row + std::size_t(p) * stored_size, fields_size,
+                plain + std::size_t(p) * plain_size);
 }
 
 template <class T, int W>
@@ -152,7 +154,7 @@ void StateRows<T, W>::start_row(int r, const T* rates) {
   for (int p = 0; p < packed_.rows[std::size_t(r)].packs; ++p)
     for (int l = 0; l < W; ++l) {
       T* const lane = row + std::ptrdiff_t(p) * stored_fields() * W + l;
-      const T* const rate = rates + std::ptrdiff_t(p) * packed_.fields() * W + l;
+      const T* const rate = rates + std::ptrdiff_t(p) * plain_fields() * W + l;
       const T half = half_step(l);
       each_velocity([&](int f, int at) {
         if (storage_.is_compensated())

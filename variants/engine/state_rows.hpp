@@ -42,11 +42,12 @@ public:
   void save(std::size_t first, std::span<double> kept, bool is_started);
   bool restore(std::size_t first, std::span<const double> kept);
 
-  /// Size of a buffer of plain packs [numbers]. Plain packs hold only the model's fields, row after
-  /// row. One readable pack follows the last.
+  /// Numbers that a plain pack holds for each element: the model's fields and its pressure.
+  int plain_fields() const { return packed_.fields() + storage_.pressures; }
+  /// Size of a buffer of plain packs [numbers], row after row. One readable pack follows the last.
   std::size_t plain_size() const;
   std::size_t plain_offset(int r) const {
-    return packed_.rows[std::size_t(r)].pack_offset * std::size_t(packed_.fields() * W);
+    return packed_.rows[std::size_t(r)].pack_offset * std::size_t(plain_fields() * W);
   }
   void copy_plain(T* plain) { copy_plain(plain, row_); }
   void copy_plain(T* plain, const RowAddress& row);
@@ -79,7 +80,7 @@ private:
   const T* plain_lane(const T* plain, std::size_t r, int x) const {
     const std::size_t pack =
         packed_.rows[r].pack_offset + std::size_t(x / W - packed_.rows[r].first_pack);
-    return plain + pack * std::size_t(packed_.fields() * W) + x % W;
+    return plain + pack * std::size_t(plain_fields() * W) + x % W;
   }
 
   T half_step(int lane) const { return half_steps_[std::size_t(lane) % half_steps_.size()]; }

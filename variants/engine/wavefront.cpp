@@ -12,7 +12,7 @@ WavefrontStep<T, W>::WavefrontStep(PackedRows<T, W>& packed, const Method& metho
                                    std::span<const double> dt, const RowStorage& storage,
                                    std::size_t signal_count, Blocks<T, W>& blocks, int block,
                                    PassShape shape, const ExtraLinks<T, W>& extra_links)
-    : packed_(packed), shape_(shape), fields_(storage.stored()), stages_(method.stages),
+    : packed_(packed), shape_(shape), fields_(storage.stored()), sweeps_(packed.sweeps(method)),
       pack_size_(std::size_t(fields_ * W)), blocks_(blocks), block_(block),
       has_published_(
           blocks.all().size() > 1 &&
@@ -23,11 +23,11 @@ WavefrontStep<T, W>::WavefrontStep(PackedRows<T, W>& packed, const Method& metho
 
 template <class T, int W>
 std::vector<PassTask> WavefrontStep<T, W>::order(std::span<const SweepRows> sweeps) const {
-  std::vector<PassTask> tasks =
-      order_pass(packed_.lattice, division().order, sweeps, shape_.form, extra_links_.rows());
+  std::vector<PassTask> tasks = order_pass(packed_.lattice, division().order, sweeps, shape_.form,
+                                           extra_links_.rows(), sweeps_);
   for (PassTask& task : tasks)
-    if (task.work == RowWork::stage &&
-        !packed_.is_computed(task.row, stages_ - 1 - task.sweep % stages_))
+    if ((task.work == RowWork::stage || task.work == RowWork::pressure) &&
+        !packed_.is_computed(task.row, sweeps_.left(task.sweep)))
       task.work = RowWork::upper_links;
   return tasks;
 }
@@ -36,7 +36,7 @@ template <class T, int W>
 void WavefrontStep<T, W>::make_places(const std::vector<PassTask>& order, const PassReads& reads,
                                       const Seams& seams) {
   seams_ = &seams;
-  places_.emplace(packed_.lattice, division().order, order, shape_.steps * stages_, stages_,
+  places_.emplace(packed_.lattice, division().order, order, sweep_count(), sweeps_,
                   reads.increments, reads.extra, packed_.filled.is_any(),
                   PlaceSizes{packed_.stage_sizes, packed_.links_sizes});
   // One pack more: rows look one pack ahead. Rows that no task writes are read at the first place.
@@ -61,7 +61,7 @@ void WavefrontStep<T, W>::make_tasks(const std::vector<PassTask>& order,
 
 template <class T, int W>
 void WavefrontStep<T, W>::find_others_rows() {
-  const int halo = (shape_.steps * stages_ + 1) * division().halo;
+  const int halo = (sweep_count() + 1) * division().halo;
   for (int parity : {0, 1}) {
     std::vector<T*>& rows = others_rows_[std::size_t(parity)];
     rows.assign(packed_.rows.size(), nullptr);
@@ -79,11 +79,13 @@ void WavefrontStep<T, W>::find_others_rows() {
 
 template <class T, int W>
 T* WavefrontStep<T, W>::input_row(int sweep, int r, int parity) {
-  if (sweep % stages_ > 0) return stage_row(sweep % stages_ - 1, r);
-  if (stages_ == 1)
-    if (const int owner = seams_->owner(sweep, r, block_);
-        owner > block_ && seams_->handed_over(owner, sweep, r) != Seams::nowhere)
-      return all_[std::size_t(owner)].output_row(sweep, r);
+  if (const int stage = sweeps_.stage(sweep); stage > 0) return stage_row(stage - 1, r);
+  if (sweeps_.stages == 1) {
+    const int overwriting = sweeps_.of_stage(sweeps_.stage_of_pass(sweep)),
+              owner = seams_->owner(overwriting, r, block_);
+    if (owner > block_ && seams_->handed_over(owner, overwriting, r) != Seams::nowhere)
+      return all_[std::size_t(owner)].output_row(overwriting, r);
+  }
   return state_row(r, parity);
 }
 
@@ -97,18 +99,19 @@ auto WavefrontStep<T, W>::tasks_of(const std::vector<PassTask>& order, int parit
       tasks.push_back(extra_task(what, parity));
       continue;
     }
-    const int r = what.row, s = what.sweep % stages_;
-    const bool is_last = s + 1 == stages_;
+    const int r = what.row, s = sweeps_.stage(what.sweep);
+    const bool is_last = s + 1 == sweeps_.stages;
     RowStage stage{what.work, what.sweep, r, false, packed_.rows[std::size_t(r)].kernels, {}};
     set_row(stage.task, packed_, r, fields_, SweepLinks{*this, what.sweep},
             [&](int row) { return input_row(what.sweep, row, parity); });
-    stage.task.signals = signals_.stage(what.sweep);
+    stage.task.signals = signals_.stage(sweeps_.stage_of_pass(what.sweep));
+    if (what.work == RowWork::pressure) stage.task.out = input_row(what.sweep, r, parity);
     if (const Applied<T>* applied = extra_wrenches_.applied(r)) stage.task.applied = applied;
     if (what.work == RowWork::stage) {
       T* const base = state_row(r, parity);
       stage.is_published =
           is_last && has_published_ && answers_for(r) && blocks_.of(r).is_published(r);
-      if (stages_ == 1 && seams_->handed_over(block_, what.sweep, r) != Seams::nowhere)
+      if (sweeps_.stages == 1 && seams_->handed_over(block_, what.sweep, r) != Seams::nowhere)
         stage.kept = output_row(what.sweep, r);
       updates_[std::size_t(s)].set(stage.task, base, is_last ? base : stage_row(s, r),
                                    [&](int m) { return stage_row(m, r); });
@@ -138,8 +141,7 @@ void WavefrontStep<T, W>::watch(int row, std::function<void()> done) {
   const std::vector<RowStage>& all = tasks_[0];
   const bool is_known = std::exchange(watched_row_, row) == row;
   for (std::size_t n = 0; n < all.size() && !is_known; ++n)
-    if (all[n].work == RowWork::stage && all[n].sweep + 1 == shape_.steps * stages_ &&
-        all[n].row <= row)
+    if (all[n].work == RowWork::stage && all[n].sweep + 1 == sweep_count() && all[n].row <= row)
       watched_task_ = std::ptrdiff_t(n);
   watched_rows_done_ = std::move(done);
 }
@@ -156,8 +158,8 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
                                      std::span<Progress> progress) {
   // Sweeps that run. After a failure those up to the end of its step: earlier steps may fail too,
   // and lower rows of the same step.
-  int count = steps * stages_;
-  signals_.set(signals, count);
+  int count = steps * sweeps_.count();
+  signals_.set(signals, steps * sweeps_.stages);
   const std::vector<RowStage>& all = tasks(parity);
   SeamWatch seam(*seams_, block_, pass, progress);
   for (std::size_t n = 0; n < all.size(); ++n) {
@@ -167,7 +169,7 @@ void WavefrontStep<T, W>::operator()(const double* signals, int steps, int parit
     if (stage.sweep < count && !compute(stage) && answers_for(stage.row) && note_failures(stage) &&
         !packed_.is_ensemble())
       count = stage.sweep + 1;
-    if (stage.is_published && stage.sweep + 1 == shape_.steps * stages_)
+    if (stage.is_published && stage.sweep + 1 == sweep_count())
       blocks_.of(stage.row).publish(stage.row, parity ^ 1);
     seam.after(int(n));
     if (std::ptrdiff_t(n) == watched_task_) watched_rows_done_();
@@ -181,7 +183,7 @@ bool WavefrontStep<T, W>::note_failures(const RowStage& stage) {
     if (!packed_.is_live(int(m))) continue;
     const auto element = packed_.first_failed(stage.row, stage.task.out, fields_, int(m));
     if (!element) continue;
-    own().failures[m].meet(stage.sweep / stages_, *element);
+    own().failures[m].meet(sweeps_.step(stage.sweep), *element);
     has_failed = true;
   }
   return has_failed;
@@ -198,22 +200,26 @@ void WavefrontStep<T, W>::fetch(const RowStage& next) {
 template <class T, int W>
 bool WavefrontStep<T, W>::compute(const RowStage& stage) {
   const RowTask<T>& task = stage.task;
+  const bool is_pressure = sweeps_.is_pressure(stage.sweep);
   switch (stage.work) {
   case RowWork::stage:
     if (stage.kept != nullptr)
       std::copy_n(task.base, std::size_t(task.packs) * pack_size_, stage.kept);
     return stage.kernels->stage(task);
+  case RowWork::pressure:
+    find_pressures(*stage.kernels, task);
+    break;
   case RowWork::upper_links:
-    prime_uppers(*stage.kernels, task);
+    prime_uppers(*stage.kernels, task, is_pressure);
     break;
   case RowWork::upper_link_x:
-    stage.kernels->prime(task, 0);
+    leave_links(*stage.kernels, task, 0, is_pressure);
     break;
   case RowWork::upper_link_y:
-    stage.kernels->prime(task, 1);
+    leave_links(*stage.kernels, task, 1, is_pressure);
     break;
   case RowWork::upper_link_z:
-    stage.kernels->prime(task, 2);
+    leave_links(*stage.kernels, task, 2, is_pressure);
     break;
   case RowWork::extra_link:
     extra_links_.compute(stage.row, task.in, task.base, fields_);
@@ -231,10 +237,11 @@ Wavefront<T, W>::Wavefront(PackedRows<T, W>& packed, const Method& method,
                            std::size_t signal_count, Blocks<T, W>& blocks, PassShape shape,
                            const ExtraLinks<T, W>& extra_links) {
   const RowDivision& division = blocks.division();
-  const int count = division.blocks(), sweeps = shape.steps * method.stages;
+  const StepSweeps of_step = packed.sweeps(method);
+  const int count = division.blocks(), sweeps = shape.steps * of_step.count();
   for (int b = 0; b < count; ++b)
     steps_.emplace_back(packed, method, dt, storage, signal_count, blocks, b, shape, extra_links);
-  PassReads reads{method.stages, {}, steps_.front().linked_rows(), packed.stage_sizes};
+  PassReads reads{of_step, {}, steps_.front().linked_rows(), packed.stage_sizes};
   for (const StageUpdate<T>& update : stage_updates<T>(method, storage, W, dt)) {
     reads.increments.emplace_back();
     for (const auto& [stage, alpha] : update.increments) reads.increments.back().push_back(stage);

@@ -82,9 +82,12 @@ private:
   }
   /// Row r of Y_{stage + 1}, of the block that computes it.
   T* stage_row(int stage, int r) {
-    return all_[std::size_t(seams_->owner(stage, r, block_))].output_row(stage, r);
+    const int owner = seams_->owner(sweeps_.of_stage(stage), r, block_);
+    return all_[std::size_t(owner)].output_row(stage, r);
   }
   T* input_row(int sweep, int r, int parity);
+  /// Sweeps of a pass.
+  int sweep_count() const { return shape_.steps * sweeps_.count(); }
   /// Where a row leaves links for its upper rows.
   T* links(int axis, int sweep, int r) {
     return links_[std::size_t(axis)].data() +
@@ -120,7 +123,8 @@ private:
 
   const PackedRows<T, W>& packed_;
   const PassShape shape_;
-  const int fields_, stages_;
+  const int fields_;
+  const StepSweeps sweeps_; ///< of a step
   const std::size_t pack_size_;
   Blocks<T, W>& blocks_;
   const int block_;

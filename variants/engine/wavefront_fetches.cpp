@@ -18,13 +18,14 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
   std::vector<long> packs;
   for (const RowStage& stage : tasks)
     packs.push_back(stage.work == RowWork::stage ? stage.task.packs : 0);
-  FetchPlan plan(std::move(packs), shape_.steps * stages_);
+  FetchPlan plan(std::move(packs), sweep_count());
   LastTiles states(int(packed_.rows.size())), stage_rows(places_->stage_rows_size()),
       links[] = {LastTiles(places_->links_size(0)), LastTiles(places_->links_size(1)),
                  LastTiles(places_->links_size(2))};
   for (std::size_t n = 0; n < order.size(); ++n) {
     if (order[n].is_extra()) continue;
-    const int tile = order[n].tile, sweep = order[n].sweep, s = sweep % stages_, r = order[n].row;
+    const int tile = order[n].tile, sweep = order[n].sweep, s = sweeps_.stage(sweep),
+              r = order[n].row;
     const Row& row = packed_.lattice.rows[std::size_t(r)];
     const auto bytes = [&](int of) {
       return std::size_t(packed_.rows[std::size_t(of)].packs) * pack_bytes;
@@ -36,7 +37,7 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
       if (of == row.upper_x) return; // of that piece, only the first pack is read
       if (s == 0)
         read_state(of);
-      else if (seams_->owner(s - 1, of, block_) == block_ &&
+      else if (seams_->owner(sweeps_.of_stage(s - 1), of, block_) == block_ &&
                stage_rows.touch(places_->stage_row(s - 1, of), tile))
         plan.first_read(n, stage_row(s - 1, of), bytes(of));
     });
@@ -51,7 +52,8 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
       }
       if (row.upper(axis) >= 0) of_axis.touch(places_->links(axis, sweep, r), tile);
     }
-    if (s + 1 < stages_) stage_rows.touch(places_->stage_row(s, r), tile);
+    if (s + 1 < sweeps_.stages && order[n].work == RowWork::stage)
+      stage_rows.touch(places_->stage_row(s, r), tile);
   }
   for (std::size_t n = 0; n < tasks.size(); ++n)
     tasks[n].task.fetch = plan.fetches()[n].row,

@@ -115,15 +115,16 @@ Network link_of(const Candidate& device) {
 /// Predicted step of members whose speeds [element-steps/s] are known [s].
 double predicted_s(const Setup& setup, const std::vector<double>& speed, const Network& link) {
   const HaloStrategy& strategy = *find_halo_strategy("shared");
-  const int stages = setup.method.stages, parts = int(speed.size());
+  const StepSweeps sweeps(setup.method, setup.problem);
+  const int parts = int(speed.size());
   const Decomposition decomposition = decompose(setup.problem, "strips", parts, {speed, {}});
   PlannedStrategy planned{std::string(strategy.name), 1, {}};
   for (int p = 0; p < parts; ++p) {
-    const PartSize size = part_size(setup.problem, decomposition, p, stages);
-    const double stage_speed = speed[std::size_t(p)] * stages;
+    const PartSize size = part_size(setup.problem, decomposition, p, sweeps.count());
+    const double stage_speed = speed[std::size_t(p)] * sweeps.stages;
     planned.parts.push_back(
         plan_part(size,
-                  part_times(size, strategy, stages, setup.problem.lattice.row_reach(),
+                  part_times(size, strategy, sweeps, setup.problem.lattice.row_reach(),
                              {"", stage_speed, stage_speed}),
                   setup.precision));
   }

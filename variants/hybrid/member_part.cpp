@@ -1,6 +1,7 @@
 #include "variants/hybrid/member_part.hpp"
 
 #include "solver/error.hpp"
+#include "variants/api/step_sweeps.hpp"
 #include "variants/hybrid/balance.hpp"
 #include "variants/hybrid/clock.hpp"
 
@@ -26,7 +27,8 @@ std::unique_ptr<Executor> make_executor(const Setup& whole, const Participant& p
 
 MemberPart::MemberPart(const Setup& whole, const Participant& participant,
                        const Decomposition& decomposition, int index, Exchange& exchange)
-    : part_(make_part(whole.problem, decomposition, index, whole.method.stages)),
+    : part_(make_part(whole.problem, decomposition, index,
+                      StepSweeps(whole.method, whole.problem).count())),
       halo_(part_, exchange), part_setup_{part_, halo_, false, true},
       executor_(make_executor(whole, participant, part_setup_)) {}
 

@@ -27,6 +27,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                   .is_distributed = false,
                                   .create = dss::create_hybrid,
                                   .kernels = nullptr,
+                                  .has_pressure = true,
                                   .has_tiles = true};
   return &plugin;
 }

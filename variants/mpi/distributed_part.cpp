@@ -14,7 +14,7 @@ DistributedPart::DistributedPart(const Setup& setup, const Plugin& plugin,
                                  const Decomposition& decomposition, const HaloStrategy& strategy,
                                  World& world, const Fault& fault)
     : part_(make_part(setup.problem, decomposition, world.rank(),
-                      halo_depth(strategy, setup.method))),
+                      halo_depth(strategy, {setup.method, setup.problem}))),
       exchange_(make_exchange(strategy.transport, faces_of(part_), world.comm())),
       halo_(*exchange_, [&world](bool is_alone) { world.work_alone(is_alone); }) {
   if (fault.kind != Fault::Kind::none) faulty_halo_.emplace(halo_, fault);

@@ -28,6 +28,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .create = dss::create,
                                       .kernels = nullptr,
                                       .end = dss::end,
+                                      .has_pressure = true,
                                       .has_tiles = true,
                                       .ensemble_lanes = dss::members_of_ranks};
   return &plugin;

@@ -25,10 +25,10 @@ using StepTimes = std::map<const HaloStrategy*, double>;
 PlannedPart plan_own_part(const Setup& setup, const World& world,
                           const Decomposition& decomposition, const HaloStrategy& strategy,
                           const NodeSpeed& speed) {
+  const StepSweeps of_step(setup.method, setup.problem);
   const PartSize size =
-      part_size(setup.problem, decomposition, world.rank(), halo_depth(strategy, setup.method));
-  PartTimes times =
-      part_times(size, strategy, setup.method.stages, setup.problem.lattice.row_reach(), speed);
+      part_size(setup.problem, decomposition, world.rank(), halo_depth(strategy, of_step));
+  PartTimes times = part_times(size, strategy, of_step, setup.problem.lattice.row_reach(), speed);
   // On one node the processors themselves copy the messages, so nothing is computed meanwhile.
   if (world.is_one_node()) times = {times.compute_s, 0, 0, times.compute_s};
   return plan_part(size, times, setup.precision);

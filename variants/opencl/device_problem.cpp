@@ -75,6 +75,8 @@ int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, i
   row.shape = shape_of(packed_row.shape.terms);
   row.body = packed.lattice.rows[std::size_t(r)].body;
   row.applied = packed_row.applied == nullptr ? -1 : r;
+  row.face_strains =
+      packed_row.pressure == nullptr || packed_row.pressure->loads == nullptr ? -1 : r;
   row.packs = packed_row.packs, row.first_pack = packed_row.first_pack;
   row.masks = int(packed_row.pack_offset);
   row.fields = fields;
@@ -100,9 +102,16 @@ void DeviceProblem<T, W>::make_constant_tables() {
   std::vector<typename K::body_constants> bodies(problem_.bodies.size());
   std::vector<typename K::pack_masks> masks;
   const std::vector<simd::LaneMask> own = own_lanes(packed, part_);
-  std::vector<typename K::applied_row> applied(packed.rows.size());
+  std::vector<typename K::applied_row> applied(packed.rows.size()),
+      face_strains(packed.rows.size());
   std::vector<typename K::pattern> patterns;
   std::vector<ushort> free_lanes;
+  const auto add_patterns = [&](const Applied<T>& a, typename K::applied_row& row) {
+    row = {a.first, a.packs, int(patterns.size()), a.pattern_count, -1};
+    for (int n = 0; n < a.pattern_count; ++n)
+      patterns.push_back({offset(a.patterns[n].values), a.patterns[n].signal, a.patterns[n].first,
+                          a.patterns[n].packs});
+  };
   for (std::size_t r = 0; r < packed.rows.size(); ++r) {
     const PackedRow<T>& row = packed.rows[r];
     // Both are made of one header.
@@ -113,42 +122,59 @@ void DeviceProblem<T, W>::make_constant_tables() {
       const PackMasks& m = row.masks[p];
       masks.push_back({m.link_x, m.link_y, m.link_z, m.below_y, m.below_z, own[masks.size()]});
     }
+    if (row.pressure != nullptr && row.pressure->loads != nullptr)
+      add_patterns(*row.pressure->loads, face_strains[r]);
     if (row.applied == nullptr) continue;
     const Applied<T>& a = *row.applied;
-    applied[r] = {a.first, a.packs, int(patterns.size()), a.pattern_count,
-                  a.free_lanes == nullptr ? -1 : int(free_lanes.size())};
-    for (int n = 0; n < a.pattern_count; ++n)
-      patterns.push_back({offset(a.patterns[n].values), a.patterns[n].signal, a.patterns[n].first,
-                          a.patterns[n].packs});
-    if (a.free_lanes != nullptr)
-      free_lanes.insert(free_lanes.end(), a.free_lanes,
-                        a.free_lanes + std::size_t(a.packs) * packed.layout.wrench.size());
+    add_patterns(a, applied[r]);
+    if (a.free_lanes == nullptr) continue;
+    applied[r].free_lanes = int(free_lanes.size());
+    free_lanes.insert(free_lanes.end(), a.free_lanes,
+                      a.free_lanes + std::size_t(a.packs) * packed.layout.wrench.size());
   }
   bodies_ = table(bodies), masks_ = table(masks), applied_ = table(applied),
-  patterns_ = table(patterns);
+  patterns_ = table(patterns), face_strains_ = table(face_strains);
   free_lanes_ = table(free_lanes);
 }
 
-/// Fills link_lanes of device/tables.h.
+/// The constants of each lane of some kinds, as device/tables.h has them.
+/// @param constants  (FaceKinds, lane) -> a struct of numbers of type T
+template <class T, std::size_t W, class Kinds, class Constants>
+static std::vector<T> lane_table(const Kinds& all, Constants&& constants) {
+  std::vector<T> numbers;
+  for (const auto& kinds : all)
+    for (std::size_t lane = 0; lane < W; ++lane) {
+      const auto one = constants(kinds, lane);
+      constexpr std::size_t count = sizeof one / sizeof(T);
+      std::array<T, count> of_lane;
+      std::memcpy(of_lane.data(), &one, sizeof one);
+      if (lane == 0) numbers.resize(numbers.size() + count * W);
+      T* const start = &numbers[numbers.size() - count * W];
+      for (std::size_t n = 0; n < count; ++n) start[n * W + lane] = of_lane[n];
+    }
+  return numbers;
+}
+
 template <class T, int W>
 void DeviceProblem<T, W>::make_link_tables() {
   static_assert(LinkTable<T, W>::faces == 6);
-  constexpr std::size_t count = sizeof(LinkConstants<T>) / sizeof(T);
-  std::vector<T> numbers;
-  for (const FaceKinds<W>& face : packed.links().kinds()) {
-    const std::size_t start = numbers.size();
-    numbers.resize(start + count * W);
-    const Body& body = problem_.bodies[std::size_t(face.body)];
-    for (std::size_t lane = 0; lane < W; ++lane) {
-      LinkConstants<T> link{};
-      set_material_constants(link, body.link(face.axis, face.kinds[lane]), face.axis);
-      std::array<T, count> of_link;
-      std::memcpy(of_link.data(), &link, sizeof link);
-      for (std::size_t n = 0; n < count; ++n) numbers[start + n * W + lane] = of_link[n];
-    }
-  }
-  links_ = table(numbers);
+  links_ = table(lane_table<T, std::size_t(W)>(
+      packed.links().kinds(), [&](const FaceKinds<W>& face, std::size_t lane) {
+        const Body& body = problem_.bodies[std::size_t(face.body)];
+        LinkConstants<T> link{};
+        set_material_constants(link, body.link(face.axis, face.kinds[lane]), face.axis);
+        return link;
+      }));
   link_index_ = table(packed.links().index());
+}
+
+template <class T, int W>
+void DeviceProblem<T, W>::make_pressure_tables() {
+  pressures_ = table(lane_table<T, std::size_t(W)>(
+      packed.pressures().kinds(), [&](const FaceKinds<W>& pack, std::size_t lane) {
+        return pressure_constants<T>(problem_.bodies[std::size_t(pack.body)], pack.kinds[lane]);
+      }));
+  pressure_index_ = table(packed.pressures().index());
 }
 
 /// The actions to compile. All that Runge-Kutta methods may need are compiled together, so that
@@ -180,6 +206,7 @@ void DeviceProblem<T, W>::finish() {
   }
   make_constant_tables();
   make_link_tables();
+  make_pressure_tables();
   row_table_ = table(rows_);
   arena_ = is_shared_ ? queue.make_buffer(memory.bytes(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
                                           memory.start())
@@ -228,7 +255,7 @@ template <class T, int W>
 Kernel DeviceProblem<T, W>::kernel(const char* name) const {
   Kernel kernel = queue.make_kernel(program_, name);
   kernel.set(arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_, links_,
-             link_index_, T(1));
+             link_index_, pressures_, pressure_index_, face_strains_, T(1));
   return kernel;
 }
 

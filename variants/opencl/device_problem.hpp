@@ -73,8 +73,8 @@ public:
   void finish();
   /// A kernel with the tables as its first arguments.
   Kernel kernel(const char* name) const;
-  static constexpr cl_uint table_arguments = 10,
-                           step_argument = 9; ///< the last: see tables_of_device.h
+  static constexpr cl_uint table_arguments = 13,
+                           step_argument = 12; ///< the last: see tables_of_device.h
 
   /// Work-items that compute one band.
   std::size_t group_size() const { return group_size_; }
@@ -121,6 +121,7 @@ private:
   void require_tile() const;
   void make_constant_tables();
   void make_link_tables();
+  void make_pressure_tables();
   const Problem& problem_;
   const Model model_;
   const Part* part_;
@@ -131,7 +132,7 @@ private:
   StageTile tile_;
   std::vector<typename Tables<T>::extra_link> extra_;
   opencl::Buffer arena_, row_table_, bodies_, masks_, applied_, patterns_, free_lanes_, links_,
-      link_index_, extra_table_, signals_;
+      link_index_, pressures_, pressure_index_, face_strains_, extra_table_, signals_;
   Program program_, extra_program_;
   Kernel extra_kernel_;
   /// Set while the host uses the arena of a device that shares the host's memory.

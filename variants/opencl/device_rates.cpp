@@ -11,7 +11,7 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
   PackedRows<T, W>& packed = device_.packed;
   packed.own_begin = 0,
   packed.own_end = int(packed.rows.size()); // halo rows too: the caller knows which rates are valid
-  const int fields = packed.fields();
+  const int fields = packed.fields() + packed.pressure_fields;
   const std::size_t pack_size = std::size_t(fields * W);
   plain_ = dss::Buffer<T>(packed.readable_packs() * pack_size, packed.memory);
   rates_ = dss::Buffer<T>(packed.readable_packs() * pack_size, packed.memory);
@@ -22,44 +22,58 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
   const auto in = [&](int r) { return row_of(plain_, r); };
   const std::vector<int> cuts =
       cut_rows(packed, layout.has_items ? int(packed.rows.size()) : layout.bands);
-  for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
+  const auto add_band = [&](std::size_t b, bool is_pressure) {
     // Work-items use no carry buffers, so all rows name the same ones.
-    if (b == 0 || !layout.has_items) carry_.emplace_back(packed);
+    if (carry_.empty() || !layout.has_items) carry_.emplace_back(packed);
     CarryRings<T>& carry = carry_.back();
     const int begin = device_.next_place();
     if (cuts[b] > 0 && !layout.has_items)
       each_prime(packed, cuts[b], fields, carry, in, [&](int r, const RowTask<T>& task, int axis) {
-        device_.add(task, r, axis == 1 ? prime_y : prime_z, fields);
+        const row_action across_y = is_pressure ? prime_strain_y : prime_y,
+                         across_z = is_pressure ? prime_strain_z : prime_z;
+        device_.add(task, r, axis == 1 ? across_y : across_z, fields);
       });
     for (int r = cuts[b]; r < cuts[b + 1]; ++r) {
       RowTask<T> task;
       set_row(task, packed, r, fields, carry, in);
       task.base = zero_.data(); // out = 0 + 1 f
-      task.out = row_of(rates_, r);
+      task.out = is_pressure ? in(r) : row_of(rates_, r);
       task.beta = 1;
-      device_.add(task, r, is_scaled ? plain_stage : bare_rates, fields);
+      device_.add(task, r,
+                  is_pressure ? find_pressure
+                  : is_scaled ? plain_stage
+                              : bare_rates,
+                  fields);
     }
-    lists_.push_back({{begin, device_.next_place()}});
+    lists_.back().push_back({{begin, device_.next_place()}});
+  };
+  for (const bool is_pressure : {true, false}) {
+    if (is_pressure && !problem.has_pressure()) continue;
+    lists_.emplace_back();
+    for (std::size_t b = 0; b + 1 < cuts.size(); ++b) add_band(b, is_pressure);
   }
   device_.add_extra_links(problem, fields);
   device_.finish();
-  list_table_ = device_.table(lists_);
+  for (const std::vector<cl_int2>& lists : lists_) list_tables_.push_back(device_.table(lists));
   std::vector<cl_long> starts;
   for (int r = 0; r < int(packed.rows.size()); ++r) starts.push_back(device_.offset(in(r)));
   row_starts_ = device_.table(starts);
-  failed_ = device_.table(std::vector<cl_int2>(lists_.size() + 1, cl_int2{{INT_MAX, INT_MAX}}));
+  failed_ =
+      device_.table(std::vector<cl_int2>(std::size_t(bands()) + 1, cl_int2{{INT_MAX, INT_MAX}}));
   kernel_ = device_.kernel("run_rows");
 }
 
 template <class T, int W>
 void DeviceRates<T, W>::launch() {
   if (device_.has_extra_links()) device_.evaluate_extra_links(row_starts_);
-  cl_uint n = DeviceProblem<T, W>::table_arguments;
-  kernel_.set_one(n++, list_table_);
-  kernel_.set_one(n++, device_.signals());
-  kernel_.set_one(n++, failed_);
-  for (const cl_int value : {0, 0}) kernel_.set_one(n++, value); // first signal and step
-  device_.launch_rows(kernel_, bands());
+  for (const opencl::Buffer& lists : list_tables_) {
+    cl_uint n = DeviceProblem<T, W>::table_arguments;
+    kernel_.set_one(n++, lists);
+    kernel_.set_one(n++, device_.signals());
+    kernel_.set_one(n++, failed_);
+    for (const cl_int value : {0, 0}) kernel_.set_one(n++, value); // first signal and step
+    device_.launch_rows(kernel_, bands());
+  }
 }
 
 template <class T, int W>

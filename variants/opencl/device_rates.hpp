@@ -15,7 +15,7 @@ public:
               const Layout& layout, bool is_scaled);
   DeviceProblem<T, W>& device() { return device_; }
   const DeviceProblem<T, W>& device() const { return device_; }
-  int bands() const { return int(lists_.size()); }
+  int bands() const { return int(lists_.back().size()); }
   /// Numbers in plain rows (StateRows::plain_size).
   std::size_t size() const { return plain_.size(); }
   /// Copies plain rows to the device, evaluates there, and copies plain rates back.
@@ -36,8 +36,10 @@ private:
   DeviceProblem<T, W> device_;
   dss::Buffer<T> plain_, rates_, zero_;
   std::vector<CarryRings<T>> carry_; ///< of each band
-  std::vector<cl_int2> lists_;
-  opencl::Buffer list_table_, row_starts_, failed_;
+  /// Of the pressures, if elements have any, and of the rates: the list of each band.
+  std::vector<std::vector<cl_int2>> lists_;
+  std::vector<opencl::Buffer> list_tables_;
+  opencl::Buffer row_starts_, failed_;
   Kernel kernel_;
 };
 

@@ -35,6 +35,7 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .why_unusable = opencl::why_unusable,
                            .devices = opencl::devices,
                            .ceilings = opencl::measure_ceilings,
+                           .has_pressure = true,
                            .has_tiles = true};
 
 } // namespace

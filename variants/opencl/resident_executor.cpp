@@ -43,7 +43,7 @@ ResidentExecutor<T, W>::ResidentExecutor(const Setup& setup, const Device& devic
 template <class T, int W>
 std::vector<int> ResidentExecutor<T, W>::cut_blocks() {
   const int begin = packed_.own_begin, end = packed_.own_end,
-            halo = setup_.method.stages * packed_.reach;
+            halo = sweeps_.count() * packed_.reach;
   // With shared memory there is no transfer to hide, and each command costs time (README.md). Own
   // rows that contain halo elements cannot be edges.
   is_split_ = is_part() && part_->is_overlapped && !problem_.is_shared() &&
@@ -62,16 +62,18 @@ std::vector<int> ResidentExecutor<T, W>::cut_blocks() {
   return cuts;
 }
 
-static row_action device_action(RowWork work, row_action of_stage) {
+static row_action device_action(RowWork work, row_action of_stage, bool is_pressure) {
   switch (work) {
   case RowWork::stage:
     return of_stage;
+  case RowWork::pressure:
+    return find_pressure;
   case RowWork::upper_links:
-    return prime_upper;
+    return is_pressure ? prime_strain_upper : prime_upper;
   case RowWork::upper_link_y:
-    return prime_y;
+    return is_pressure ? prime_strain_y : prime_y;
   case RowWork::upper_link_z:
-    return prime_z;
+    return is_pressure ? prime_strain_z : prime_z;
   case RowWork::upper_link_x: // rows on devices are whole
   case RowWork::extra_link:
   case RowWork::extra_sum:
@@ -83,13 +85,13 @@ static row_action device_action(RowWork work, row_action of_stage) {
 template <class T, int W>
 void ResidentExecutor<T, W>::make_blocks() {
   const Method& method = setup_.method;
-  const int halo = method.stages * packed_.reach;
+  const int halo = sweeps_.count() * packed_.reach;
   division_.cuts = cut_blocks();
   division_.halo = packed_.stage_halo;
   bands_ = division_.blocks();
   // Several bands would have to copy their halos on the device.
   shape_.steps = bands_ == 1 ? steps_a_pass(packed_, method, 1, division_.halo) : 1;
-  blocks_.make(packed_, division_, stored_fields(), shape_.steps * method.stages);
+  blocks_.make(packed_, division_, stored_fields(), shape_.steps * sweeps_.count());
   shape_.form.is_in_row_order = is_part();
   shape_.form.tile = choose_tile(
       packed_, method, rows_.storage(), shape_.steps,
@@ -102,10 +104,12 @@ void ResidentExecutor<T, W>::make_blocks() {
     for (const int parity : {0, 1}) {
       const int begin = problem_.next_place();
       for (const auto& stage : wavefront.steps()[std::size_t(band)].tasks(parity))
-        problem_.add(
-            stage.task, stage.row, device_action(stage.work, stage.task.action), stored_fields(),
-            stage.is_published ? blocks_.of(stage.row).published(stage.row, parity ^ 1) : nullptr,
-            stage.sweep);
+        problem_.add(stage.task, stage.row,
+                     device_action(stage.work, stage.task.action, sweeps_.is_pressure(stage.sweep)),
+                     stored_fields(),
+                     stage.is_published ? blocks_.of(stage.row).published(stage.row, parity ^ 1)
+                                        : nullptr,
+                     stage.sweep);
       passes_.push_back({{begin, problem_.next_place()}});
     }
   }

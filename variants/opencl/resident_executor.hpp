@@ -50,7 +50,7 @@ public:
 private:
   /// Indices of those arguments of run_passes that change between launches (device/passes.cl).
   static constexpr cl_uint last_pass_argument = DeviceProblem<T, W>::table_arguments + 6,
-                           patience_argument = last_pass_argument + 5,
+                           patience_argument = last_pass_argument + 6,
                            first_block_argument = patience_argument + 1,
                            block_stride_argument = first_block_argument + 1;
   using Range = typename DeviceProblem<T, W>::Range;
@@ -119,6 +119,7 @@ private:
 
   const Setup setup_;
   const PartSetup* part_; ///< null for a whole problem and for a part without neighbours
+  const StepSweeps sweeps_{setup_.method, setup_.problem};
   DeviceProblem<T, W> problem_;
   PackedRows<T, W>& packed_ = problem_.packed;
   StateRows<T, W> rows_;
@@ -140,9 +141,10 @@ private:
   /// How often advance() may still try bands that wait for one another. A try fails if the bands
   /// are not computed at the same time.
   int trials_left_ = 0;
-  std::vector<std::vector<cl_int2>> lists_; ///< [parity * stages + stage]: list of each band
-  std::vector<cl_int2> passes_;             ///< of each block, [parity]: its tasks
-  std::vector<cl_int2> neighbours_;         ///< of each band: the bands whose rows it reads
+  /// [parity * sweeps of a step + sweep]: list of each band
+  std::vector<std::vector<cl_int2>> lists_;
+  std::vector<cl_int2> passes_;     ///< of each block, [parity]: its tasks
+  std::vector<cl_int2> neighbours_; ///< of each band: the bands whose rows it reads
   opencl::Buffer pass_table_, neighbour_table_, failed_, progress_;
   std::vector<opencl::Buffer> list_tables_, row_starts_;
   Kernel kernel_;

@@ -12,7 +12,7 @@ template <class T, int W>
 StageTile ResidentExecutor<T, W>::tile_of_rows() const {
   const Method& method = setup_.method;
   if (!problem_.layout.has_items || is_part() || !setup_.problem.extra_links.empty() ||
-      method.has_error_stage || method.stages == 1 || packed_.reach != 1)
+      method.has_error_stage || method.stages == 1 || packed_.reach != 1 || sweeps_.has_pressure)
     return {};
   return choose_stage_tile(packed_.packs_across * W, int(packed_.rows.size()), method.stages,
                            sizeof(T) == 8 ? Precision::f64 : Precision::f32,
@@ -22,19 +22,28 @@ StageTile ResidentExecutor<T, W>::tile_of_rows() const {
 /// Makes the lists of row tasks: one for each band, or on a GPU for each row.
 template <class T, int W>
 void ResidentExecutor<T, W>::add_stages() {
-  const int stages = setup_.method.stages, parities = staged_->is_swapped() ? 2 : 1;
+  const int parities = staged_->is_swapped() ? 2 : 1;
   const bool has_items = problem_.layout.has_items;
   for (int parity = 0; parity < parities; ++parity) {
-    for (int stage = 0; stage < stages; ++stage) {
+    for (int sweep = 0; sweep < sweeps_.count(); ++sweep) {
       std::vector<cl_int2>& lists = lists_.emplace_back();
+      const int stage = sweeps_.stage(sweep);
       for (int band = 0; band < staged_->threads(); ++band) {
         const int begin = problem_.next_place();
-        staged_->each_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& task) {
+        const auto add = [&](int r, bool is_whole, const RowTask<T>& task, row_action whole,
+                             row_action links) {
           if (has_items && !is_whole) return; // work-items compute links at both ends
-          const int place =
-              problem_.add(task, r, is_whole ? task.action : prime_upper, stored_fields());
+          const int place = problem_.add(task, r, is_whole ? whole : links, stored_fields());
           if (has_items) lists.push_back({{place, place + 1}});
-        });
+        };
+        if (sweeps_.is_pressure(sweep))
+          staged_->each_pressure_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& t) {
+            add(r, is_whole, t, find_pressure, prime_strain_upper);
+          });
+        else
+          staged_->each_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& t) {
+            add(r, is_whole, t, t.action, prime_upper);
+          });
         if (!has_items) lists.push_back({{begin, problem_.next_place()}});
       }
       bands_ = std::max(bands_, int(lists.size()));
@@ -47,12 +56,15 @@ void ResidentExecutor<T, W>::add_stages() {
 
 template <class T, int W>
 void ResidentExecutor<T, W>::launch_stage(int stage, long step) {
-  const int stages = setup_.method.stages;
-  const std::size_t table =
-      std::size_t((staged_->is_swapped() ? staged_->current_copy() : 0) * stages + stage);
-  if (problem_.has_extra_links()) problem_.evaluate_extra_links(row_starts_[table]);
-  set_stage_arguments(list_tables_[table], stage, step);
-  problem_.launch_rows(kernel_, bands_);
+  const int parity = staged_->is_swapped() ? staged_->current_copy() : 0;
+  if (problem_.has_extra_links())
+    problem_.evaluate_extra_links(row_starts_[std::size_t(parity * setup_.method.stages + stage)]);
+  const int last = sweeps_.of_stage(stage);
+  for (int sweep = last + 1 - sweeps_.a_stage(); sweep <= last; ++sweep) {
+    const auto table = std::size_t(parity * sweeps_.count() + sweep);
+    set_stage_arguments(list_tables_[table], stage, step);
+    problem_.launch_rows(kernel_, bands_);
+  }
 }
 
 template <class T, int W>

@@ -41,9 +41,9 @@ void ResidentExecutor<T, W>::set_pass_arguments(long steps) {
   for (const opencl::Buffer& table :
        {pass_table_, neighbour_table_, problem_.signals(), failed_, progress_})
     kernel_.set_one(n++, table);
-  const int stages = setup_.method.stages, width = int(signal_count(setup_.problem)) + 1;
-  for (const int value :
-       {parity_, 0, shape_.steps, int(steps), stages, width, 0, 0, 1}) // 0: set in run_to
+  const int width = int(signal_count(setup_.problem)) + 1;
+  for (const int value : {parity_, 0, shape_.steps, int(steps), sweeps_.count(), sweeps_.a_stage(),
+                          width, 0, 0, 1}) // 0: set in run_to
     kernel_.set_one(n++, cl_int(value));
 }
 

@@ -92,7 +92,8 @@ std::vector<T> RhsExecutor<T, W>::scaled_rates(std::span<const double> signals) 
   for (int r = 0; r < int(packed_.rows.size()); ++r) {
     std::size_t at = rows_.plain_offset(r);
     const RateScales<T> scales = scales_of(packed_, r);
-    for (int pack = 0; pack < packed_.rows[std::size_t(r)].packs; ++pack)
+    for (int pack = 0; pack < packed_.rows[std::size_t(r)].packs;
+         ++pack, at += std::size_t(rows_.storage().pressures * W))
       for (const auto& part : scales.parts)
         for (int n = 0; n < part.fields * W; ++n, ++at) rates[at] = part.factor * sums_.data()[at];
   }
@@ -138,7 +139,7 @@ int RhsExecutor<T, W>::update_stage(int stage) {
     };
     for (int lane = 0; lane < packed_row.packs * W; ++lane) {
       const std::ptrdiff_t at = lane / W * rows_.stored_fields() * W + lane % W;
-      const auto sum = element_at(sums + lane / W * packed_.fields() * W +
+      const auto sum = element_at(sums + lane / W * rows_.plain_fields() * W +
                                   lane % W); // the sums lie in the place of the rates
       update(at, element_at(in + at), sum.v, sum.w);
     }
@@ -152,7 +153,7 @@ int RhsExecutor<T, W>::step(std::span<const double> signals) {
   int failed = -1;
   for (int s = 0; s < setup_.method.stages; ++s) {
     dss::Buffer<T>& in = s == 0 ? state_ : stages_[std::size_t(s - 1)];
-    const bool is_plain = rows_.stored_fields() == packed_.fields();
+    const bool is_plain = rows_.stored_fields() == rows_.plain_fields();
     if (!is_plain) rows_.copy_plain(plain_.data(), [&](int r) { return row_of(in, r); });
     evaluate(is_plain ? in.data() : plain_.data(), signals.subspan(std::size_t(s) * width, width));
     with_physics<T>(setup_.model, [&]<class P>() { failed = update_stage<P>(s); });

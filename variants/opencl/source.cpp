@@ -1,6 +1,6 @@
 #include "variants/opencl/source.hpp"
 
-#include "kernels/model.hpp"
+#include "kernels/stage_row/element_pressure.hpp"
 #include "variants/opencl/embedded.hpp"
 
 #include <fmt/format.h>
@@ -68,6 +68,16 @@ std::string model_words(Model model) {
                      tuple_words(layout, "SPIN", wx, wz));
 }
 
+/// Defines which parts of an element's pressure rows store.
+std::string pressure_words(Model model, const Terms& terms) {
+  const PressureParts parts = pressure_parts(model, terms);
+  return fmt::format("#define HAS_PRESSURE {}\n#define IS_BENT {}\n#define PRESSURE_SIZE {}\n"
+                     "#define COMPONENTS_OF_PRESSURE(act){}{}{}{}\n",
+                     int(parts.count() > 0), int(parts.has_bending()), parts.count(),
+                     parts.has_volume ? " act(s)" : "", parts.has_bending_x ? " act(x)" : "",
+                     parts.has_bending_y ? " act(y)" : "", parts.has_bending_z ? " act(z)" : "");
+}
+
 std::string head(const ProgramKind& kind, bool has_items) {
   const bool is_f64 = kind.precision == Precision::f64;
   std::string text = is_f64 ? "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n" : "";
@@ -105,12 +115,13 @@ std::string row_program(const ProgramKind& kind) {
   for (std::size_t n = 0; n < kind.terms.size(); ++n) {
     const Terms& t = kind.terms[n];
     text += fmt::format(
-        "#define FLAGS ((term_flags){{{}, {}, {}, {}, {}, {}, {}}})\n#define NAME(f) f##_{}\n",
+        "#define FLAGS ((term_flags){{{}, {}, {}, {}, {}, {}, {}, {}}})\n#define NAME(f) f##_{}\n",
         int(t.is_material), int(t.is_damped), int(t.is_bending), int(t.is_gyroscopic),
-        int(t.is_tied), int(t.is_oblong), int(t.has_two_shears), n);
-    text += device_text("row.cl") +
+        int(t.is_tied), int(t.is_oblong), int(t.has_two_shears), int(t.has_pressure), n);
+    text += pressure_words(kind.model, t) + device_text("row.cl") +
             device_text(kind.has_items ? "row_of_items.cl" : "row_of_vectors.cl") +
-            "#undef FLAGS\n#undef NAME\n";
+            "#undef FLAGS\n#undef NAME\n#undef HAS_PRESSURE\n#undef IS_BENT\n"
+            "#undef PRESSURE_SIZE\n#undef COMPONENTS_OF_PRESSURE\n#undef PRESSURE_AT\n";
     cases += fmt::format("  if (task->shape == {0}) return run_{0}(d, task, signals);\n", n);
   }
   text += fmt::format("static int run_task(device d, global const row_stage* task, global const "

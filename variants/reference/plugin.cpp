@@ -70,6 +70,7 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .kernels = nullptr,
                            .is_compensated = false,
                            .has_all = true,
+                           .has_pressure = true,
                            .rotation = own_rotation};
 
 } // namespace

@@ -34,7 +34,7 @@ public:
         began_(Clock::now()), first_steps_(first_steps(problem, times)) {}
 
   Advice result() {
-    costs_.emplace(bench_, spatial_rk4(), advised_variants(request_.variants),
+    costs_.emplace(bench_, spatial_rk4(), advised_variants(bench_.problem(), request_.variants),
                    request_.most_threads);
     plan_paper_run();
     find_models();

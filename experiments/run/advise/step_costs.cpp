@@ -14,7 +14,8 @@ constexpr double thread_gain = 0.95; ///< more threads must bring the time below
 
 } // namespace
 
-std::vector<std::string> advised_variants(const std::vector<std::string>& named) {
+std::vector<std::string> advised_variants(const Problem& problem,
+                                          const std::vector<std::string>& named) {
   for (const std::string& name : named) load_variant(name);
   if (!named.empty()) return named;
   std::vector<std::string> usable;
@@ -23,7 +24,8 @@ std::vector<std::string> advised_variants(const std::vector<std::string>& named)
   // all
   for (auto variant = variants().rbegin(); variant != variants().rend(); ++variant)
     if (variant->is_usable() && !variant->is_by_name &&
-        load_variant(variant->name).has_fma == has_fma)
+        load_variant(variant->name).has_fma == has_fma &&
+        (!problem.has_pressure() || load_variant(variant->name).has_pressure))
       usable.push_back(variant->name);
   return usable;
 }

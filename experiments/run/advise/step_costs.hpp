@@ -16,9 +16,11 @@ struct Target {
   int threads = 1;
 };
 
-/// Variants of this CPU that can run, the fastest first; or the named ones, which are opened.
+/// Variants of this CPU that can run a problem, the fastest first; or the named ones, which are
+/// opened.
 /// @throws InputError for a variant that cannot run here
-std::vector<std::string> advised_variants(const std::vector<std::string>& named);
+std::vector<std::string> advised_variants(const Problem& problem,
+                                          const std::vector<std::string>& named);
 
 /// Times steps and predicts the time of runs.
 class StepCosts {

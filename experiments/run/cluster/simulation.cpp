@@ -112,11 +112,11 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
     return speeds[speeds.size() == 1 ? 0 : part];
   };
   SimulationPlan plan{steps, halo, {}};
+  const StepSweeps sweeps(what.method, what.problem);
   for (const bool is_every_stage : {true, false}) {
     std::vector<PartSize> sizes;
     for (int p = 0; p < decomposition.parts; ++p)
-      sizes.push_back(
-          part_size(what.problem, decomposition, p, is_every_stage ? 1 : what.method.stages));
+      sizes.push_back(part_size(what.problem, decomposition, p, sweeps.halo(is_every_stage)));
     for (const HaloStrategy& strategy : halo_strategies()) {
       if (strategy.is_every_stage != is_every_stage || !strategy.is_possible(threads) ||
           strategy.transport == HaloStrategy::Transport::shared)
@@ -124,10 +124,10 @@ SimulationPlan make_plan(const SimulatedProblem& what, const Decomposition& deco
       PlannedStrategy planned{
           std::string(strategy.name), strategy.exchanges(what.method.stages), {}};
       for (std::size_t p = 0; p < sizes.size(); ++p)
-        planned.parts.push_back(plan_part(sizes[p],
-                                          part_times(sizes[p], strategy, what.method.stages,
-                                                     what.problem.lattice.row_reach(), speed_of(p)),
-                                          what.precision));
+        planned.parts.push_back(plan_part(
+            sizes[p],
+            part_times(sizes[p], strategy, sweeps, what.problem.lattice.row_reach(), speed_of(p)),
+            what.precision));
       plan.strategies.push_back(std::move(planned));
     }
   }

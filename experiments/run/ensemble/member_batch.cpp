@@ -38,7 +38,7 @@ Likeness likeness(const RunPlan& plan) {
   for (const Terms& t : needed_terms(problem, plan.model))
     like.terms.push_back(t.is_material | t.is_damped << 1 | t.is_bending << 2 |
                          t.is_gyroscopic << 3 | t.is_tied << 4 | t.is_oblong << 5 |
-                         t.has_two_shears << 6);
+                         t.has_two_shears << 6 | t.has_pressure << 7);
   like.terms.push_back(std::ranges::all_of(problem.frame_acceleration, is_zero_always));
   return like;
 }

@@ -39,7 +39,8 @@ std::string why_no_witness(const Plugin& plugin, const RunPlan& plan, bool has_f
   if (plugin.has_fma != has_fma)
     return fmt::format("it {} multiply-adds, the run {}",
                        plugin.has_fma ? "fuses" : "does not fuse", has_fma ? "does" : "does not");
-  const auto lack = what_lacks(plugin, plan.precision, *plan.method, plan.rotation);
+  const auto lack =
+      what_lacks(plugin, plan.scene.problem, plan.precision, *plan.method, plan.rotation);
   return lack ? lack->what : "";
 }
 

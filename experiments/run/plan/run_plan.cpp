@@ -238,8 +238,10 @@ void require_outputs_writable(const RunRequest& request) {
     if (!path.empty()) require_writable(path);
 }
 
-std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const Method& method,
-                               Rotation rotation) {
+std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Precision precision,
+                               const Method& method, Rotation rotation) {
+  if (problem.has_pressure() && !plugin.has_pressure)
+    return Lack{problem.name, pressure_is_missing};
   if (precision == Precision::f32c && !plugin.is_compensated)
     return Lack{"--precision f32c", "has f64 and f32 alone"};
   if (plugin.rotation != Rotation::quaternion && rotation != plugin.rotation)
@@ -328,13 +330,11 @@ RunPlan plan_run(const RunRequest& request) {
   plan.tail_steps = request.check_tail;
   if (!request.reference.empty() && plan.dt > 0) read_reference(request, plan);
   require_devices(request, plan);
-  if (const auto lack = what_lacks(*plan.plugin, plan.precision, *plan.method, plan.rotation))
+  if (const auto lack =
+          what_lacks(*plan.plugin, problem, plan.precision, *plan.method, plan.rotation))
     throw InputError(
         fmt::format("{}: variant {} {}; give {}", lack->option, plan.plugin->name, lack->what,
                     plan.plugin->has_all ? "another --variant" : "--variant reference"));
-  if (problem.has_pressure() && !plan.plugin->has_all)
-    throw InputError(fmt::format("{}: variant {} {}; give --variant reference, or G in place of nu",
-                                 plan.scene.name, plan.plugin->name, pressure_is_missing));
   require_sensible(request, plan);
   if (request.is_root) require_outputs_writable(request);
   plan.adaptive = chosen_tolerance(request, *plan.method, plan.precision);

@@ -47,12 +47,13 @@ void require_outputs_writable(const RunRequest& request);
 
 /// A feature that a variant does not have but the run needs.
 struct Lack {
-  std::string option; ///< option that asks for the feature: "--rotation tait_bryan"
-  std::string what;   ///< what the variant has instead: "has quaternions alone"
+  /// What asks for the feature: "--rotation tait_bryan", or the scene.
+  std::string option;
+  std::string what; ///< what the variant has instead: "has quaternions alone"
 };
 /// Finds the first feature that `plugin` does not have; empty if it has all.
-std::optional<Lack> what_lacks(const Plugin& plugin, Precision precision, const Method& method,
-                               Rotation rotation);
+std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Precision precision,
+                               const Method& method, Rotation rotation);
 
 /// Finds a precision by name. @throws InputError with the nearest known name
 Precision require_precision_name(const std::string& name);

@@ -95,9 +95,9 @@ private:
 
   std::string why_skipped(const Plugin& plugin) const {
     try {
-      if (const auto lack = what_lacks(plugin, precision_, methods().front(), plugin.rotation))
+      if (const auto lack =
+              what_lacks(plugin, problem_, precision_, methods().front(), plugin.rotation))
         return lack->what;
-      if (problem_.has_pressure() && !plugin.has_all) return pressure_is_missing;
       if (precision_ == Precision::f32c && plugin.devices != nullptr)
         return "left to tests/equivalence: programs of their own for every scene take minutes to "
                "compile";

@@ -61,7 +61,7 @@ public:
       : study_(study), of_(of), solution_(solution), note_(note),
         bench_(of.loaded.problem, of.times, of.quantity),
         expected_(observed_of(of.loaded.problem, of.quantity, solution.states)),
-        costs_(bench_, base(), advised_variants({}), usable_cores()) {}
+        costs_(bench_, base(), advised_variants(bench_.problem(), {}), usable_cores()) {}
 
   std::vector<Record> rows() {
     note_(fmt::format("{} {}: trying everything", of_.scene, set_text(of_.set)));

@@ -87,7 +87,7 @@ private:
   /// plan_run, but methods are not fitted to the step.
   std::string refusal(const Method& method, Precision precision, Rotation rotation, Model model,
                       double dt) {
-    if (const auto lack = what_lacks(plugin_, precision, method, rotation))
+    if (const auto lack = what_lacks(plugin_, scene_.problem, precision, method, rotation))
       return fmt::format("variant {} {}", plugin_.name, lack->what);
     if (const std::string why = why_not(model, scene_.problem); !why.empty())
       return fmt::format("model {}: {}", name(model), why);

@@ -9,18 +9,20 @@ static void publish(device d, global const row_stage* task) {
 }
 
 /* One pass of the wavefront over the rows of a block (variants/engine/wavefront.cpp): the first
- * `count` sweeps of the tasks [list.x, list.y). */
+ * `count` sweeps of the tasks [list.x, list.y).
+ * @param sweeps   of a step
+ * @param a_stage  sweeps of a stage */
 static void run_tasks(device d, const int2 list, global const NUMBER* signals, global int* failed,
-                      const int block, const int first_step, int count, const int stages,
-                      const int signal_width) {
+                      const int block, const int first_step, int count, const int sweeps,
+                      const int a_stage, const int signal_width) {
   for (int n = list.x; n < list.y; ++n) {
     global const row_stage* task = d.tasks + n;
     const int sweep = task->sweep;
     if (sweep >= count) continue;
-    const bool is_finite = run_task(d, task, signals + sweep * signal_width);
-    if ((sweep + 1) % stages != 0) continue;
+    const bool is_finite = run_task(d, task, signals + sweep / a_stage * signal_width);
+    if ((sweep + 1) % sweeps != 0) continue;
     if (!is_finite && has_failed(d, task)) {
-      record_failure(failed, block, first_step + sweep / stages, task->row);
+      record_failure(failed, block, first_step + sweep / sweeps, task->row);
       count = sweep + 1; /* earlier steps may fail too, and lower rows of this one */
     }
     if (task->published >= 0) publish(d, task);
@@ -46,7 +48,7 @@ static bool have_come(volatile global int* progress, const int2 blocks, const in
 kernel void run_passes(TABLES, global const int2* lists, global const int2* neighbours,
                        global const NUMBER* signals, global int* failed,
                        volatile global int* progress, const int first_parity, const int last_pass,
-                       const int steps_a_pass, const int steps, const int stages,
+                       const int steps_a_pass, const int steps, const int sweeps, const int a_stage,
                        const int signal_width, const int patience, const int first_block,
                        const int block_stride) {
   const device d = DEVICE;
@@ -54,8 +56,9 @@ kernel void run_passes(TABLES, global const int2* lists, global const int2* neig
   for (int pass = progress[block]; pass < last_pass; ++pass) {
     const int step = pass * steps_a_pass, parity = (first_parity + pass) & 1;
     if (!have_come(progress, neighbours[block], pass, patience) || failed[0] < step) return;
-    run_tasks(d, lists[block * 2 + parity], signals + step * stages * signal_width, failed, block,
-              step, min(steps_a_pass, steps - step) * stages, stages, signal_width);
+    run_tasks(d, lists[block * 2 + parity], signals + step * (sweeps / a_stage) * signal_width,
+              failed, block, step, min(steps_a_pass, steps - step) * sweeps, sweeps, a_stage,
+              signal_width);
     mem_fence(CLK_GLOBAL_MEM_FENCE);
     atomic_xchg(progress + block, pass + 1);
   }

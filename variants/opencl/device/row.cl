@@ -1,6 +1,10 @@
 /* One stage of one row, for one combination of terms. The host defines FLAGS (the terms) and
  * NAME(f), which is f_<number of the combination>. The loop over packs is in row_of_vectors.cl or
- * row_of_items.cl; this file has what both share. `d` holds the tables of the device. */
+ * row_of_items.cl; this file has what both share. `d` holds the tables of the device.
+ *
+ * If elements have a pressure, the host also defines HAS_PRESSURE and IS_BENT (it has moments), and
+ * for the parts that rows store PRESSURE_SIZE and COMPONENTS_OF_PRESSURE(act)
+ * (kernels/stage_row/element_pressure.hpp). */
 
 static inline paper_law NAME(paper_law_of)(global const body_constants* body, int axis) {
   if (!FLAGS.is_oblong) axis = 0;
@@ -22,12 +26,64 @@ static inline axis_law NAME(law_of)(device d, global const row_stage* task, cons
   const REAL edge = SPLAT(body->edge[axis]);
   material_law m = {edge,          edge,         OF_LINK(k_s),  OF_LINK(k_ns), OF_LINK(k_ts),
                     OF_LINK(d_s),  OF_LINK(d_ns), OF_LINK(d_ts), OF_LINK(k_z),  OF_LINK(k_xz),
-                    OF_LINK(k_yz), OF_LINK(d_z),  OF_LINK(d_xz), OF_LINK(d_yz)};
+                    OF_LINK(k_yz), OF_LINK(d_z),  OF_LINK(d_xz), OF_LINK(d_yz), no_pressure()};
 #undef OF_LINK
   axis_law law = {NAME(paper_law_of)(body, 0), NAME(paper_law_of)(body, axis), m,
                   SPLAT(body->edge_ratio)};
   return law;
 }
+
+#if HAS_PRESSURE
+#define PRESSURE_AT(task) (((task)->fields - PRESSURE_SIZE) * W)
+#define READ_PART(c) a.c = LOAD(p), p += W;
+#define WRITE_PART(c) STORE(a.c, p), p += W;
+#define ADD_PART(c) a.c = a.c + b.c;
+static inline pressure NAME(pressure_at)(global const NUMBER* p) {
+  pressure a = pressure_zero();
+  COMPONENTS_OF_PRESSURE(READ_PART)
+  return a;
+}
+static inline void NAME(put_pressure)(pressure a, global NUMBER* p) {
+  COMPONENTS_OF_PRESSURE(WRITE_PART)
+}
+static inline pressure NAME(pressure_sum)(pressure a, pressure b) {
+  COMPONENTS_OF_PRESSURE(ADD_PART)
+  return a;
+}
+#undef READ_PART
+#undef WRITE_PART
+#undef ADD_PART
+/* The law of a link with what the pressures of its elements, at `i` and `j`, do to it. */
+static inline axis_law NAME(pressed)(axis_law law, global const body_constants* body,
+                                     const pressure i, const pressure j, const int axis) {
+  law.material.pressure = pressure_on_link(i, j, axis, SPLAT(body->inverse_edge[axis]), IS_BENT);
+  return law;
+}
+static inline pressure NAME(strain)(global const body_constants* body, element i, element j,
+                                    const int axis) {
+  return link_strain(i, j, axis, SPLAT(body->edge[axis]), SPLAT(body->inverse_edge[axis]), IS_BENT);
+}
+/* Adds the loads' shares to the sum of strains of a pack, and stores the pressures.
+ * @param place  offset of the pack's first field in its row */
+static inline void NAME(finish_pressure)(device d, global const row_stage* task,
+                                         global const NUMBER* signals, const int pack,
+                                         const long place, pressure a) {
+  global const pressure_lanes* c = d.pressures + d.pressure_index[task->masks + pack];
+  if (task->face_strains >= 0) {
+    global const applied_row* loads = d.face_strains + task->face_strains;
+    for (int n = 0; n < loads->pattern_count; ++n) {
+      global const pattern* q = d.patterns + loads->patterns + n;
+      if (pack < q->first || pack >= q->first + q->packs) continue;
+      a.s = FMA(SPLAT(signals[q->signal]),
+                LOAD(d.arena + q->values + (long)(pack - q->first) * W + LANE), a.s);
+    }
+  }
+#define TIMES_CONSTANT(part) a.part = LOAD(c->part.lane + LANE) * a.part;
+  COMPONENTS_OF_PRESSURE(TIMES_CONSTANT)
+#undef TIMES_CONSTANT
+  NAME(put_pressure)(a, d.arena + task->out + place + PRESSURE_AT(task));
+}
+#endif
 
 static inline wrench NAME(apply)(device d, global const row_stage* task,
                                  global const NUMBER* signals, const int pack, wrench sum) {

@@ -2,6 +2,15 @@
  * for another. So every link is computed at both ends: a result of one end for the other would go
  * through memory, which limits the speed. */
 
+#if HAS_PRESSURE
+#define PRESSURE_OF(element) NAME(pressure_at)((element) + PRESSURE_AT(task))
+#define PRESSED(law, i, j, axis) \
+  if (FLAGS.has_pressure) law = NAME(pressed)(law, d.bodies + task->body, i, j, axis);
+#else
+#define PRESSURE_OF(element) pressure_zero()
+#define PRESSED(law, i, j, axis)
+#endif
+
 static inline vec NAME(upper_x)(prepared i) {
   return FLAGS.is_material ? i.e.u : upper_face(i.pull, i.x);
 }
@@ -14,14 +23,20 @@ static inline exchange NAME(exchange_x)(prepared i, prepared j, axis_law law) {
  * @param above, below  whether there is a link to the upper and to the lower element */
 static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law,
                                       axis_law law_below, const int above, const int below,
-                                      global const NUMBER* upper, global const NUMBER* lower) {
+                                      global const NUMBER* upper, global const NUMBER* lower,
+                                      device d, global const row_stage* task,
+                                      const pressure own_pressure) {
   if (!(above || below)) return sum;
   const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
-  if (above) up = link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS);
+  if (above) {
+    PRESSED(law, own_pressure, PRESSURE_OF(upper), axis)
+    up = link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS);
+  }
   carried low = nothing_carried();
   if (below) {
     const element j = element_at(lower);
+    PRESSED(law_below, PRESSURE_OF(lower), own_pressure, axis)
     low = carried_by(link_across(j, upper_across(j, axis, law_below, FLAGS), i.e, axis, law_below,
                                  FLAGS),
                      FLAGS);
@@ -29,26 +44,74 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   return wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
 }
 
+static inline bool NAME(is_linked_below)(global const pack_masks* masks, const int pack,
+                                         const int lane) {
+  return lane > 0 ? masks->link_x >> (lane - 1) & 1
+                  : pack > 0 && (masks[-1].link_x >> (W - 1) & 1);
+}
+
+#if HAS_PRESSURE
+/* Adds the strains of the links across y or z, each of which is computed at both ends too. */
+static inline pressure NAME(add_strains)(pressure sum, global const body_constants* body, element i,
+                                         const int axis, const int above, const int below,
+                                         global const NUMBER* upper, global const NUMBER* lower) {
+  if (above) sum = NAME(pressure_sum)(sum, NAME(strain)(body, i, element_at(upper), axis));
+  if (below) sum = NAME(pressure_sum)(sum, NAME(strain)(body, element_at(lower), i, axis));
+  return sum;
+}
+static inline void NAME(find_pressure)(device d, global const row_stage* task,
+                                       global const NUMBER* signals) {
+  const int pack = PACK(task), lane = LANE, stride = task->fields * W;
+  global const pack_masks* masks = d.masks + task->masks + pack;
+  global const body_constants* body = d.bodies + task->body;
+  const long start = (long)pack * stride, place = start + lane;
+  global const NUMBER* in = d.arena + task->in;
+  const element i = element_at(in + place);
+  pressure up = pressure_zero(), low = pressure_zero();
+  if (masks->link_x >> lane & 1)
+    up = NAME(strain)(body, i, element_at(in + (lane + 1 < W ? place + 1 : start + stride)), 0);
+  if (NAME(is_linked_below)(masks, pack, lane))
+    low = NAME(strain)(body, element_at(in + (lane > 0 ? place - 1 : start - stride + W - 1)), i, 0);
+  pressure sum = NAME(pressure_sum)(up, low);
+#if AXES > 1
+  sum = NAME(add_strains)(sum, body, i, 1, masks->link_y >> lane & 1, masks->below_y >> lane & 1,
+                          d.arena + task->upper_y + place, d.arena + task->lower_y + place);
+#endif
+#if AXES > 2
+  sum = NAME(add_strains)(sum, body, i, 2, masks->link_z >> lane & 1, masks->below_z >> lane & 1,
+                          d.arena + task->upper_z + place, d.arena + task->lower_z + place);
+#endif
+  NAME(finish_pressure)(d, task, signals, pack, place, sum);
+}
+#endif
+
 /* @return whether the result of a last stage is finite */
 static inline int NAME(run)(device d, global const row_stage* task, global const NUMBER* signals) {
   const int pack = PACK(task), lane = LANE;
   if (pack < 0 || pack >= task->packs) return 1;
+  if (task->action == find_pressure) {
+#if HAS_PRESSURE
+    NAME(find_pressure)(d, task, signals);
+#endif
+    return 1; /* else a body without pressures, beside one that has them */
+  }
   global const pack_masks* masks = d.masks + task->masks + pack;
-  const axis_law x = NAME(law_of)(d, task, pack, 0, 0), x_below = NAME(law_of)(d, task, pack, 0, 1);
+  axis_law x = NAME(law_of)(d, task, pack, 0, 0), x_below = NAME(law_of)(d, task, pack, 0, 1);
   const int stride = task->fields * W;
   const long start = (long)pack * stride, place = start + lane;
   global const NUMBER* in = d.arena + task->in;
   const prepared i = prepare(element_at(in + place), x.x, FLAGS);
+  const pressure own_pressure = PRESSURE_OF(in + place);
   exchange up = no_exchange();
   if (masks->link_x >> lane & 1) {
     const long above = lane + 1 < W ? place + 1 : start + stride;
+    PRESSED(x, own_pressure, PRESSURE_OF(in + above), 0)
     up = NAME(exchange_x)(i, prepare(element_at(in + above), x.x, FLAGS), x);
   }
   carried low = nothing_carried();
-  const bool is_linked_below =
-      lane > 0 ? masks->link_x >> (lane - 1) & 1 : pack > 0 && (masks[-1].link_x >> (W - 1) & 1);
-  if (is_linked_below) {
+  if (NAME(is_linked_below)(masks, pack, lane)) {
     const long below = lane > 0 ? place - 1 : start - stride + W - 1;
+    PRESSED(x_below, PRESSURE_OF(in + below), own_pressure, 0)
     const prepared j = prepare(element_at(in + below), x.x, FLAGS);
     low = carried_by(NAME(exchange_x)(j, i, x_below), FLAGS);
   }
@@ -57,14 +120,16 @@ static inline int NAME(run)(device d, global const row_stage* task, global const
   sum = NAME(add_across)(sum, i, 1, NAME(law_of)(d, task, pack, 1, 0),
                          NAME(law_of)(d, task, pack, 1, 1), masks->link_y >> lane & 1,
                          masks->below_y >> lane & 1, d.arena + task->upper_y + place,
-                         d.arena + task->lower_y + place);
+                         d.arena + task->lower_y + place, d, task, own_pressure);
 #endif
 #if AXES > 2
   sum = NAME(add_across)(sum, i, 2, NAME(law_of)(d, task, pack, 2, 0),
                          NAME(law_of)(d, task, pack, 2, 1), masks->link_z >> lane & 1,
                          masks->below_z >> lane & 1, d.arena + task->upper_z + place,
-                         d.arena + task->lower_z + place);
+                         d.arena + task->lower_z + place, d, task, own_pressure);
 #endif
   const REAL check = NAME(update)(d, task, signals, pack, place, i, sum, 0);
   return !(masks->own >> lane & 1) || IS_ZERO(check);
 }
+#undef PRESSURE_OF
+#undef PRESSED

@@ -58,6 +58,25 @@ static inline prepared NAME(parked)(volatile const REAL* p, global const NUMBER*
 #define READ_AGAIN
 #endif
 
+#if HAS_PRESSURE
+#define PRESSURE_OF(pack) NAME(pressure_at)((pack) + PRESSURE_AT(task))
+#define PRESSED(law, i, j, axis) \
+  if (FLAGS.has_pressure) law = NAME(pressed)(law, d.bodies + task->body, i, j, axis);
+static inline pressure NAME(pressure_from_above)(pressure a, pressure b) {
+  pressure r = pressure_zero();
+  COMPONENTS_OF_PRESSURE(FROM_ABOVE)
+  return r;
+}
+static inline pressure NAME(pressure_from_below)(pressure a, pressure b) {
+  pressure r = pressure_zero();
+  COMPONENTS_OF_PRESSURE(FROM_BELOW)
+  return r;
+}
+#else
+#define PRESSURE_OF(pack) pressure_zero()
+#define PRESSED(law, i, j, axis)
+#endif
+
 static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, const uint mask,
                                    carried* previous) {
   element j = i.e;
@@ -87,12 +106,15 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, cons
 static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, axis_law law,
                                       const uint above, const uint below,
                                       global const NUMBER* upper, global NUMBER* carry,
-                                      global const NUMBER* from) {
+                                      global const NUMBER* from, device d,
+                                      global const row_stage* task, const pressure own_pressure) {
   if ((above | below) == 0) return sum;
   const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
-  if (above != 0)
+  if (above != 0) {
+    PRESSED(law, own_pressure, PRESSURE_OF(upper), axis)
     up = NAME(masked)(link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS), above);
+  }
   carried low = nothing_carried();
   if (below != 0) low = NAME(carried_at)(from);
   sum = wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
@@ -117,15 +139,19 @@ static inline int NAME(run_row)(device d, global const row_stage* task,
   carried previous = nothing_carried();
   prepared next = prepare(element_at(in), x.x, FLAGS);
   volatile REAL places[2][PARKED_SIZE]; /* of this pack and of the next, by turns */
+  pressure next_pressure = PRESSURE_OF(in);
   PARK_NEXT(0)
   for (int pack = 0; pack < task->packs; ++pack) {
     const long place = (long)pack * stride, carry = (long)pack * carry_size;
     prepared i = next;
     i.e = element_at(in + place);
     next = prepare(element_at(in + place + stride), x.x, FLAGS);
+    const pressure own_pressure = next_pressure;
+    next_pressure = PRESSURE_OF(in + place + stride);
 #if HAS_LINK_KINDS
     SET_LAWS(pack)
 #endif
+    PRESSED(x, own_pressure, NAME(pressure_from_above)(own_pressure, next_pressure), 0)
     PARK_NEXT(pack + 1)
     READ_AGAIN
     wrench sum = NAME(links_x)(i, next, x, masks[pack].link_x, &previous);
@@ -133,13 +159,13 @@ static inline int NAME(run_row)(device d, global const row_stage* task,
 #if AXES > 1
     sum = NAME(add_across)(sum, i, 1, y, masks[pack].link_y, masks[pack].below_y,
                            d.arena + task->upper_y + place, d.arena + task->carry_y + carry,
-                           d.arena + task->from_y + carry);
+                           d.arena + task->from_y + carry, d, task, own_pressure);
 #endif
 #if AXES > 2
     READ_AGAIN
     sum = NAME(add_across)(sum, i, 2, z, masks[pack].link_z, masks[pack].below_z,
                            d.arena + task->upper_z + place, d.arena + task->carry_z + carry,
-                           d.arena + task->from_z + carry);
+                           d.arena + task->from_z + carry, d, task, own_pressure);
 #endif
     READ_AGAIN
     check = NAME(update)(d, task, signals, pack, place, i, sum, check);
@@ -156,14 +182,87 @@ static inline void NAME(prime)(device d, global const row_stage* task, const int
     const uint mask =
         axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
     if (mask == 0) continue;
-    const axis_law law = NAME(law_of)(d, task, pack, axis, 0);
+    axis_law law = NAME(law_of)(d, task, pack, axis, 0);
     const long place = (long)pack * (task->fields * W) + LANE;
+    PRESSED(law, PRESSURE_OF(d.arena + task->in + place), PRESSURE_OF(upper + place), axis)
     const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
     const exchange up =
         NAME(masked)(link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, FLAGS), mask);
     NAME(put_carried)(carried_by(up, FLAGS), carry + (long)pack * (CARRY_SIZE(FLAGS) * W) + LANE);
   }
 }
+
+#if HAS_PRESSURE
+static inline pressure NAME(masked_strain)(pressure a, const uint mask) {
+#define KEEP_PART(c) KEEP(a.c)
+  if (mask != ALL_LANES) {
+    COMPONENTS_OF_PRESSURE(KEEP_PART)
+  }
+#undef KEEP_PART
+  return a;
+}
+/* Adds the links across y or z, as add_across. */
+static inline pressure NAME(add_strains)(pressure sum, global const body_constants* body, element i,
+                                         const int axis, const uint above, const uint below,
+                                         global const NUMBER* upper, global NUMBER* carry,
+                                         global const NUMBER* from) {
+  pressure up = pressure_zero();
+  if (above != 0) {
+    up = NAME(masked_strain)(NAME(strain)(body, i, element_at(upper), axis), above);
+    sum = NAME(pressure_sum)(sum, up);
+  }
+  if (below != 0) sum = NAME(pressure_sum)(sum, NAME(pressure_at)(from));
+  if (above != 0) NAME(put_pressure)(up, carry);
+  return sum;
+}
+/* The pressures of a row's elements, as PressureRow (kernels/stage_row/pressure_row.hpp). */
+static inline void NAME(find_pressure)(device d, global const row_stage* task,
+                                       global const NUMBER* signals) {
+  global const pack_masks* masks = d.masks + task->masks;
+  global const body_constants* body = d.bodies + task->body;
+  const int stride = task->fields * W, carry_size = CARRY_SIZE(FLAGS) * W;
+  global const NUMBER* in = d.arena + task->in;
+  pressure previous = pressure_zero();
+  element next = element_at(in);
+  for (int pack = 0; pack < task->packs; ++pack) {
+    const long place = (long)pack * stride, carry = (long)pack * carry_size;
+    const element i = next;
+    next = element_at(in + place + stride);
+    element j = i;
+    j.u = vec_from_above(i.u, next.u);
+    j.q = rotor_from_above(i.q, next.q);
+    const pressure up = NAME(masked_strain)(NAME(strain)(body, i, j, 0), masks[pack].link_x);
+    pressure sum = NAME(pressure_sum)(up, NAME(pressure_from_below)(previous, up));
+    previous = up;
+#if AXES > 1
+    sum = NAME(add_strains)(sum, body, i, 1, masks[pack].link_y, masks[pack].below_y,
+                            d.arena + task->upper_y + place, d.arena + task->carry_y + carry,
+                            d.arena + task->from_y + carry);
+#endif
+#if AXES > 2
+    sum = NAME(add_strains)(sum, body, i, 2, masks[pack].link_z, masks[pack].below_z,
+                            d.arena + task->upper_z + place, d.arena + task->carry_z + carry,
+                            d.arena + task->from_z + carry);
+#endif
+    NAME(finish_pressure)(d, task, signals, pack, place, sum);
+  }
+}
+static inline void NAME(prime_strain)(device d, global const row_stage* task, const int axis) {
+  global const NUMBER* upper = d.arena + (axis == 1 ? task->upper_y : task->upper_z);
+  global NUMBER* carry = d.arena + (axis == 1 ? task->carry_y : task->carry_z);
+  for EACH_PACK(task) {
+    const uint mask =
+        axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
+    if (mask == 0) continue;
+    const long place = (long)pack * (task->fields * W) + LANE;
+    const pressure up =
+        NAME(strain)(d.bodies + task->body, element_at(d.arena + task->in + place),
+                     element_at(upper + place), axis);
+    NAME(put_pressure)(NAME(masked_strain)(up, mask),
+                       carry + (long)pack * (CARRY_SIZE(FLAGS) * W) + LANE);
+  }
+}
+#endif
 
 /* Does the action of a row, for one combination of terms.
  * @return false if the last stage of a step left a number that is not finite */
@@ -175,6 +274,31 @@ static int NAME(run)(device d, global const row_stage* task, global const NUMBER
     if (task->upper_z >= 0) NAME(prime)(d, task, 2);
 #endif
     return 1;
+#if HAS_PRESSURE
+  case find_pressure:
+    NAME(find_pressure)(d, task, signals);
+    return 1;
+  case prime_strain_upper:
+    if (task->upper_y >= 0) NAME(prime_strain)(d, task, 1);
+#if AXES > 2
+    if (task->upper_z >= 0) NAME(prime_strain)(d, task, 2);
+#endif
+    return 1;
+  case prime_strain_y:
+    NAME(prime_strain)(d, task, 1);
+    return 1;
+#if AXES > 2
+  case prime_strain_z:
+    NAME(prime_strain)(d, task, 2);
+    return 1;
+#endif
+#else
+  case find_pressure: /* a body without pressures, beside one that has them */
+  case prime_strain_upper:
+  case prime_strain_y:
+  case prime_strain_z:
+    return 1;
+#endif
   case prime_y:
     NAME(prime)(d, task, 1);
     return 1;
@@ -187,3 +311,5 @@ static int NAME(run)(device d, global const row_stage* task, global const NUMBER
     return NAME(run_row)(d, task, signals);
   }
 }
+#undef PRESSURE_OF
+#undef PRESSED

@@ -12,8 +12,9 @@ typedef struct {
   long lower_y, lower_z;                 /* for items: input of the lower rows */
   long base, out, increment[6];
   long published; /* where the new state is also stored */
-  /* action: of enum row_action; shape: of the compiled terms; applied: -1 for most rows */
+  /* action: of enum row_action; shape: of the compiled terms; applied: row, -1 for most rows */
   int action, shape, body, applied;
+  int face_strains; /* as applied: loads' shares in pressures */
   int packs, first_pack, masks, fields, row;
   int sweep;                    /* of a pass */
   int is_last, low, increments; /* as in RowTask */
@@ -46,6 +47,10 @@ typedef struct {
 #include "kernels/stage_row/link_constants.h"
 #undef CONSTANT
 } link_lanes;
+/* As PressureConstants. */
+typedef struct {
+  lane_numbers s, x, y, z;
+} pressure_lanes;
 #endif
 
 /* An extra link: the places of both elements and of their wrenches. */

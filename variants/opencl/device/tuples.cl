@@ -23,6 +23,10 @@ static inline spin spin_splat(global const NUMBER* xyz) {
   COMPONENTS_OF_SPIN(SPLAT_COMPONENT)
   return a;
 }
+static inline pressure pressure_zero(void) {
+  pressure p = {SPLAT(0), SPLAT(0), SPLAT(0), SPLAT(0)};
+  return p;
+}
 static inline exchange no_exchange(void) {
   exchange x = {vec_zero(), spin_zero(), spin_zero()};
   return x;
