@@ -59,6 +59,7 @@ constexpr dss::Plugin plugin = {.abi = dss::plugin_abi,
                                 .create = create,
                                 .kernels = nullptr,
                                 .is_compensated = false,
+                                // The oracle has them; leave this out if your code has not.
                                 .has_pressure = true};
 
 } // namespace

@@ -95,15 +95,16 @@ static inline spin couple_moment(spin couples, paper_law law, const int is_bendi
  * Pressure of elements
  * --------------------
  * An element of a solid with nu > 0 has the energy
- *   V (lambda S^2 / 2 + sum over o of beta_o C_o^2 / 2),   S = sum of e / 2 + t,
+ *   V (lambda' S^2 / 2 + sum over o of b_o C_o^2 / 2),   S = sum of e / 2 + t,
  *   C_o = sum of +-g_m / 2
  * over its links, e = n.D / L, g_m = 2 n_m.r / L, m the axis across a link and o (+: m is along
- * o x a). t is the load's share (Load::face_strain), and beta_o is not 0 if the body is one layer
- * thick along o. Half of the forces' potentials, times V, are
- *   P = V lambda S / 2,   Q_o = V beta_o C_o / 2                                      [N m]
- * and a link gets from its two elements the tension (P_i + P_j) / L along n and the moments
- * +-(Q_oi + Q_oj) / L about n_m. They take the places of (k_n - k_s) (n.D) and of
- * 2 (k_m - k_z) (n_m.r) in F, X and T. */
+ * o x a). t is the load's share (Load::face_strain), and b_o is not 0 if the body is one layer
+ * thick along o (solver/reference/README.md). P and Q_o are V/2 times the derivatives of the energy
+ * density by S and C_o:
+ *   P = V lambda' S / 2,   Q_o = V b_o C_o / 2                                        [N m]
+ * A link gets from its two elements the tension (P_i + P_j) / L along n and the moments
+ * +-(Q_oi + Q_oj) / L about n_m. In F, X and T they are added to (k_n - k_s) (n.D) and to
+ * 2 (k_m - k_z) (n_m.r). */
 
 /* P, and Q about the body's axes, of an element; or the strains of which they are sums. */
 typedef struct {
@@ -153,10 +154,9 @@ static inline pressure link_share(const int axis, REAL along, REAL x, REAL y, RE
   return s;
 }
 
-/* D of the link from i to j */
-static inline vec gap_of(element i, element j, const int axis, REAL edge_i, REAL edge_j) {
-  return vec_sub(vec_sub(j.u, i.u),
-                 vec_add(rotor_turn(i.q, axis, edge_i), rotor_turn(j.q, axis, edge_j)));
+/* D of the link from i to j. turn: (A - I) c of both. */
+static inline vec gap_of(vec u_i, vec u_j, vec turn_i, vec turn_j) {
+  return vec_sub(vec_sub(u_j, u_i), vec_add(turn_i, turn_j));
 }
 
 #ifdef LINEAR
@@ -165,7 +165,8 @@ static inline vec gap_of(element i, element j, const int axis, REAL edge_i, REAL
  * @param is_bent  as in pressure_on_link */
 static inline pressure link_strain(element i, element j, const int axis, REAL edge,
                                    REAL inverse_edge, const int is_bent) {
-  REAL along = inverse_edge * vec_component(gap_of(i, j, axis, edge, edge), axis);
+  vec gap = gap_of(i.u, j.u, rotor_turn(i.q, axis, edge), rotor_turn(j.q, axis, edge));
+  REAL along = inverse_edge * vec_component(gap, axis);
   if (!is_bent) return link_share(axis, along, SPLAT(0), SPLAT(0), SPLAT(0));
   spin r = spin_scale(inverse_edge, rotor_relative(i.q, j.q));
   return link_share(axis, along, spin_component(r, 0), spin_component(r, 1), spin_component(r, 2));
@@ -180,7 +181,7 @@ static inline exchange material_link(element i, element j, const int axis, mater
                                      const int is_damped, const int has_two_shears,
                                      const int has_pressure) {
   exchange x;
-  vec gap = gap_of(i, j, axis, law.edge_i, law.edge_j);
+  vec gap = gap_of(i.u, j.u, rotor_turn(i.q, axis, law.edge_i), rotor_turn(j.q, axis, law.edge_j));
   spin couple = spin_principal(rotor_relative(i.q, j.q), law.k_z, law.k_xz, law.k_yz);
   x.force = vec_principal(gap, axis, law.k_s, law.k_ns);
   if (has_two_shears) x.force = vec_axpy_along(law.k_ts, gap, third_axis(axis), x.force);
@@ -225,7 +226,8 @@ static inline spin bend_about(spin r, REAL p0, vec ni, vec nj, REAL k, const int
 static inline pressure link_strain(element i, element j, const int axis, REAL edge,
                                    REAL inverse_edge, const int is_bent) {
   vec n = half_sum(rotor_column(i.q, axis), rotor_column(j.q, axis));
-  REAL along = inverse_edge * vec_dot(n, gap_of(i, j, axis, edge, edge));
+  vec gap = gap_of(i.u, j.u, rotor_turn(i.q, axis, edge), rotor_turn(j.q, axis, edge));
+  REAL along = inverse_edge * vec_dot(n, gap);
   if (!is_bent) return link_share(axis, along, SPLAT(0), SPLAT(0), SPLAT(0));
   spin r = spin_scale(inverse_edge, rotor_relative(i.q, j.q));
   REAL x = spin_dot(r, half_sum(rotor_column(i.q, 0), rotor_column(j.q, 0))),
@@ -248,7 +250,7 @@ static inline exchange material_link(element i, element j, const int axis, mater
   exchange x;
   const int is_bent = has_pressure && has_two_shears;
   vec turn_i = rotor_turn(i.q, axis, law.edge_i), turn_j = rotor_turn(j.q, axis, law.edge_j);
-  vec gap = vec_sub(vec_sub(j.u, i.u), vec_add(turn_i, turn_j));
+  vec gap = gap_of(i.u, j.u, turn_i, turn_j);
   vec ni = rotor_column(i.q, axis), nj = rotor_column(j.q, axis), n = half_sum(ni, nj);
   REAL stretch = has_pressure ? FMA(law.k_ns, vec_dot(n, gap), law.pressure.tension)
                               : law.k_ns * vec_dot(n, gap);

@@ -37,9 +37,8 @@ public:
 
   /// @param at  offset of the pack in its row
   void operator()(std::ptrdiff_t at, const element& e, const vec& force, const spin& turn) {
-    if constexpr (fixed_action == any_action || fixed_action == rest_called ||
-                  fixed_action == rest_in_line)
-      if (is_apart(constants_.row->action)) {
+    if constexpr (fixed_action == any_action || fixed_action == rest_called)
+      if (fixed_action == rest_called || is_rare(constants_.row->action)) {
         check_ = check_ + act_apart(at, e, force, turn);
         return;
       }
@@ -52,10 +51,6 @@ public:
 private:
   using Update = typename P::template Update<T, W, fixed_action>;
 
-  static bool is_apart(row_action action) {
-    return fixed_action == rest_called ||
-           (fixed_action == any_action ? is_rare(action) : has_function(action));
-  }
   /// Passed by value: taking an address would force the operands into memory for common actions
   /// too.
   R act_apart(std::ptrdiff_t at, element e, vec force, spin turn) const {

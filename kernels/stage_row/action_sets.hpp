@@ -25,7 +25,7 @@ constexpr bool is_kept(row_action action) {
   return action == kept_stage || action == kept_step || action == kept_leapfrog ||
          action == kept_predicted || action == kept_error;
 }
-/// True for actions that common rows have a function of their own for.
+/// True for actions that common rows have a function of their own for (instantiate.hpp).
 constexpr bool has_function(row_action action) {
   return action == plain_stage || action == combined_stage || action == predicted_step ||
          action == kept_stage || action == kept_step;

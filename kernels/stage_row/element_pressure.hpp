@@ -7,8 +7,8 @@
 
 namespace dss {
 
-/// Which of P and Q a model's rows have. Motion in the plane needs no Q, because the one layer that
-/// it moves in bends out of it; bending alone has no P.
+/// Which of P and Q a model's rows have. Models of the plane have no Q, because a plate of one
+/// layer bends out of its plane. The model `bending` has no P.
 struct PressureParts {
   bool has_volume, has_bending_x, has_bending_y, has_bending_z;
   constexpr int count() const {

@@ -41,7 +41,7 @@ struct PressureRow : StageRow<P, T, terms, kind> {
     return of_link;
   }
   T* carried(T* carry, int pack) const { return carry + std::ptrdiff_t(pack) * Stage::carry_size; }
-  void store_strain(T* to, const Stored& of_link) const { store_next(to, of_link); }
+  void store_parts(T* to, const Stored& of_link) const { store_next(to, of_link); }
   Stored load_lower(const T* from, int pack, int axis, simd::LaneMask below) const {
     if constexpr (Stage::is_filled) {
       Stored of_link = load_mapped<Stored, parts.count()>(from, Stage::carry_size,
@@ -63,7 +63,7 @@ struct PressureRow : StageRow<P, T, terms, kind> {
     }
     if (below != 0) add(sum, load_lower(axis == 1 ? task.from_y : task.from_z, pack, axis, below));
     // The carry buffer may be the same as `from`, which has been read.
-    if (above != 0) store_strain(carried(axis == 1 ? task.carry_y : task.carry_z, pack), up);
+    if (above != 0) store_parts(carried(axis == 1 ? task.carry_y : task.carry_z, pack), up);
   }
   void add_loads(int pack, Stored& sum) const {
     const Applied<T>* const loads = task.pressure->loads;
@@ -103,17 +103,17 @@ struct PressureRow : StageRow<P, T, terms, kind> {
       if constexpr (P::axes > 1) add_across(i, 1, pack, masks.link_y, masks.below_y, sum);
       if constexpr (P::axes > 2) add_across(i, 2, pack, masks.link_z, masks.below_z, sum);
       add_loads(pack, sum);
-      store_strain(task.out + place + this->pressure_at(), of_strain(pack, sum));
+      store_parts(task.out + place + this->pressure_at(), of_strain(pack, sum));
     }
     if (kind == LaneKind::neighbours && task.carry_x != nullptr)
-      store_strain(task.carry_x, previous);
+      store_parts(task.carry_x, previous);
   }
   /// Computes only the strain of the link from a piece of a cut row to the next one.
   void prime_x() const {
     const int last = task.packs - 1;
     const element i = load_at<element>(task.in + std::ptrdiff_t(last) * task.stride),
                   next = load_at<element>(task.ahead);
-    store_strain(task.carry_x, strain(i, from_above<kind>(i, next), 0, task.masks[last].link_x));
+    store_parts(task.carry_x, strain(i, from_above<kind>(i, next), 0, task.masks[last].link_x));
   }
   /// Computes only the strains of the links across `axis` from this row to the upper one.
   void prime(const int axis) const {
@@ -122,8 +122,8 @@ struct PressureRow : StageRow<P, T, terms, kind> {
       if (above == 0) continue;
       const T* const upper = axis == 1 ? task.upper_y : task.upper_z;
       const element i = load_at<element>(task.in + std::ptrdiff_t(pack) * task.stride);
-      store_strain(carried(axis == 1 ? task.carry_y : task.carry_z, pack),
-                   strain(i, this->load_upper(upper, pack, task.stride, axis), axis, above));
+      store_parts(carried(axis == 1 ? task.carry_y : task.carry_z, pack),
+                  strain(i, this->load_upper(upper, pack, task.stride, axis), axis, above));
     }
   }
 };

@@ -63,7 +63,7 @@ template <class T>
 using LinkLanes = LinkConstants<LaneNumbers<T>>;
 
 /// Constants of the elements of a pack, from sums of strains to P and Q
-/// (kernels/stage_row/element_pressure.hpp): V lambda / 4, and V beta_o / 2 for o = x, y, z [N m].
+/// (kernels/stage_row/element_pressure.hpp): V lambda' / 4, and V b_o / 2 for o = x, y, z [N m].
 template <class Number>
 struct PressureConstants {
   Number s, x, y, z;

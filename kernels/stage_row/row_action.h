@@ -5,12 +5,6 @@ enum row_action {
   prime_y,
   prime_z,
   prime_upper,
-  /* Devices: the pressures at the input of a stage, and what prime_* is to links for their strains.
-   */
-  find_pressure,
-  prime_strain_y,
-  prime_strain_z,
-  prime_strain_upper,
   bare_rates,     /* devices: out = unscaled rates, forces and moments; the host updates */
   plain_stage,    /* Runge-Kutta: out = base + beta f */
   combined_stage, /* plus one to three increments */
@@ -26,5 +20,11 @@ enum row_action {
   /* Adaptive methods: out is the sum of increments without the state, an estimate of the step's
    * error. */
   error_stage,
-  kept_error
+  kept_error,
+  /* Devices: the pressures at the input of a stage; only the strains of the links that prime_*
+   * names. */
+  find_pressure,
+  prime_strain_y,
+  prime_strain_z,
+  prime_strain_upper
 };

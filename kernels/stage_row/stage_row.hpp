@@ -44,6 +44,7 @@ struct StageRow {
   using pressure = typename P::pressure;
   static constexpr PressureParts parts = pressure_parts(P::of_model, terms);
   using Stored = StoredPressure<R, P::of_model, terms>;
+  static_assert(parts.count() == 0 || sizeof(Stored) == std::size_t(parts.count()) * sizeof(R));
 
   const RowTask<T>& task;
   static constexpr bool is_ensemble = kind == LaneKind::members;
@@ -175,10 +176,11 @@ struct StageRow {
   Stored load_upper_pressure(const T* upper, int pack, std::ptrdiff_t stride, int axis) const {
     return load_upper<Stored, parts.count()>(upper + pressure_at(), pack, stride, axis);
   }
-  /// Adds what the pressures of i and j do to their link.
-  void press(axis_law& law, const Stored& i, const Stored& j, const int axis) const {
+  /// The law of a link with what the pressures of i and j do to it.
+  axis_law pressed(axis_law law, const Stored& i, const Stored& j, const int axis) const {
     law.material.pressure = P::pressure_on_link(widened(i), widened(j), axis,
                                                 R(body.inverse_edge[axis]), parts.has_bending());
+    return law;
   }
   carried load_lower(const T* from, int pack, int axis, simd::LaneMask below) const {
     if constexpr (is_filled) {
@@ -206,14 +208,18 @@ struct StageRow {
                   const T* from, int pack, const int* links, std::ptrdiff_t stride,
                   wrench& sum) const {
     if (!is_plain && (above | below) == 0) return;
-    axis_law own_law = law(axis, links);
+    const axis_law own_law = law(axis, links);
     const typename P::side own = P::side_across(i, axis, own_law, flags);
     exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
+      const element j = load_upper(upper, pack, stride, axis);
       if constexpr (terms.has_pressure)
-        press(own_law, own_pressure, load_upper_pressure(upper, pack, stride, axis), axis);
-      up = P::link_across(i.e, own.upper, load_upper(upper, pack, stride, axis), axis, own_law,
-                          flags);
+        up = P::link_across(i.e, own.upper, j, axis,
+                            pressed(own_law, own_pressure,
+                                    load_upper_pressure(upper, pack, stride, axis), axis),
+                            flags);
+      else
+        up = P::link_across(i.e, own.upper, j, axis, own_law, flags);
       mask_links<is_plain>(above, up);
     }
     carried low{zero<vec>(), zero<spin>()};
@@ -228,9 +234,13 @@ struct StageRow {
   wrench links_x(const prepared& i, const prepared& next, const Stored& own_pressure,
                  const Stored& next_pressure, const int* links, simd::LaneMask mask,
                  carried& previous) const {
-    axis_law own_law = law(0, links);
-    if constexpr (terms.has_pressure)
-      press(own_law, own_pressure, from_above<kind>(own_pressure, next_pressure), 0);
+    const axis_law own_law = [&] {
+      if constexpr (terms.has_pressure)
+        return pressed(law(0, links), own_pressure, from_above<kind>(own_pressure, next_pressure),
+                       0);
+      else
+        return law(0, links);
+    }();
     element j{};
     vec lower, upper;
     if constexpr (terms.is_material) {
@@ -317,8 +327,8 @@ struct StageRow {
       const element j = load_upper(upper, pack, task.stride, axis);
       axis_law own_law = law(axis, links_of(pack));
       if constexpr (terms.has_pressure)
-        press(own_law, load_pressure(task.in + place),
-              load_upper_pressure(upper, pack, task.stride, axis), axis);
+        own_law = pressed(own_law, load_pressure(task.in + place),
+                          load_upper_pressure(upper, pack, task.stride, axis), axis);
       exchange up =
           P::link_across(i, P::upper_across(i, axis, own_law, flags), j, axis, own_law, flags);
       mask_links(above, up);
@@ -349,7 +359,7 @@ struct StageRow {
     const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot),
                                   R(body.tie_d_rot)};
     prepared next = prepare(in);
-    Stored next_pressure = load_pressure(in);
+    Stored own_pressure{}, next_pressure = load_pressure(in);
     alignas(64) T places[2][std::size_t(parked_size)];
     if constexpr (is_parked) park(places[0], next);
     carried previous = link_before();
@@ -368,10 +378,11 @@ struct StageRow {
         for (int line = fetch_lines; line > 0; --line, fetch += 64) simd::fetch(fetch);
       prepared i = next;
       i.e = load_at<element>(in + place);
-      const T* const next_pack = pack + 1 < packs ? in + place + stride : ahead;
-      next = prepare(next_pack);
-      const Stored own_pressure = next_pressure;
-      next_pressure = load_pressure(next_pack);
+      next = prepare(pack + 1 < packs ? in + place + stride : ahead);
+      if constexpr (terms.has_pressure) {
+        own_pressure = next_pressure;
+        next_pressure = load_pressure(pack + 1 < packs ? in + place + stride : ahead);
+      }
       const auto read_again = [&] {
         if constexpr (is_parked) {
           // Fence for the compiler, which would otherwise keep earlier loads and spill them.

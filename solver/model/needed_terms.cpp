@@ -37,8 +37,10 @@ std::vector<Terms> needed_terms(const Problem& problem, Model model) {
     needs[b].has_two_shears = needs[b].is_material && axes > 1 &&
                               (degrees_of(model) & dof_uz) != 0 &&
                               (has_two_shears(body) || bends(body));
-    needs[b].has_pressure = !body.pressures.empty();
-    needs[b].has_pressure = pressure_parts(model, needs[b]).count() > 0;
+    Terms with_pressure = needs[b];
+    with_pressure.has_pressure = true;
+    needs[b].has_pressure =
+        !body.pressures.empty() && pressure_parts(model, with_pressure).count() > 0;
     needs[b].is_oblong =
         (axes > 1 && body.edge[1] != body.edge[0]) || (axes > 2 && body.edge[2] != body.edge[0]);
   }

@@ -62,7 +62,7 @@ class Contraction(ProgramTest):
         self.assertAlmostEqual(limits[0] / limits[1] / large, 1, delta=0.1)
 
     def test_all_variants_agree_with_the_oracle(self):
-        for more in ([], ["--threads", "2"], ["--ranks", "3"]):
+        for more in ([], ["--ranks", "3"]):
             if "--ranks" in more and why_no_variant("mpi"):
                 continue
             result = dssbench("verify", BLOCK, *more)

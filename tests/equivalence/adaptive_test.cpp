@@ -55,7 +55,8 @@ std::vector<Case> cases() {
   return {{"plate", fixture::make_plate(13)},
           {"everything", fixture::make_everything()},
           {"sponge", fixture::make_sponge(21, 6, 5, LinkLaw::paper, 1)},
-          {"tumbling_box", fixture::make_tumbling_box(1)}};
+          {"tumbling_box", fixture::make_tumbling_box(1)},
+          {"pressed_plate", fixture::make_pressed_plate(9, 14)}};
 }
 State start_of(const Problem& problem, Precision precision) {
   const State state = fixture::random_state(problem, 4, 1e-4, 0.02, 0.01);

@@ -149,6 +149,7 @@ TEST_P(EveryEnsemble, has_the_bits_of_single_runs_in_every_method) {
     expect_bits_of_single_runs(fixture::make_sponge(5, 4, 3, LinkLaw::paper, 1), scheme,
                                Model::spatial);
     expect_bits_of_single_runs(fixture::make_pressed_sponge(5, 4, 3), scheme, Model::spatial);
+    expect_bits_of_single_runs(fixture::make_pressed_pair(5, 4), scheme, Model::spatial);
   }
 }
 

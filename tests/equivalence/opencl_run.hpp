@@ -46,6 +46,8 @@ inline std::vector<NamedProblem> problems_of_all_terms() {
           {"sponge", fixture::make_sponge(21, 6, 5, LinkLaw::paper, 1)},
           {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::material, 3), true},
           {"flat_everything", fixture::make_flat_everything(), true},
+          {"pressed_plate", fixture::make_pressed_plate(19, 25), true},
+          {"pressed_everything", fixture::pressed(fixture::make_everything())},
           {"block", fixture::make_block(5, 4, 3, LinkLaw::material, 0)},
           {"damped_joint", fixture::make_damped_joint()},
           {"bars", fixture::make_bars(4, 37, LinkLaw::material), false, true}};
@@ -61,12 +63,14 @@ inline bool is_run(const NamedProblem& c, Model model, const Scheme& scheme) {
     return model == Model::axial && ((is_f64 && is_rk4) || scheme.method.is_staggered());
   if (model == Model::spatial) {
     if (c.name == "everything") return true;
+    if (c.name == "pressed_plate" && (is_leapfrog || is_rk4)) return true;
     return is_rk4 ? is_f64 || c.name == "plate" : is_leapfrog && c.name == "damped_joint";
   }
   if (model == Model::planar) return c.is_flat && (c.name == "plate" || (is_f64 && is_rk4));
   if (model == Model::membrane && c.name == "plate") return is_leapfrog;
   if (model == Model::small && is_leapfrog) return c.name == "everything";
   if (!is_f64 || !is_rk4 || model == Model::axial) return false;
+  if (c.name == "pressed_plate") return model == Model::bending;
   return c.name == (degrees_of(model) != dof_all ? "flat_everything" : "everything");
 }
 

@@ -10,7 +10,8 @@ namespace {
 /// Where not all problems run: PoCL takes seconds to compile a program, and longest for work-items
 /// with barriers.
 bool is_chosen(const VariantRun& run) {
-  return run.problem.name == "plate" || run.problem.name == "everything";
+  return run.problem.name == "plate" || run.problem.name == "everything" ||
+         run.problem.name == "pressed_plate";
 }
 
 TEST_F(OpenCl, states_have_the_bits_of_packs_after_200_steps_on_any_number_of_bands) {
@@ -41,6 +42,17 @@ TEST_F(OpenCl, states_and_rates_have_the_bits_of_packs_on_a_gpu_where_links_are_
     const VariantRun other{load_variant("opencl"), run.problem, run.method, run.model,
                            run.precision};
     EXPECT_NE(other.executor()->schedule().find("a work-item an element"), std::string::npos);
+    EXPECT_EQ(differing_bits(run.after(start, 12), other.after(start, 12), run.precision), 0u);
+    EXPECT_EQ(differing_bits(run.derivative(start), other.derivative(start), run.precision), 0u);
+  });
+}
+TEST_F(OpenCl, states_and_rates_have_the_bits_of_packs_on_a_gpu_where_elements_have_pressures) {
+  const DeviceAs gpu("gpu");
+  each_run(packs(), [](const VariantRun& run, const State& start) {
+    if (!run.problem.has_pressure() || run.precision != Precision::f64) return;
+    const VariantRun other{load_variant("opencl"), run.problem, run.method, run.model,
+                           run.precision};
+    EXPECT_NE(other.executor()->schedule().find("two sweeps a stage"), std::string::npos);
     EXPECT_EQ(differing_bits(run.after(start, 12), other.after(start, 12), run.precision), 0u);
     EXPECT_EQ(differing_bits(run.derivative(start), other.derivative(start), run.precision), 0u);
   });

@@ -28,7 +28,8 @@ std::vector<Case> cases() {
           {"undamped_block", fixture::make_block(6, 11, 13, LinkLaw::material, 0)},
           {"column", fixture::make_block(3, 2, 40, LinkLaw::paper)},
           {"pressed_sponge", fixture::make_pressed_sponge(21, 9, 7)},
-          {"pressed_plate", fixture::make_pressed_plate(9, 40)}};
+          {"pressed_plate", fixture::make_pressed_plate(9, 40)},
+          {"pressed_pair", fixture::make_pressed_pair(9, 20)}};
 }
 
 std::vector<Case> cases_of(const Plugin& plugin) {

@@ -102,6 +102,8 @@ struct ScheduledRun {
       return fixture::make_sponge(37, 13, 1, LinkLaw::material, 3);
     case 4:
       return fixture::make_block(6, 11, 13, LinkLaw::material, 0);
+    case 5:
+      return fixture::make_pressed_sponge(13, 9, 7);
     default:
       return fixture::make_damped_joint();
     }

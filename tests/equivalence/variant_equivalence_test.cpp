@@ -50,6 +50,7 @@ std::vector<Case> cases() {
       {"tumbling_box", fixture::make_tumbling_box(1)},
       {"pressed_sponge", fixture::make_pressed_sponge(13, 6, 5)},
       {"pressed_plate", fixture::make_pressed_plate(19, 7), true},
+      {"pressed_pair", fixture::make_pressed_pair(19, 7), true},
       {"pressed_everything", fixture::pressed(fixture::make_everything())},
       {"pressed_flat_everything", fixture::pressed(fixture::make_flat_everything()), true},
       {"pressed_comb", fixture::pressed(fixture::make_comb(47, 3, 2, LinkLaw::material))},

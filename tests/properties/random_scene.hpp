@@ -62,7 +62,10 @@ inline rc::Gen<Json> random_constants() {
                       {"dt", dt},       {"mass", 1}, {"inertia", 2e-3}};
         Json constants{{"E", 2e7}, {"rho", 1000}, {"damping_ratio", damping}};
         constants["law"] = law == 1 ? "material" : "solid";
-        constants["G"] = 1e7 / (1 + nu);
+        if (law == 2)
+          constants["nu"] = nu;
+        else
+          constants["G"] = 1e7 / (1 + nu);
         return constants;
       },
       below(3), or_zero(3), or_zero(12), or_zero(4e-3), or_zero(0.2), or_zero(0.03));

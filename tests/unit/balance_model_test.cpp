@@ -1,6 +1,7 @@
 /// The model of what two executors of different speed reach together, on cases that can be computed
 /// by hand.
 #include "variants/cost/balance_model.hpp"
+#include "variants/cost/part_cost.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,36 @@ TEST(BalanceModel, of_equals_without_transfers_loses_the_halo_that_both_compute_
   EXPECT_NEAR(model.of_sum, 50 / 51.5, 1e-12);
   EXPECT_NEAR(model.of_fast, 2 * 50 / 51.5, 1e-12);
   EXPECT_NEAR(model.equal_split_of_fast, model.of_fast, 1e-12);
+}
+
+/// A part of rows of one element, between two others.
+PartSize strip(int own_rows, int layers) {
+  PartSize size;
+  size.own_rows = own_rows;
+  size.row_elements.assign(std::size_t(layers) + 1, 2);
+  size.row_elements[0] = std::size_t(own_rows);
+  size.inner_elements = std::size_t(own_rows) - 2;
+  size.faces = {{0, Side::lower, 0, 0}, {2, Side::upper, 0, 0}};
+  return size;
+}
+
+TEST(PartTimes, of_elements_with_pressures_have_two_layers_and_sweeps_a_stage) {
+  const StepSweeps plain(4), pressed(4, true);
+  const HaloStrategy &deep = *find_halo_strategy("deep"), &each = *find_halo_strategy("overlap"),
+                     &split = *find_halo_strategy("deep-overlap");
+  EXPECT_EQ(halo_depth(deep, plain), 4);
+  EXPECT_EQ(halo_depth(deep, pressed), 8);
+  EXPECT_EQ(halo_depth(each, plain), 1);
+  EXPECT_EQ(halo_depth(each, pressed), 2);
+  // Stages of layers 1, 2, 3, 4: 3, 2, 1, 0; with pressures 3, 3, 2, 2, 1, 1, 0, 0.
+  EXPECT_EQ(element_stages(strip(100, 4), deep, plain), 100 * 4 + 2 * 6);
+  EXPECT_EQ(element_stages(strip(100, 8), deep, pressed), 100 * 4 + 2 * 12);
+  const NodeSpeed unit{"", 1, 1};
+  EXPECT_GT(part_times(strip(100, 1), each, plain, 1, unit).inner_s, 0);
+  EXPECT_EQ(part_times(strip(100, 2), each, pressed, 1, unit).inner_s, 0);
+  // Rows of the upper pass: 4, 6, 8, 10; with pressures 8, 12, 16, 20, from the last stage on.
+  EXPECT_DOUBLE_EQ(part_times(strip(100, 4), split, plain, 1, unit).upper_s, 28);
+  EXPECT_DOUBLE_EQ(part_times(strip(100, 8), split, pressed, 1, unit).upper_s, 56);
 }
 
 TEST(BalanceModel, gives_shares_in_proportion_to_speed) {

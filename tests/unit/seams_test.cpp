@@ -23,14 +23,15 @@ Lattice porous_bodies(int ny, int nz) {
 }
 
 /// Computes passes of all blocks. What a task reads must be of its own pass and sweep. The state of
-/// a row is the number of sweeps that have written it.
+/// a row is the number of steps that have written it. A pressure is the pass and sweep that found
+/// it.
 class Passes {
 public:
   /// @param form  in row order: the middle half of the rows belong to the blocks, the others to
   ///   other parts
-  Passes(const Lattice& lattice, const std::vector<LinkedRows>& extra, int stages, int sweeps,
-         int blocks, SweepForm form)
-      : lattice_(lattice), extra_(extra), stages_(stages), sweeps_(sweeps),
+  Passes(const Lattice& lattice, const std::vector<LinkedRows>& extra, StepSweeps of_step,
+         int steps, int blocks, SweepForm form)
+      : lattice_(lattice), extra_(extra), of_step_(of_step), steps_(steps),
         state_(lattice.rows.size()), pass_(std::size_t(blocks)), task_(pass_.size()),
         events_(pass_.size()) {
     const bool is_part = form.is_in_row_order;
@@ -40,12 +41,12 @@ public:
     const int rows = int(lattice.rows.size());
     const int begin = is_part ? rows / 4 : 0, end = is_part ? rows - rows / 4 : rows;
     for (int b = 0; b <= blocks; ++b) division_.cuts.push_back(begin + (end - begin) * b / blocks);
-    const auto all = block_sweeps(division_, rows, sweeps);
+    const auto all = block_sweeps(division_, rows, steps * of_step.count());
     for (const auto& of_block : all)
-      orders_.push_back(order_pass(lattice, division_.order, of_block, form, extra));
-    reads_.sweeps = stages;
-    reads_.increments.resize(std::size_t(stages));
-    if (stages == 4) reads_.increments.back() = {0, 1, 2};
+      orders_.push_back(order_pass(lattice, division_.order, of_block, form, extra, of_step));
+    reads_.sweeps = of_step;
+    reads_.increments.resize(std::size_t(of_step.stages));
+    if (of_step.stages == 4) reads_.increments.back() = {0, 1, 2};
     reads_.extra = extra_;
     seams_.emplace(lattice, division_, all, reads_, orders_);
   }
@@ -63,7 +64,7 @@ public:
   void expect_done(int passes) const {
     for (int row = 0; row < int(state_.size()); ++row)
       if (is_own(row)) {
-        EXPECT_EQ(state_[std::size_t(row)], passes * sweeps_ / stages_);
+        EXPECT_EQ(state_[std::size_t(row)], passes * steps_);
       }
   }
 
@@ -82,24 +83,41 @@ private:
     return true;
   }
   void expect_output(int block, int output, int row, int value) {
-    const int owner = seams_->owner(output, row, block);
+    const int sweep = of_step_.stages == 1 ? output : of_step_.of_stage(output);
+    const int owner = seams_->owner(sweep, row, block);
     if (owner != block) {
       EXPECT_NE(seams_->handed_over(owner, output, row), Seams::nowhere);
     }
     EXPECT_EQ((outputs_[{owner, output, row}]), value) << "output " << output << ", row " << row;
   }
+  /// A row that a task reads: an output of a block, or the state.
+  using Input = std::tuple<int, int, int>; ///< [block, output, row]
+  static constexpr int state_output = -1;
+  Input input_of(int block, const PassTask& task, int row) const {
+    const int stage = of_step_.stage(task.sweep);
+    if (stage > 0) return {seams_->owner(of_step_.of_stage(stage - 1), row, block), stage - 1, row};
+    const int overwriting = of_step_.of_stage(of_step_.stage_of_pass(task.sweep)),
+              owner = of_step_.stages == 1 ? seams_->owner(overwriting, row, block) : block;
+    return owner > block ? Input{owner, overwriting, row} : Input{-1, state_output, row};
+  }
   void compute(int block, const PassTask& task) {
-    const int stage = task.sweep % stages_, pass = pass_[std::size_t(block)];
-    const int before = (pass * sweeps_ + task.sweep) / stages_; // steps, or sweeps of one stage
+    const int stage = of_step_.stage(task.sweep), pass = pass_[std::size_t(block)],
+              stages = of_step_.stages;
+    const int before = pass * steps_ + of_step_.step(task.sweep);
     each_input(lattice_, extra_, task, [&](int row) {
-      if (stage > 0) {
-        expect_output(block, stage - 1, row, pass);
-      } else if (stages_ == 1 && seams_->owner(task.sweep, row, block) > block) {
-        expect_output(block, task.sweep, row, before);
+      const Input input = input_of(block, task, row);
+      const int output = std::get<1>(input);
+      if (output != state_output) {
+        expect_output(block, output, row, stage > 0 ? pass : before);
       } else if (is_own(row)) {
         EXPECT_EQ(state_[std::size_t(row)], before) << "row " << row;
       }
+      if (of_step_.has_pressure && !of_step_.is_pressure(task.sweep) && !task.is_extra()) {
+        EXPECT_EQ(pressures_[input], std::pair(pass, task.sweep - 1)) << "row " << row;
+      }
     });
+    if (task.work == RowWork::pressure)
+      pressures_[input_of(block, task, task.row)] = {pass, int(task.sweep)};
     if (task.work != RowWork::stage) return;
     int& state = state_[std::size_t(task.row)];
     if (is_own(task.row)) {
@@ -107,8 +125,11 @@ private:
     }
     for (const int m : reads_.increments[std::size_t(stage)])
       expect_output(block, m, task.row, pass);
-    if (stages_ == 1) outputs_[{block, task.sweep, task.row}] = state;
-    if (stage + 1 < stages_)
+    if (stages == 1) {
+      outputs_[{block, task.sweep, task.row}] = state;
+      pressures_[{block, task.sweep, task.row}] = pressures_[{-1, state_output, task.row}];
+    }
+    if (stage + 1 < stages)
       outputs_[{block, stage, task.row}] = pass;
     else
       ++state;
@@ -116,14 +137,16 @@ private:
 
   const Lattice& lattice_;
   const std::vector<LinkedRows>& extra_;
-  const int stages_, sweeps_;
+  const StepSweeps of_step_;
+  const int steps_; ///< of a pass
   RowDivision division_;
   PassReads reads_;
   std::vector<std::vector<PassTask>> orders_;
   std::optional<Seams> seams_;
   std::vector<int> state_;
-  std::map<std::tuple<int, int, int>, int> outputs_; ///< [block, output, row]
-  std::vector<int> pass_, task_, events_;            ///< of each block
+  std::map<Input, int> outputs_;
+  std::map<Input, std::pair<int, int>> pressures_;
+  std::vector<int> pass_, task_, events_; ///< of each block
 };
 
 /// Calls check(passes) for methods, blocks and tiles of awkward sizes.
@@ -136,17 +159,19 @@ void each_team(Check&& check) {
     const int rows = int(lattice.rows.size());
     for (const std::vector<LinkedRows>& extra :
          {std::vector<LinkedRows>{}, {{0, rows - 1}, {2, rows / 2}}})
-      for (const auto& [stages, sweeps] : {std::pair{4, 4}, {7, 7}, {2, 2}, {1, 1}, {1, 5}})
-        for (const int blocks : {2, 3, 7})
-          for (const int tile : {no_tiles, 2})
-            for (const bool is_part : {false, true}) {
-              // Parts have no extra links, and make one step a pass. Rows that extra links join are
-              // whole.
-              if (is_part && (!extra.empty() || stages != sweeps)) continue;
-              if (is_cut && !extra.empty()) continue;
-              Passes passes(lattice, extra, stages, sweeps, blocks, {tile, is_part});
-              check(passes, blocks);
-            }
+      for (const auto& [stages, steps] : {std::pair{4, 1}, {7, 1}, {2, 1}, {1, 1}, {1, 5}})
+        for (const bool has_pressure : {false, true})
+          for (const int blocks : {2, 3, 7})
+            for (const int tile : {no_tiles, 2})
+              for (const bool is_part : {false, true}) {
+                // Parts have no extra links, and make one step a pass. Rows that extra links join
+                // are whole.
+                if (is_part && (!extra.empty() || steps > 1)) continue;
+                if (is_cut && !extra.empty()) continue;
+                Passes passes(lattice, extra, {stages, has_pressure}, steps, blocks,
+                              {tile, is_part});
+                check(passes, blocks);
+              }
   }
 }
 

@@ -10,8 +10,9 @@ namespace dss {
 struct HaloStrategy {
   enum class Transport { sendrecv, messages, shared };
   std::string_view name;
-  /// true: one layer of halo after every stage. false: once a step; the halo then has one layer per
-  /// stage, and the stages of halo elements are recomputed.
+  /// true: after every stage; the halo has one layer for each sweep of a stage (step_sweeps.hpp).
+  /// false: once a step; the halo then has one layer for each sweep of the step, and the stages of
+  /// halo elements are recomputed.
   bool is_every_stage;
   bool is_overlapped; ///< see PartSetup
   Transport transport;

@@ -56,11 +56,11 @@ public:
 struct PartSetup {
   const Part& part; ///< Setup::problem is part.problem
   Halo& halo;
-  /// true: exchange one layer of halo after every stage. false: exchange once a step, one layer for
-  /// each stage.
+  /// true: exchange after every stage, one layer of halo for each sweep of a stage. false: exchange
+  /// once a step, one layer for each sweep of the step (step_sweeps.hpp).
   bool is_every_stage = false;
-  /// true: compute the rows that read no halo first, and the rows that neighbours wait for as early
-  /// as possible.
+  /// true: compute the rows that read no halo first, unless elements have pressures, and the rows
+  /// that neighbours wait for as early as possible.
   bool is_overlapped = false;
 };
 

@@ -3,6 +3,8 @@
 #include "solver/model/problem.hpp"
 #include "solver/numerics/method.hpp"
 
+#include <string_view>
+
 namespace dss {
 
 /// A step has a sweep for each stage. If elements have a pressure it has two: the first one finds
@@ -17,6 +19,8 @@ struct StepSweeps {
   StepSweeps(const Method& method, const Problem& problem)
       : stages(method.stages), has_pressure(problem.has_pressure()) {}
 
+  /// For the text of a schedule.
+  std::string_view text() const { return has_pressure ? ", two sweeps a stage" : ""; }
   int a_stage() const { return has_pressure ? 2 : 1; }
   /// Of a step.
   int count() const { return stages * a_stage(); }

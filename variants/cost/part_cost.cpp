@@ -17,13 +17,15 @@ void cut_passes(const PartSize& size, StepSweeps sweeps, int reach, double speed
   const double row_s = double(size.row_elements[0]) / size.own_rows / speed;
   const int stages = sweeps.stages, halo = sweeps.count() * reach;
   const bool is_split = has(Side::upper) && size.own_rows >= 4 * halo;
-  // Its last stage has `halo` rows. Each stage before has one reach more on both sides.
-  if (is_split) times.upper_s = row_s * stages * (halo + reach * (stages - 1));
+  // Its last stage has `halo` rows. Each stage before has more on both sides: a reach a sweep.
+  const int more = reach * sweeps.a_stage() * (stages - 1),
+            more_sweeps = reach * (sweeps.count() - 1);
+  if (is_split) times.upper_s = row_s * stages * (halo + more);
   const double lower_s = times.compute_s - times.upper_s;
   const int lower_rows = size.own_rows - (is_split ? halo : 0);
   // Each sweep of a split part's lower block has as many rows; else the first has the most.
-  const int first_rows = lower_rows + (is_split ? 0 : (stages - 1) * reach);
-  const double done_at = double(halo + (stages - 1) * reach) / first_rows;
+  const int first_rows = lower_rows + (is_split ? 0 : more_sweeps);
+  const double done_at = double(halo + more_sweeps) / first_rows;
   times.edge_s = has(Side::lower) ? lower_s * std::min(1.0, done_at) : 0;
 }
 
@@ -47,8 +49,9 @@ PartTimes part_times(const PartSize& size, const HaloStrategy& strategy, StepSwe
                      int reach, const NodeSpeed& speed) {
   PartTimes times;
   times.compute_s = element_stages(size, strategy, sweeps) / speed.of(strategy);
-  times.inner_s = times.compute_s * double(size.inner_elements) /
-                  double(std::max<std::size_t>(1, size.row_elements[0]));
+  if (!sweeps.has_pressure) // pressures need the halo first
+    times.inner_s = times.compute_s * double(size.inner_elements) /
+                    double(std::max<std::size_t>(1, size.row_elements[0]));
   if (strategy.is_overlapped && !strategy.is_every_stage)
     cut_passes(size, sweeps, reach, speed.of(strategy), times);
   return times;

@@ -92,15 +92,15 @@ struct RowKernels {
     row.template run<fields>(update);
     return simd::is_zero(row.checked(update.check()));
   }
-  /// Rows beside those of a body with pressures have more numbers.
+  /// Rows of a body without pressures have more numbers than these beside a body that has them.
   template <int action, int fields>
   static bool run_own(const RowTask<T>& task) {
-    if (task.stride != fields * simd::lanes<T>) return run_stage<rest, any_fields>(task);
+    if (task.stride != fields * simd::lanes<T>) return run_stage<rest_called, any_fields>(task);
     return run_stage<action, fields>(task);
   }
   static bool stage(const RowTask<T>& task) {
     if constexpr (has_own_functions) {
-      switch (task.action) {
+      switch (task.action) { // as has_function says
       case plain_stage:
         return run_own<plain_stage, P::fields>(task);
       case combined_stage:

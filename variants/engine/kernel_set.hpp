@@ -85,9 +85,10 @@ struct KernelSet {
   /// axis (1 or 2; of a piece of a cut row also 0). A block of rows needs them from the row before
   /// its first.
   void (*prime)(const RowTask<T>& task, int axis);
-  /// Computes the pressures of a row's elements at its `in`, which is its `out` too, and, as prime,
-  /// only the strains that a row leaves for the next. Null for terms without pressure.
+  /// Computes the pressures of a row's elements at its `in`, which is its `out` too. Null for terms
+  /// without pressure.
   void (*pressure)(const RowTask<T>& task);
+  /// Computes only the strains of the links that prime computes. Null for terms without pressure.
   void (*prime_pressure)(const RowTask<T>& task, int axis);
   /// Computes an extra link, or of an ensemble the same link of all members.
   /// @param i, j                fields of the two elements; of an ensemble: packs

@@ -170,7 +170,8 @@ std::optional<std::size_t> PackedRows<T, W>::first_failed(int row, const T* pack
     if (part_ != nullptr && part_->layer[element] > 0) return;
     const T* lane =
         packs + std::ptrdiff_t(x / W - rows[std::size_t(row)].first_pack) * fields * W + x % W;
-    for (int f = 0; f < fields; ++f)
+    // The pressures are of another state: the input of a stage.
+    for (int f = 0; f < fields - pressure_fields; ++f)
       if (!std::isfinite(lane[f * W])) failed = element;
   });
   return failed;

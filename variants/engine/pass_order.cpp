@@ -45,8 +45,8 @@ private:
 class Order {
 public:
   Order(const Lattice& lattice, const RowOrder& rows, std::span<const SweepRows> sweeps,
-        SweepForm form, std::span<const LinkedRows> extra, StepSweeps kinds)
-      : lattice_(lattice), rows_(rows), sweeps_(sweeps), form_(form), kinds_(kinds),
+        SweepForm form, std::span<const LinkedRows> extra, StepSweeps of_step)
+      : lattice_(lattice), rows_(rows), sweeps_(sweeps), form_(form), of_step_(of_step),
         extra_(extra, lattice.rows.size(), sweeps.size()) {}
   void add_group(const BodyGroup& group) {
     const BodyPlanes& planes = group.members().front().planes;
@@ -111,7 +111,7 @@ private:
     if (is_before(r.lower_x)) put(RowWork::upper_link_x, sweep, r.lower_x);
     if (is_before(r.lower_y)) put(RowWork::upper_link_y, sweep, r.lower_y);
     if (is_before(r.lower_z)) put(RowWork::upper_link_z, sweep, r.lower_z);
-    if (kinds_.is_pressure(sweep)) return put(RowWork::pressure, sweep, row);
+    if (of_step_.is_pressure(sweep)) return put(RowWork::pressure, sweep, row);
     const std::span<const int> links = extra_.links_of(row);
     for (const int link : links)
       if (extra_.begin(sweep, link)) put(RowWork::extra_link, sweep, link);
@@ -126,7 +126,7 @@ private:
   const RowOrder& rows_;
   const std::span<const SweepRows> sweeps_;
   const SweepForm form_;
-  const StepSweeps kinds_;
+  const StepSweeps of_step_;
   ExtraWork extra_;
   int tile_ = 0;
 };
@@ -135,8 +135,8 @@ private:
 
 std::vector<PassTask> order_pass(const Lattice& lattice, const RowOrder& rows,
                                  std::span<const SweepRows> sweeps, SweepForm form,
-                                 std::span<const LinkedRows> extra, StepSweeps kinds) {
-  Order order(lattice, rows, sweeps, form, extra, kinds);
+                                 std::span<const LinkedRows> extra, StepSweeps of_step) {
+  Order order(lattice, rows, sweeps, form, extra, of_step);
   const auto add = [&](std::span<const BodyGroup> groups) {
     for (const BodyGroup& group : groups) order.add_group(group);
   };

@@ -9,18 +9,16 @@
 
 namespace dss {
 
-/// What a task does: a stage of a row, or the pressures at its input; only links that the row
-/// leaves for upper rows in one of both; an extra link; or the sum of a row's extra links, before
-/// its stage.
+/// What a task does.
 enum class RowWork : std::uint8_t {
-  stage,
-  pressure,
-  upper_links,
+  stage,       ///< a stage of a row
+  pressure,    ///< the pressures at the input of a stage
+  upper_links, ///< only the links that a row leaves for upper rows, or their strains
   upper_link_x,
   upper_link_y,
   upper_link_z,
   extra_link,
-  extra_sum
+  extra_sum ///< the sum of a row's extra links, before its stage
 };
 
 /// Whether a task computes the links that a row leaves for its upper row across an axis.
@@ -102,10 +100,10 @@ struct SweepForm {
 /// rows that a sweep
 ///   needs beside its own), or a halo higher (seams.hpp)
 /// @param extra   of each extra link; its rows are at most a halo apart
-/// @param kinds   those of a step
+/// @param of_step  the sweeps of a step
 std::vector<PassTask> order_pass(const Lattice& lattice, const RowOrder& rows,
                                  std::span<const SweepRows> sweeps, SweepForm form,
-                                 std::span<const LinkedRows> extra = {}, StepSweeps kinds = {});
+                                 std::span<const LinkedRows> extra = {}, StepSweeps of_step = {});
 
 /// Most rows across the sweeps' direction, over all bodies without extra links; 0 if there are
 /// none.

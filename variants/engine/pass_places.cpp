@@ -66,14 +66,14 @@ private:
 } // namespace
 
 PassPlaces::PassPlaces(const Lattice& lattice, const RowOrder& rows,
-                       std::span<const PassTask> order, int sweeps, StepSweeps kinds,
+                       std::span<const PassTask> order, int sweeps, StepSweeps of_step,
                        const std::vector<std::vector<int>>& increments,
                        std::span<const LinkedRows> extra, bool is_filled, PlaceSizes sizes)
     : lattice_(lattice), rows_(rows), extra_(extra), is_filled_(is_filled), sizes_(sizes) {
   find_rows(order);
-  stage_rows_ = empty_table(kinds.stages - 1);
+  stage_rows_ = empty_table(of_step.stages - 1);
   for (Table& links : links_) links = empty_table(sweeps);
-  place_stage_rows(order, kinds, increments);
+  place_stage_rows(order, of_step, increments);
   for (const int axis : {0, 1, 2}) place_links(order, axis);
 }
 
@@ -94,23 +94,23 @@ void PassPlaces::find_rows(std::span<const PassTask> order) {
   row_count_ = std::size_t(most + 1 - least);
 }
 
-void PassPlaces::place_stage_rows(std::span<const PassTask> order, StepSweeps kinds,
+void PassPlaces::place_stage_rows(std::span<const PassTask> order, StepSweeps of_step,
                                   const std::vector<std::vector<int>>& increments) {
   // Calls visit(stage, row) for each output of a stage that a task reads.
   const auto each_read = [&](const PassTask& task, auto&& visit) {
-    const int stage = kinds.stage(task.sweep);
+    const int stage = of_step.stage(task.sweep);
     if (stage > 0) each_input(lattice_, extra_, task, [&](int row) { visit(stage - 1, row); });
     if (task.work == RowWork::stage)
       for (const int m : increments[std::size_t(stage)]) visit(m, task.row);
   };
-  Table last_read = empty_table(kinds.stages - 1);
+  Table last_read = empty_table(of_step.stages - 1);
   for (std::size_t n = 0; n < order.size(); ++n)
     each_read(order[n],
               [&](int stage, int row) { last_read[std::size_t(stage)][row_index(row)] = int(n); });
   Rings rings(stage_rows_.size(), sizes_.stages);
   for (std::size_t n = 0; n < order.size(); ++n) {
     const PassTask& task = order[n];
-    const auto stage = std::size_t(kinds.stage(task.sweep));
+    const auto stage = std::size_t(of_step.stage(task.sweep));
     if (task.work == RowWork::stage && stage < stage_rows_.size()) {
       const int last = last_read[stage][row_index(task.row)];
       const bool is_read = last != nowhere;

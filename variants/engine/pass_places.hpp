@@ -22,7 +22,7 @@ class PassPlaces {
 public:
   static constexpr int nowhere = -1;
   /// @param sweeps      of a pass
-  /// @param kinds       those of its steps
+  /// @param of_step     those of a step
   /// @param increments  of each stage, the stages whose outputs the update reads
   /// @param lattice     of all rows; outlives this object
   /// @param rows        the order of rows, in which those of a pass are close; outlives this object
@@ -31,7 +31,7 @@ public:
   ///   several packs, so a row cannot leave its own in their place
   /// @param sizes       outlive this object
   PassPlaces(const Lattice& lattice, const RowOrder& rows, std::span<const PassTask> order,
-             int sweeps, StepSweeps kinds, const std::vector<std::vector<int>>& increments,
+             int sweeps, StepSweeps of_step, const std::vector<std::vector<int>>& increments,
              std::span<const LinkedRows> extra, bool is_filled, PlaceSizes sizes = {});
   /// Place of the output of a stage of a row [packs]; 0 if no task of the pass writes it.
   int stage_row(int stage, int row) const { return at(stage_rows_, stage, row); }
@@ -55,7 +55,7 @@ private:
   /// Of a row that a task of the pass writes or reads.
   std::size_t row_index(int row) const { return std::size_t(rows_.place(row) - first_); }
   void find_rows(std::span<const PassTask> order);
-  void place_stage_rows(std::span<const PassTask> order, StepSweeps kinds,
+  void place_stage_rows(std::span<const PassTask> order, StepSweeps of_step,
                         const std::vector<std::vector<int>>& increments);
   void place_links(std::span<const PassTask> order, int axis);
   int upper(int row, int axis) const { return lattice_.rows[std::size_t(row)].upper(axis); }

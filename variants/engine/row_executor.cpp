@@ -381,15 +381,15 @@ Outcome RowExecutor<T>::run_staged(long steps, std::span<const double> signals) 
 template <class T>
 std::string RowExecutor<T>::schedule() const {
   const std::string_view rows = packed_.filled.is_any() ? ", filled packs" : "";
-  if (staged_) return fmt::format("stage by stage: {}{}", why_staged_, rows);
+  if (staged_) return fmt::format("stage by stage: {}{}{}", why_staged_, rows, sweeps_.text());
   return fmt::format(
-      "wavefront over rows, reach {}, in place{}{}{}{}", packed_.is_cut() ? 1 : packed_.reach,
+      "wavefront over rows, reach {}, in place{}{}{}{}{}", packed_.is_cut() ? 1 : packed_.reach,
       shape_.steps > 1 ? fmt::format(", {} steps a pass", shape_.steps) : "",
       packed_.is_cut() ? fmt::format(", tiles of {} elements",
                                      packed_.cut.cuts[std::size_t(shape_.form.tile) - 1] -
                                          packed_.lattice.rows.front().x_begin)
                        : tiles_text(shape_.form.tile),
-      rows, setup_.problem.extra_links.empty() ? "" : ", with extra links");
+      rows, setup_.problem.extra_links.empty() ? "" : ", with extra links", sweeps_.text());
 }
 
 template <class T>

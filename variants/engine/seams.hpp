@@ -81,7 +81,7 @@ private:
   };
   using Touches = std::unordered_map<Key, std::vector<LastTouch>>;
   static constexpr int state = -1; ///< as an output
-  /// The output that is a task's input of a row.
+  /// Where a task reads a row: the number of an output, or `state`.
   int input_of(int block, const PassTask& task, int row) const;
   /// The sweep that writes an output.
   int writer(int output) const {

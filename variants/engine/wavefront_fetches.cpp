@@ -18,7 +18,7 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
   std::vector<long> packs;
   for (const RowStage& stage : tasks)
     packs.push_back(stage.work == RowWork::stage ? stage.task.packs : 0);
-  FetchPlan plan(std::move(packs), sweep_count());
+  FetchPlan plan(std::move(packs), shape_.steps * sweeps_.stages); // pressures fetch nothing
   LastTiles states(int(packed_.rows.size())), stage_rows(places_->stage_rows_size()),
       links[] = {LastTiles(places_->links_size(0)), LastTiles(places_->links_size(1)),
                  LastTiles(places_->links_size(2))};
@@ -52,7 +52,7 @@ void WavefrontStep<T, W>::plan_fetches(const std::vector<PassTask>& order, int p
       }
       if (row.upper(axis) >= 0) of_axis.touch(places_->links(axis, sweep, r), tile);
     }
-    if (s + 1 < sweeps_.stages && order[n].work == RowWork::stage)
+    if (s + 1 < sweeps_.stages && !sweeps_.is_pressure(sweep))
       stage_rows.touch(places_->stage_row(s, r), tile);
   }
   for (std::size_t n = 0; n < tasks.size(); ++n)

@@ -4,6 +4,7 @@
 #include "variants/api/step_sweeps.hpp"
 #include "variants/hybrid/balance.hpp"
 #include "variants/hybrid/clock.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,6 +15,7 @@ namespace {
 std::unique_ptr<Executor> make_executor(const Setup& whole, const Participant& participant,
                                         const PartSetup& part_setup) {
   const Member& member = participant.member;
+  require_pressure(*participant.plugin, whole.problem);
   auto executor = participant.plugin->create({part_setup.part.problem, whole.method, whole.model,
                                               whole.precision, whole.dt, member.threads,
                                               &part_setup, nullptr, member.device});

@@ -149,6 +149,12 @@ void end_variants(int exit_code, bool is_in_order) {
     if (plugin->end != nullptr) plugin->end(exit_code, is_in_order);
 }
 
+void require_pressure(const Plugin& plugin, const Problem& problem) {
+  if (problem.has_pressure() && !plugin.has_pressure)
+    throw InputError(fmt::format("{}: variant {} {}; give another variant, or G in place of nu",
+                                 problem.name, plugin.name, pressure_is_missing));
+}
+
 const Plugin& load_variant(const std::string& name) {
   static std::mutex mutex;
   auto& opened = opened_plugins();

@@ -42,6 +42,8 @@ std::vector<std::string> usable_variants();
 /// @throws InputError if the name is unknown (suggests the nearest), the CPU lacks a feature, or
 /// the module does not load
 const Plugin& load_variant(const std::string& name);
+/// @throws InputError if the elements of a problem have a pressure that a variant does not compute
+void require_pressure(const Plugin& plugin, const Problem& problem);
 
 /// Ends all opened variants. Call it once before the program ends.
 /// @param exit_code    exit code of the program

@@ -79,7 +79,7 @@ int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, i
       packed_row.pressure == nullptr || packed_row.pressure->loads == nullptr ? -1 : r;
   row.packs = packed_row.packs, row.first_pack = packed_row.first_pack;
   row.masks = int(packed_row.pack_offset);
-  row.fields = fields;
+  row.fields = fields, row.state_fields = fields - packed.pressure_fields;
   row.row = r;
   row.sweep = sweep;
   row.beta = task.beta;

@@ -24,6 +24,12 @@ struct Tables {
 #undef NUMBER
 };
 
+/// The action that computes the same links as a prime_* action, or only their strains.
+constexpr row_action prime_of(row_action links, bool is_pressure) {
+  if (!is_pressure) return links;
+  return links == prime_y ? prime_strain_y : links == prime_z ? prime_strain_z : prime_strain_upper;
+}
+
 /// Where rows are computed. A GPU gets a work-item for each element, a CPU one for each band of
 /// rows.
 struct Layout {

@@ -29,9 +29,7 @@ DeviceRates<T, W>::DeviceRates(const Problem& problem, Model model, const Part* 
     const int begin = device_.next_place();
     if (cuts[b] > 0 && !layout.has_items)
       each_prime(packed, cuts[b], fields, carry, in, [&](int r, const RowTask<T>& task, int axis) {
-        const row_action across_y = is_pressure ? prime_strain_y : prime_y,
-                         across_z = is_pressure ? prime_strain_z : prime_z;
-        device_.add(task, r, axis == 1 ? across_y : across_z, fields);
+        device_.add(task, r, prime_of(axis == 1 ? prime_y : prime_z, is_pressure), fields);
       });
     for (int r = cuts[b]; r < cuts[b + 1]; ++r) {
       RowTask<T> task;

@@ -69,11 +69,11 @@ static row_action device_action(RowWork work, row_action of_stage, bool is_press
   case RowWork::pressure:
     return find_pressure;
   case RowWork::upper_links:
-    return is_pressure ? prime_strain_upper : prime_upper;
+    return prime_of(prime_upper, is_pressure);
   case RowWork::upper_link_y:
-    return is_pressure ? prime_strain_y : prime_y;
+    return prime_of(prime_y, is_pressure);
   case RowWork::upper_link_z:
-    return is_pressure ? prime_strain_z : prime_z;
+    return prime_of(prime_z, is_pressure);
   case RowWork::upper_link_x: // rows on devices are whole
   case RowWork::extra_link:
   case RowWork::extra_sum:
@@ -308,12 +308,13 @@ template <class T, int W>
 std::string ResidentExecutor<T, W>::schedule() const {
   const std::string& device = problem_.queue.device().entry.name;
   if (problem_.layout.has_items)
-    return fmt::format("on {}: a work-item an element, in packs of {} lanes; {}", device, W,
-                       stages_text(problem_.stage_tile()));
-  return fmt::format("on {}: {} bands of rows, work-items of {} lanes; {}", device, bands_, W,
+    return fmt::format("on {}: a work-item an element, in packs of {} lanes; {}{}", device, W,
+                       stages_text(problem_.stage_tile()), sweeps_.text());
+  return fmt::format("on {}: {} bands of rows, work-items of {} lanes; {}{}", device, bands_, W,
                      staged_ ? "stage by stage"
                              : fmt::format("wavefront, reach {}, in place{}", packed_.reach,
-                                           tiles_text(shape_.form.tile)));
+                                           tiles_text(shape_.form.tile)),
+                     sweeps_.text());
 }
 
 template <class T, int W>

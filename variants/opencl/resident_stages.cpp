@@ -30,20 +30,19 @@ void ResidentExecutor<T, W>::add_stages() {
       const int stage = sweeps_.stage(sweep);
       for (int band = 0; band < staged_->threads(); ++band) {
         const int begin = problem_.next_place();
-        const auto add = [&](int r, bool is_whole, const RowTask<T>& task, row_action whole,
-                             row_action links) {
+        const bool is_pressure = sweeps_.is_pressure(sweep);
+        const auto add = [&](int r, bool is_whole, const RowTask<T>& task) {
           if (has_items && !is_whole) return; // work-items compute links at both ends
-          const int place = problem_.add(task, r, is_whole ? whole : links, stored_fields());
+          const row_action action = !is_whole     ? prime_of(prime_upper, is_pressure)
+                                    : is_pressure ? find_pressure
+                                                  : task.action;
+          const int place = problem_.add(task, r, action, stored_fields());
           if (has_items) lists.push_back({{place, place + 1}});
         };
-        if (sweeps_.is_pressure(sweep))
-          staged_->each_pressure_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& t) {
-            add(r, is_whole, t, find_pressure, prime_strain_upper);
-          });
+        if (is_pressure)
+          staged_->each_pressure_task(band, stage, add);
         else
-          staged_->each_task(band, stage, [&](int r, bool is_whole, const RowTask<T>& t) {
-            add(r, is_whole, t, t.action, prime_upper);
-          });
+          staged_->each_task(band, stage, add);
         if (!has_items) lists.push_back({{begin, problem_.next_place()}});
       }
       bands_ = std::max(bands_, int(lists.size()));

@@ -16,7 +16,7 @@ constexpr double thread_gain = 0.95; ///< more threads must bring the time below
 
 std::vector<std::string> advised_variants(const Problem& problem,
                                           const std::vector<std::string>& named) {
-  for (const std::string& name : named) load_variant(name);
+  for (const std::string& name : named) require_pressure(load_variant(name), problem);
   if (!named.empty()) return named;
   std::vector<std::string> usable;
   const bool has_fma = load_variant("auto").has_fma;

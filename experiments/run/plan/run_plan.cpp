@@ -333,7 +333,7 @@ RunPlan plan_run(const RunRequest& request) {
   if (const auto lack =
           what_lacks(*plan.plugin, problem, plan.precision, *plan.method, plan.rotation))
     throw InputError(
-        fmt::format("{}: variant {} {}; give {}", lack->option, plan.plugin->name, lack->what,
+        fmt::format("{}: variant {} {}; give {}", lack->asked_by, plan.plugin->name, lack->what,
                     plan.plugin->has_all ? "another --variant" : "--variant reference"));
   require_sensible(request, plan);
   if (request.is_root) require_outputs_writable(request);

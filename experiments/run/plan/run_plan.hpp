@@ -47,9 +47,8 @@ void require_outputs_writable(const RunRequest& request);
 
 /// A feature that a variant does not have but the run needs.
 struct Lack {
-  /// What asks for the feature: "--rotation tait_bryan", or the scene.
-  std::string option;
-  std::string what; ///< what the variant has instead: "has quaternions alone"
+  std::string asked_by; ///< "--rotation tait_bryan", or the name of the scene
+  std::string what;     ///< what the variant has instead: "has quaternions alone"
 };
 /// Finds the first feature that `plugin` does not have; empty if it has all.
 std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Precision precision,

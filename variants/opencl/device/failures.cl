@@ -10,7 +10,7 @@ static bool has_failed(device d, global const row_stage* task) {
     const uint mask = d.masks[task->masks + pack].own;
     global const NUMBER* p = d.arena + task->out + (long)pack * (task->fields * W) + LANE;
     REAL sum = SPLAT(0);
-    for (int f = 0; f < task->fields; ++f, p += W) sum = FMA(LOAD(p), SPLAT(0), sum);
+    for (int f = 0; f < task->state_fields; ++f, p += W) sum = FMA(LOAD(p), SPLAT(0), sum);
     KEEP(sum)
     is_failed = is_failed || !IS_ZERO(sum);
   }

@@ -1,4 +1,6 @@
-/* The wavefront of CPU devices: a work-item computes a block of rows. */
+/* The wavefront of CPU devices: a work-item computes a block of rows. Two blocks may find the
+ * pressures of a row of a third, and store them in the same place. OpenCL does not define such a
+ * race, but both store the same bits. */
 
 static void publish(device d, global const row_stage* task) {
   for EACH_PACK(task) {

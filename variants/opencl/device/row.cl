@@ -35,6 +35,10 @@ static inline axis_law NAME(law_of)(device d, global const row_stage* task, cons
 
 #if HAS_PRESSURE
 #define PRESSURE_AT(task) (((task)->fields - PRESSURE_SIZE) * W)
+/* The pressure of an element, or of a pack, of a row of `task`; and the law of a link with what the
+ * pressures of its elements do to it. */
+#define PRESSURE_OF(p) NAME(pressure_at)((p) + PRESSURE_AT(task))
+#define PRESSED(law, i, j, axis) law = NAME(pressed)(law, d.bodies + task->body, i, j, axis)
 #define READ_PART(c) a.c = LOAD(p), p += W;
 #define WRITE_PART(c) STORE(a.c, p), p += W;
 #define ADD_PART(c) a.c = a.c + b.c;
@@ -53,7 +57,6 @@ static inline pressure NAME(pressure_sum)(pressure a, pressure b) {
 #undef READ_PART
 #undef WRITE_PART
 #undef ADD_PART
-/* The law of a link with what the pressures of its elements, at `i` and `j`, do to it. */
 static inline axis_law NAME(pressed)(axis_law law, global const body_constants* body,
                                      const pressure i, const pressure j, const int axis) {
   law.material.pressure = pressure_on_link(i, j, axis, SPLAT(body->inverse_edge[axis]), IS_BENT);
@@ -83,6 +86,9 @@ static inline void NAME(finish_pressure)(device d, global const row_stage* task,
 #undef TIMES_CONSTANT
   NAME(put_pressure)(a, d.arena + task->out + place + PRESSURE_AT(task));
 }
+#else
+#define PRESSURE_OF(p) pressure_zero()
+#define PRESSED(law, i, j, axis) (void)0
 #endif
 
 static inline wrench NAME(apply)(device d, global const row_stage* task,

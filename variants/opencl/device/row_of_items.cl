@@ -2,15 +2,6 @@
  * for another. So every link is computed at both ends: a result of one end for the other would go
  * through memory, which limits the speed. */
 
-#if HAS_PRESSURE
-#define PRESSURE_OF(element) NAME(pressure_at)((element) + PRESSURE_AT(task))
-#define PRESSED(law, i, j, axis) \
-  if (FLAGS.has_pressure) law = NAME(pressed)(law, d.bodies + task->body, i, j, axis);
-#else
-#define PRESSURE_OF(element) pressure_zero()
-#define PRESSED(law, i, j, axis)
-#endif
-
 static inline vec NAME(upper_x)(prepared i) {
   return FLAGS.is_material ? i.e.u : upper_face(i.pull, i.x);
 }
@@ -30,13 +21,13 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
   if (above) {
-    PRESSED(law, own_pressure, PRESSURE_OF(upper), axis)
+    PRESSED(law, own_pressure, PRESSURE_OF(upper), axis);
     up = link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS);
   }
   carried low = nothing_carried();
   if (below) {
     const element j = element_at(lower);
-    PRESSED(law_below, PRESSURE_OF(lower), own_pressure, axis)
+    PRESSED(law_below, PRESSURE_OF(lower), own_pressure, axis);
     low = carried_by(link_across(j, upper_across(j, axis, law_below, FLAGS), i.e, axis, law_below,
                                  FLAGS),
                      FLAGS);
@@ -44,6 +35,14 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   return wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
 }
 
+/* Places of the elements beside one along x.
+ * @param place  of the element in its row */
+static inline long NAME(place_above)(const long place, const int lane, const int stride) {
+  return lane + 1 < W ? place + 1 : place - lane + stride;
+}
+static inline long NAME(place_below)(const long place, const int lane, const int stride) {
+  return lane > 0 ? place - 1 : place - stride + W - 1;
+}
 static inline bool NAME(is_linked_below)(global const pack_masks* masks, const int pack,
                                          const int lane) {
   return lane > 0 ? masks->link_x >> (lane - 1) & 1
@@ -64,14 +63,14 @@ static inline void NAME(find_pressure)(device d, global const row_stage* task,
   const int pack = PACK(task), lane = LANE, stride = task->fields * W;
   global const pack_masks* masks = d.masks + task->masks + pack;
   global const body_constants* body = d.bodies + task->body;
-  const long start = (long)pack * stride, place = start + lane;
+  const long place = (long)pack * stride + lane;
   global const NUMBER* in = d.arena + task->in;
   const element i = element_at(in + place);
   pressure up = pressure_zero(), low = pressure_zero();
   if (masks->link_x >> lane & 1)
-    up = NAME(strain)(body, i, element_at(in + (lane + 1 < W ? place + 1 : start + stride)), 0);
+    up = NAME(strain)(body, i, element_at(in + NAME(place_above)(place, lane, stride)), 0);
   if (NAME(is_linked_below)(masks, pack, lane))
-    low = NAME(strain)(body, element_at(in + (lane > 0 ? place - 1 : start - stride + W - 1)), i, 0);
+    low = NAME(strain)(body, element_at(in + NAME(place_below)(place, lane, stride)), i, 0);
   pressure sum = NAME(pressure_sum)(up, low);
 #if AXES > 1
   sum = NAME(add_strains)(sum, body, i, 1, masks->link_y >> lane & 1, masks->below_y >> lane & 1,
@@ -98,20 +97,20 @@ static inline int NAME(run)(device d, global const row_stage* task, global const
   global const pack_masks* masks = d.masks + task->masks + pack;
   axis_law x = NAME(law_of)(d, task, pack, 0, 0), x_below = NAME(law_of)(d, task, pack, 0, 1);
   const int stride = task->fields * W;
-  const long start = (long)pack * stride, place = start + lane;
+  const long place = (long)pack * stride + lane;
   global const NUMBER* in = d.arena + task->in;
   const prepared i = prepare(element_at(in + place), x.x, FLAGS);
   const pressure own_pressure = PRESSURE_OF(in + place);
   exchange up = no_exchange();
   if (masks->link_x >> lane & 1) {
-    const long above = lane + 1 < W ? place + 1 : start + stride;
-    PRESSED(x, own_pressure, PRESSURE_OF(in + above), 0)
+    const long above = NAME(place_above)(place, lane, stride);
+    PRESSED(x, own_pressure, PRESSURE_OF(in + above), 0);
     up = NAME(exchange_x)(i, prepare(element_at(in + above), x.x, FLAGS), x);
   }
   carried low = nothing_carried();
   if (NAME(is_linked_below)(masks, pack, lane)) {
-    const long below = lane > 0 ? place - 1 : start - stride + W - 1;
-    PRESSED(x_below, PRESSURE_OF(in + below), own_pressure, 0)
+    const long below = NAME(place_below)(place, lane, stride);
+    PRESSED(x_below, PRESSURE_OF(in + below), own_pressure, 0);
     const prepared j = prepare(element_at(in + below), x.x, FLAGS);
     low = carried_by(NAME(exchange_x)(j, i, x_below), FLAGS);
   }
@@ -131,5 +130,3 @@ static inline int NAME(run)(device d, global const row_stage* task, global const
   const REAL check = NAME(update)(d, task, signals, pack, place, i, sum, 0);
   return !(masks->own >> lane & 1) || IS_ZERO(check);
 }
-#undef PRESSURE_OF
-#undef PRESSED

@@ -59,9 +59,6 @@ static inline prepared NAME(parked)(volatile const REAL* p, global const NUMBER*
 #endif
 
 #if HAS_PRESSURE
-#define PRESSURE_OF(pack) NAME(pressure_at)((pack) + PRESSURE_AT(task))
-#define PRESSED(law, i, j, axis) \
-  if (FLAGS.has_pressure) law = NAME(pressed)(law, d.bodies + task->body, i, j, axis);
 static inline pressure NAME(pressure_from_above)(pressure a, pressure b) {
   pressure r = pressure_zero();
   COMPONENTS_OF_PRESSURE(FROM_ABOVE)
@@ -72,9 +69,6 @@ static inline pressure NAME(pressure_from_below)(pressure a, pressure b) {
   COMPONENTS_OF_PRESSURE(FROM_BELOW)
   return r;
 }
-#else
-#define PRESSURE_OF(pack) pressure_zero()
-#define PRESSED(law, i, j, axis)
 #endif
 
 static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, const uint mask,
@@ -112,7 +106,7 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
   if (above != 0) {
-    PRESSED(law, own_pressure, PRESSURE_OF(upper), axis)
+    PRESSED(law, own_pressure, PRESSURE_OF(upper), axis);
     up = NAME(masked)(link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS), above);
   }
   carried low = nothing_carried();
@@ -151,7 +145,7 @@ static inline int NAME(run_row)(device d, global const row_stage* task,
 #if HAS_LINK_KINDS
     SET_LAWS(pack)
 #endif
-    PRESSED(x, own_pressure, NAME(pressure_from_above)(own_pressure, next_pressure), 0)
+    PRESSED(x, own_pressure, NAME(pressure_from_above)(own_pressure, next_pressure), 0);
     PARK_NEXT(pack + 1)
     READ_AGAIN
     wrench sum = NAME(links_x)(i, next, x, masks[pack].link_x, &previous);
@@ -184,7 +178,7 @@ static inline void NAME(prime)(device d, global const row_stage* task, const int
     if (mask == 0) continue;
     axis_law law = NAME(law_of)(d, task, pack, axis, 0);
     const long place = (long)pack * (task->fields * W) + LANE;
-    PRESSED(law, PRESSURE_OF(d.arena + task->in + place), PRESSURE_OF(upper + place), axis)
+    PRESSED(law, PRESSURE_OF(d.arena + task->in + place), PRESSURE_OF(upper + place), axis);
     const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
     const exchange up =
         NAME(masked)(link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, FLAGS), mask);
@@ -311,5 +305,3 @@ static int NAME(run)(device d, global const row_stage* task, global const NUMBER
     return NAME(run_row)(d, task, signals);
   }
 }
-#undef PRESSURE_OF
-#undef PRESSED

@@ -16,7 +16,8 @@ typedef struct {
   int action, shape, body, applied;
   int face_strains; /* as applied: loads' shares in pressures */
   int packs, first_pack, masks, fields, row;
-  int sweep;                    /* of a pass */
+  int state_fields; /* of the fields, those without pressures, which are of another state */
+  int sweep;        /* of a pass */
   int is_last, low, increments; /* as in RowTask */
   NUMBER beta, alpha[6];
 } row_stage;
