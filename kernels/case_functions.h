@@ -19,13 +19,14 @@ static inline paper_law case_paper(void) {
   return law;
 }
 static inline material_law case_material(void) {
-  material_law law = {
-      SPLAT(0.08),  SPLAT(0.09),   SPLAT(4.0),
-      SPLAT(6.0),   SPLAT(1.5),    SPLAT(0.3),
-      SPLAT(0.2),   SPLAT(-0.1),   SPLAT(0.05),
-      SPLAT(-0.02), SPLAT(0.03),   SPLAT(0.01),
-      SPLAT(0.002), SPLAT(-0.004), {SPLAT(0.7), SPLAT(0.2), SPLAT(-0.3), SPLAT(0.15)}};
+  material_law law = {SPLAT(0.08), SPLAT(0.09), SPLAT(4.0),   SPLAT(6.0),   SPLAT(1.5),
+                      SPLAT(0.3),  SPLAT(0.2),  SPLAT(-0.1),  SPLAT(0.05),  SPLAT(-0.02),
+                      SPLAT(0.03), SPLAT(0.01), SPLAT(0.002), SPLAT(-0.004)};
   return law;
+}
+static inline link_pressure case_pressure(void) {
+  link_pressure p = {SPLAT(0.7), SPLAT(0.2), SPLAT(-0.3), SPLAT(0.15)};
+  return p;
 }
 
 #define LINK_CASES(axis_name, axis)                                                                \
@@ -47,17 +48,17 @@ static inline material_law case_material(void) {
   }                                                                                                \
   static inline void case_material_link_##axis_name(const REAL* in, REAL* out) {                   \
     case_exchange(material_link(case_element(in), case_element(in + CASE_ELEMENT), axis,           \
-                                case_material(), 1, 0, 0),                                         \
+                                case_material(), no_pressure(), 1, 0, 0),                          \
                   out);                                                                            \
   }                                                                                                \
   static inline void case_sheared_link_##axis_name(const REAL* in, REAL* out) {                    \
     case_exchange(material_link(case_element(in), case_element(in + CASE_ELEMENT), axis,           \
-                                case_material(), 1, 1, 0),                                         \
+                                case_material(), no_pressure(), 1, 1, 0),                          \
                   out);                                                                            \
   }                                                                                                \
   static inline void case_pressed_link_##axis_name(const REAL* in, REAL* out) {                    \
     case_exchange(material_link(case_element(in), case_element(in + CASE_ELEMENT), axis,           \
-                                case_material(), 1, 1, 1),                                         \
+                                case_material(), case_pressure(), 1, 1, 1),                        \
                   out);                                                                            \
   }                                                                                                \
   static inline void case_strain_##axis_name(const REAL* in, REAL* out) {                          \
@@ -66,7 +67,7 @@ static inline material_law case_material(void) {
   }                                                                                                \
   static inline void case_elastic_link_##axis_name(const REAL* in, REAL* out) {                    \
     case_exchange(material_link(case_element(in), case_element(in + CASE_ELEMENT), axis,           \
-                                case_material(), 0, 0, 0),                                         \
+                                case_material(), no_pressure(), 0, 0, 0),                          \
                   out);                                                                            \
   }
 LINK_CASES(x, 0)

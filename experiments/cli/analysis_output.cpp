@@ -2,6 +2,7 @@
 #include "experiments/base/text_table.hpp"
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
+#include "experiments/cli/run_summary.hpp"
 #include "experiments/run/statics/analysis.hpp"
 #include "experiments/run/timed/output.hpp"
 #include "experiments/run/timed/run_record.hpp"
@@ -70,6 +71,7 @@ void print_static(const AnalysisResult& result) {
   fmt::print("unbalanced forces {:.3g} of the loads, largest displacement {:.9g} m, elastic energy "
              "{:.6g} J\n",
              result.residual, result.max_displacement_m, result.energy_j);
+  if (result.reactions) fmt::print("{}\n", reactions_text(*result.reactions));
 }
 
 /// Largest extent of all bodies [m].
@@ -152,6 +154,8 @@ Json analysis_json(const RunRequest& run, const AnalysisResult& result) {
     json["residual"] = result.residual;
     json["max_displacement_m"] = result.max_displacement_m;
     json["energy_j"] = result.energy_j;
+    json["reaction_force_n"] = result.reactions ? Json(result.reactions->force) : Json();
+    json["reaction_moment_n_m"] = result.reactions ? Json(result.reactions->moment) : Json();
   }
   json["status"] = result.status;
   json["reason"] = result.reason;

@@ -81,6 +81,12 @@ std::string samples_text(const RunResult& result) {
 
 } // namespace
 
+std::string reactions_text(const Reactions& reactions) {
+  return fmt::format("clamps exert a force of ({:.6g}) N, and a moment of ({:.6g}) N m about the "
+                     "frame's origin",
+                     fmt::join(reactions.force, ", "), fmt::join(reactions.moment, ", "));
+}
+
 void print_summary(const RunResult& result) {
   fmt::print("{}: {} elements, {} links, {} steps of {}{:g} s ({}, {}, {})\n", result.scene,
              result.elements, result.links, result.steps, result.adaptive ? "first " : "",
@@ -108,6 +114,7 @@ void print_summary(const RunResult& result) {
              result.energy_j ? fmt::format("{:.6g} J", *result.energy_j)
                              : "not computed (large state)",
              result.digest);
+  if (result.reactions) fmt::print("{}\n", reactions_text(*result.reactions));
   if (result.check.is_done)
     fmt::print("check: {} ({}): error {:.3g}, tolerance {:.3g}\n",
                result.check.is_passed() ? "passed" : "failed", result.check.how, result.check.error,

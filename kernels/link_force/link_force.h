@@ -124,7 +124,6 @@ typedef struct {
    * [N m/rad] */
   REAL k_z, k_xz, k_yz;
   REAL d_z, d_xz, d_yz; /* the same for damping, not doubled [N m s/rad] */
-  link_pressure pressure;
 } material_law;
 
 /* The axis of n_t. */
@@ -178,18 +177,18 @@ static inline pressure link_strain(element i, element j, const int axis, REAL ed
  *   F = k_s D + (k_n - k_s) (e.D) e + (k_t - k_s) (e_t.D) e_t,   T = 2 (k_x r_x, k_y r_y, k_z r_z)
  * and the same for damping with V and w_j - w_i. */
 static inline exchange material_link(element i, element j, const int axis, material_law law,
-                                     const int is_damped, const int has_two_shears,
-                                     const int has_pressure) {
+                                     link_pressure pressure, const int is_damped,
+                                     const int has_two_shears, const int has_pressure) {
   exchange x;
   vec gap = gap_of(i.u, j.u, rotor_turn(i.q, axis, law.edge_i), rotor_turn(j.q, axis, law.edge_j));
   spin couple = spin_principal(rotor_relative(i.q, j.q), law.k_z, law.k_xz, law.k_yz);
   x.force = vec_principal(gap, axis, law.k_s, law.k_ns);
   if (has_two_shears) x.force = vec_axpy_along(law.k_ts, gap, third_axis(axis), x.force);
   if (has_pressure) {
-    x.force = vec_along(x.force, axis, law.pressure.tension);
-    if (has_two_shears && axis != 0) couple = spin_along(couple, 0, law.pressure.x);
-    if (has_two_shears && axis != 1) couple = spin_along(couple, 1, law.pressure.y);
-    if (has_two_shears && axis != 2) couple = spin_along(couple, 2, law.pressure.z);
+    x.force = vec_along(x.force, axis, pressure.tension);
+    if (has_two_shears && axis != 0) couple = spin_along(couple, 0, pressure.x);
+    if (has_two_shears && axis != 1) couple = spin_along(couple, 1, pressure.y);
+    if (has_two_shears && axis != 2) couple = spin_along(couple, 2, pressure.z);
   }
   if (is_damped) {
     REAL half_i = SPLAT(0.5) * law.edge_i, half_j = SPLAT(0.5) * law.edge_j;
@@ -245,27 +244,27 @@ static inline pressure link_strain(element i, element j, const int axis, REAL ed
  * @return force on i [N]; couples on i and on j [N m], to which the caller adds arm x force
  * No errors: any finite input is valid. */
 static inline exchange material_link(element i, element j, const int axis, material_law law,
-                                     const int is_damped, const int has_two_shears,
-                                     const int has_pressure) {
+                                     link_pressure pressure, const int is_damped,
+                                     const int has_two_shears, const int has_pressure) {
   exchange x;
   const int is_bent = has_pressure && has_two_shears;
   vec turn_i = rotor_turn(i.q, axis, law.edge_i), turn_j = rotor_turn(j.q, axis, law.edge_j);
   vec gap = gap_of(i.u, j.u, turn_i, turn_j);
   vec ni = rotor_column(i.q, axis), nj = rotor_column(j.q, axis), n = half_sum(ni, nj);
-  REAL stretch = has_pressure ? FMA(law.k_ns, vec_dot(n, gap), law.pressure.tension)
-                              : law.k_ns * vec_dot(n, gap);
+  REAL stretch =
+      has_pressure ? FMA(law.k_ns, vec_dot(n, gap), pressure.tension) : law.k_ns * vec_dot(n, gap);
   vec xi = rotor_column(i.q, 0), xj = rotor_column(j.q, 0), yi = rotor_column(i.q, 1),
       yj = rotor_column(j.q, 1);
   spin r = rotor_relative(i.q, j.q), couple = spin_scale(law.k_z, r);
   REAL p0 = rotor_relative_s(i.q, j.q) + SPLAT(1);
   x.force = vec_axpy(stretch, n, vec_scale(law.k_s, gap));
-  couple = bend_about(r, p0, xi, xj, law.k_xz, is_bent && axis != 0, law.pressure.x, couple);
-  couple = bend_about(r, p0, yi, yj, law.k_yz, is_bent && axis != 1, law.pressure.y, couple);
+  couple = bend_about(r, p0, xi, xj, law.k_xz, is_bent && axis != 0, pressure.x, couple);
+  couple = bend_about(r, p0, yi, yj, law.k_yz, is_bent && axis != 1, pressure.y, couple);
   couple = vec_moment(vec_scale(SPLAT(0.25) * stretch, gap), vec_sub(ni, nj), couple);
 #ifndef PLANAR
   if (is_bent && axis != 2) {
     vec zi = rotor_column(i.q, 2), zj = rotor_column(j.q, 2);
-    couple = turn_about(r, p0, zi, zj, half_sum(zi, zj), law.pressure.z, couple);
+    couple = turn_about(r, p0, zi, zj, half_sum(zi, zj), pressure.z, couple);
   }
   vec t = n;
   if (has_two_shears) {

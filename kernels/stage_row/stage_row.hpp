@@ -103,9 +103,8 @@ struct StageRow {
     if constexpr (!terms.is_material) return {};
     const LinkLanes<T>& a = task.links[links == nullptr ? axis : links[axis]];
     const R edge(body.edge[axis]);
-    return {edge,      edge,      R(a.k_s),  R(a.k_ns), R(a.k_ts),
-            R(a.d_s),  R(a.d_ns), R(a.d_ts), R(a.k_z),  R(a.k_xz),
-            R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz), P::no_pressure()};
+    return {edge,      edge,     R(a.k_s),  R(a.k_ns), R(a.k_ts), R(a.d_s),  R(a.d_ns),
+            R(a.d_ts), R(a.k_z), R(a.k_xz), R(a.k_yz), R(a.d_z),  R(a.d_xz), R(a.d_yz)};
   }
 
   axis_law law(int axis, const int* links) const {
@@ -174,13 +173,18 @@ struct StageRow {
       return {};
   }
   Stored load_upper_pressure(const T* upper, int pack, std::ptrdiff_t stride, int axis) const {
-    return load_upper<Stored, parts.count()>(upper + pressure_at(), pack, stride, axis);
+    if constexpr (terms.has_pressure)
+      return load_upper<Stored, parts.count()>(upper + pressure_at(), pack, stride, axis);
+    else
+      return {};
   }
-  /// The law of a link with what the pressures of i and j do to it.
-  axis_law pressed(axis_law law, const Stored& i, const Stored& j, const int axis) const {
-    law.material.pressure = P::pressure_on_link(widened(i), widened(j), axis,
-                                                R(body.inverse_edge[axis]), parts.has_bending());
-    return law;
+  /// What the pressures of i and j do to their link.
+  typename P::link_pressure between(const Stored& i, const Stored& j, const int axis) const {
+    if constexpr (terms.has_pressure)
+      return P::pressure_on_link(widened(i), widened(j), axis, R(body.inverse_edge[axis]),
+                                 parts.has_bending());
+    else
+      return P::no_pressure();
   }
   carried load_lower(const T* from, int pack, int axis, simd::LaneMask below) const {
     if constexpr (is_filled) {
@@ -213,13 +217,9 @@ struct StageRow {
     exchange up{zero<vec>(), zero<spin>(), zero<spin>()};
     if (is_plain || above != 0) {
       const element j = load_upper(upper, pack, stride, axis);
-      if constexpr (terms.has_pressure)
-        up = P::link_across(i.e, own.upper, j, axis,
-                            pressed(own_law, own_pressure,
-                                    load_upper_pressure(upper, pack, stride, axis), axis),
-                            flags);
-      else
-        up = P::link_across(i.e, own.upper, j, axis, own_law, flags);
+      const auto by_pressure =
+          between(own_pressure, load_upper_pressure(upper, pack, stride, axis), axis);
+      up = P::link_across(i.e, own.upper, j, axis, own_law, by_pressure, flags);
       mask_links<is_plain>(above, up);
     }
     carried low{zero<vec>(), zero<spin>()};
@@ -234,13 +234,7 @@ struct StageRow {
   wrench links_x(const prepared& i, const prepared& next, const Stored& own_pressure,
                  const Stored& next_pressure, const int* links, simd::LaneMask mask,
                  carried& previous) const {
-    const axis_law own_law = [&] {
-      if constexpr (terms.has_pressure)
-        return pressed(law(0, links), own_pressure, from_above<kind>(own_pressure, next_pressure),
-                       0);
-      else
-        return law(0, links);
-    }();
+    const axis_law own_law = law(0, links);
     element j{};
     vec lower, upper;
     if constexpr (terms.is_material) {
@@ -252,7 +246,9 @@ struct StageRow {
       if constexpr (terms.is_damped) j.w = from_above<kind>(i.e.w, next.e.w);
       if constexpr (terms.is_bending) j.q = from_above<kind>(i.e.q, next.e.q);
     }
-    exchange up = P::link_exchange(i.e, upper, j, lower, 0, own_law, flags);
+    const auto by_pressure =
+        between(own_pressure, from_above<kind>(own_pressure, next_pressure), 0);
+    exchange up = P::link_exchange(i.e, upper, j, lower, 0, own_law, by_pressure, flags);
     mask_links<is_plain>(mask, up);
     const carried own = P::carried_by(up, flags);
     carried low{zero<vec>(), zero<spin>()};
@@ -325,12 +321,11 @@ struct StageRow {
       const T* const upper = axis == 1 ? task.upper_y : task.upper_z;
       const element i = load_at<element>(task.in + place);
       const element j = load_upper(upper, pack, task.stride, axis);
-      axis_law own_law = law(axis, links_of(pack));
-      if constexpr (terms.has_pressure)
-        own_law = pressed(own_law, load_pressure(task.in + place),
-                          load_upper_pressure(upper, pack, task.stride, axis), axis);
-      exchange up =
-          P::link_across(i, P::upper_across(i, axis, own_law, flags), j, axis, own_law, flags);
+      const axis_law own_law = law(axis, links_of(pack));
+      const auto by_pressure = between(load_pressure(task.in + place),
+                                       load_upper_pressure(upper, pack, task.stride, axis), axis);
+      exchange up = P::link_across(i, P::upper_across(i, axis, own_law, flags), j, axis, own_law,
+                                   by_pressure, flags);
       mask_links(above, up);
       store_carry((axis == 1 ? task.carry_y : task.carry_z) + std::ptrdiff_t(pack) * carry_size,
                   P::carried_by(up, flags));
@@ -359,7 +354,6 @@ struct StageRow {
     const typename P::tie_law tie{R(body.tie_k), R(body.tie_d), R(body.tie_k2_rot),
                                   R(body.tie_d_rot)};
     prepared next = prepare(in);
-    Stored own_pressure{}, next_pressure = load_pressure(in);
     alignas(64) T places[2][std::size_t(parked_size)];
     if constexpr (is_parked) park(places[0], next);
     carried previous = link_before();
@@ -379,10 +373,6 @@ struct StageRow {
       prepared i = next;
       i.e = load_at<element>(in + place);
       next = prepare(pack + 1 < packs ? in + place + stride : ahead);
-      if constexpr (terms.has_pressure) {
-        own_pressure = next_pressure;
-        next_pressure = load_pressure(pack + 1 < packs ? in + place + stride : ahead);
-      }
       const auto read_again = [&] {
         if constexpr (is_parked) {
           // Fence for the compiler, which would otherwise keep earlier loads and spill them.
@@ -392,8 +382,10 @@ struct StageRow {
       };
       if constexpr (is_parked) park(places[~pack & 1], next);
       read_again();
-      wrench sum = links_x<taken == plane_path>(i, next, own_pressure, next_pressure, links,
-                                                masks.link_x, previous);
+      const Stored own_pressure = load_pressure(in + place);
+      wrench sum = links_x<taken == plane_path>(
+          i, next, own_pressure, load_pressure(pack + 1 < packs ? in + place + stride : ahead),
+          links, masks.link_x, previous);
       read_again();
       if constexpr (P::axes > 1)
         add_across<is_plain>(i, own_pressure, 1, masks.link_y, masks.below_y, upper_y, carry_y,

@@ -96,12 +96,12 @@ static inline lever material_arm(element e, const int axis, material_law law) {
 }
 
 /* Exchange over the link from i to j. `lower` is the lower face of j (paper's law), `upper` the
- * upper face of i. */
+ * upper face of i, `pressure` what the pressures of both do (material law). */
 static inline exchange link_exchange(element i, vec upper, element j, vec lower, const int axis,
-                                     axis_law law, const term_flags terms) {
+                                     axis_law law, link_pressure pressure, const term_flags terms) {
   exchange x;
   if (terms.is_material)
-    return material_link(i, j, axis, law.material, terms.is_damped, terms.has_two_shears,
+    return material_link(i, j, axis, law.material, pressure, terms.is_damped, terms.has_two_shears,
                          terms.has_pressure);
   x.force = vec_sub(lower, upper);
   x.couple_i = has_couples(terms)
@@ -135,12 +135,12 @@ static inline vec upper_across(element i, const int axis, axis_law law, const te
 }
 /* Exchange with the element j across a y or z face; `upper` is the upper face of i. */
 static inline exchange link_across(element i, vec upper, element j, const int axis, axis_law law,
-                                   const term_flags terms) {
+                                   link_pressure pressure, const term_flags terms) {
   vec lower = j.u;
   if (!terms.is_material)
     lower =
         lower_face(centre_pull(j, law.x, terms.is_damped), face_across_alone(j, axis, law, terms));
-  return link_exchange(i, upper, j, lower, axis, law, terms);
+  return link_exchange(i, upper, j, lower, axis, law, pressure, terms);
 }
 
 /* The x links start the sums: `up` is the upper link's exchange, `low` what the lower link carried
@@ -206,7 +206,7 @@ static inline pair_wrench wrench_of_pair(element i, element j, const int axis,
                                          const int is_material, material_law material,
                                          paper_law law_i, paper_law law_j) {
   pair_wrench w;
-  exchange x = is_material ? material_link(i, j, axis, material, 1, 1, 0)
+  exchange x = is_material ? material_link(i, j, axis, material, no_pressure(), 1, 1, 0)
                            : paper_link(i, j, axis, law_i, law_j, 1, 1);
   w.force = x.force;
   w.moment_i =

@@ -36,7 +36,7 @@ Vec3 link_force(const typename P::element& i, const typename P::element& j, doub
     typename P::material_law constants{};
     constants.edge_i = edge_i, constants.edge_j = edge_j;
     set_material_constants(constants, c, axis);
-    force = P::material_link(i, j, axis, constants, true, true, false).force;
+    force = P::material_link(i, j, axis, constants, P::no_pressure(), true, true, false).force;
   } else {
     typename P::paper_law at_i{}, at_j{};
     set_paper_constants(at_i, c), set_paper_constants(at_j, c);

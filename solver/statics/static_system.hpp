@@ -82,6 +82,8 @@ public:
   double norm(const Vector& forces) const;
   /// Norm of all loads and of the frame's acceleration on the free degrees of freedom [N].
   double load_norm() const;
+  /// Frame acceleration, then one value a load, as solver/numerics/signal_rows.hpp has them.
+  std::span<const double> signals() const { return signals_; }
   /// Norm of the unbalanced forces of a state over load_norm(). Without loads, the norm itself [N].
   double residual(const State& state);
 

@@ -44,6 +44,22 @@ class Statics(ProgramTest):
         self.assertEqual(relaxed["model"], "planar")
         self.assertIn("out of its plane is not known", relaxed["note"])
 
+    def test_clamps_balance_the_load_at_rest(self):
+        centre = (5.5 / 6, 0.025, 0.025)  # of the loaded element; the load is (0, 0, -1) N
+        record = self.record(*STATIC, "--model", "linear")
+        for got, expected in zip(record["reaction_force_n"], (0, 0, 1)):
+            self.assertAlmostEqual(got, expected, delta=1e-8)
+        for got, expected in zip(record["reaction_moment_n_m"], (centre[1], -centre[0], 0)):
+            self.assertAlmostEqual(got, expected, delta=1e-8)
+        self.assertIn("clamps exert a force of (", dssbench(*STATIC).stdout)
+
+    def test_a_run_tells_the_reactions_of_its_end(self):
+        record = self.record(*BEAM, "--analysis", "dynamic", "--steps", "400")
+        self.assertEqual(len(record["reaction_force_n"]), 3)
+        self.assertGreater(record["reaction_force_n"][2], 0)
+        box = self.record("run", "tumbling_box", "--steps", "2")
+        self.assertIsNone(box["reaction_force_n"])
+
     def test_the_state_and_the_picture_are_of_the_state_of_rest(self):
         result = dssbench(*STATIC, "--state", self.path("rest.csv"), "--output",
                           self.path("rest.vtu"))

@@ -49,6 +49,7 @@ std::vector<Case> cases() {
       {"flat_sponge", fixture::make_sponge(37, 9, 1, LinkLaw::paper, 3), true},
       {"tumbling_box", fixture::make_tumbling_box(1)},
       {"pressed_sponge", fixture::make_pressed_sponge(13, 6, 5)},
+      {"undamped_pressed_sponge", fixture::make_pressed_sponge(13, 6, 5, 0)},
       {"pressed_plate", fixture::make_pressed_plate(19, 7), true},
       {"pressed_pair", fixture::make_pressed_pair(19, 7), true},
       {"pressed_everything", fixture::pressed(fixture::make_everything())},

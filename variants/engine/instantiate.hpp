@@ -46,7 +46,7 @@ void compute_link(const ExtraLinkConstants<Number>& link, const T* fields_i, con
     const auto w = S::wrench_of_pair(i, j, axis, link.is_material,
                                      {edge_i, edge_j, R(a.k_s), R(a.k_ns), R(a.k_ts), R(a.d_s),
                                       R(a.d_ns), R(a.d_ts), R(a.k_z), R(a.k_xz), R(a.k_yz),
-                                      R(a.d_z), R(a.d_xz), R(a.d_yz), S::no_pressure()},
+                                      R(a.d_z), R(a.d_xz), R(a.d_yz)},
                                      {edge_i, edge_i * half, R(b.tau), R(b.kt2), R(b.dt)},
                                      {edge_j, edge_j * half, R(b.tau), R(b.kt2), R(b.dt)});
     typename S::vec back = w.force;
@@ -66,7 +66,9 @@ struct RowKernels {
   using P = Physics<model, simd::Pack<T>>;
   static constexpr int half_velocities =
       terms.is_velocity_dependent() ? P::vec_size + P::spin_size : 0;
-  static constexpr int leapfrog_fields = P::fields + half_velocities;
+  /// Numbers of an element in rows of Runge-Kutta methods, and of leapfrogs.
+  static constexpr int fields = P::fields + pressure_parts(model, terms).count(),
+                       leapfrog_fields = fields + half_velocities;
   static constexpr bool has_packs = simd::lanes<T> != 1;
 
   // A function of its own for an action is faster, and costs compile time (README.md). Rows without
@@ -74,10 +76,13 @@ struct RowKernels {
   // between packs.
   static constexpr bool is_single = sizeof(T) == sizeof(float);
   static constexpr bool is_ensemble = kind == LaneKind::members;
+  /// Rows with pressures are many, so only those of solids and plates have such functions.
+  static constexpr bool has_pressed_functions =
+      P::axes == 3 && P::is_common && kind == LaneKind::neighbours;
   static constexpr bool has_own_functions =
       (has_all_kernels ||
        (model == Model::spatial && kind == LaneKind::neighbours && !terms.is_full())) &&
-      kind != LaneKind::filled && !terms.has_pressure &&
+      kind != LaneKind::filled && (!terms.has_pressure || has_pressed_functions) &&
       (is_single || is_ensemble ? P::is_common && !terms.is_full() : P::is_common || has_packs);
   /// The rest of the actions: in line in common damped rows, else called for each pack.
   static constexpr int rest = P::is_common && terms.is_damped && !terms.is_oblong &&
@@ -85,33 +90,33 @@ struct RowKernels {
                                   ? rest_in_line
                                   : rest_called;
   static constexpr int in_place = half_velocities > 0 ? predicted_step : leapfrog_step;
-  template <int action, int fields>
+  template <int action, int of_row>
   DSS_FLATTEN static bool run_stage(const RowTask<T>& task) {
     const StageRow<P, T, terms, kind> row{task};
     RowUpdate<P, T, simd::lanes<T>, action> update(task, row.update_scales());
-    row.template run<fields>(update);
+    row.template run<of_row>(update);
     return simd::is_zero(row.checked(update.check()));
   }
   /// Rows of a body without pressures have more numbers than these beside a body that has them.
-  template <int action, int fields>
+  template <int action, int of_row>
   static bool run_own(const RowTask<T>& task) {
-    if (task.stride != fields * simd::lanes<T>) return run_stage<rest_called, any_fields>(task);
-    return run_stage<action, fields>(task);
+    if (task.stride != of_row * simd::lanes<T>) return run_stage<rest_called, any_fields>(task);
+    return run_stage<action, of_row>(task);
   }
   static bool stage(const RowTask<T>& task) {
     if constexpr (has_own_functions) {
       switch (task.action) { // as has_function says
       case plain_stage:
-        return run_own<plain_stage, P::fields>(task);
+        return run_own<plain_stage, fields>(task);
       case combined_stage:
-        return run_own<combined_stage, P::fields>(task);
+        return run_own<combined_stage, fields>(task);
       case in_place:
         return run_own<in_place, leapfrog_fields>(task);
       case kept_stage:
-        if constexpr (is_single && has_packs) return run_own<kept_stage, 2 * P::fields>(task);
+        if constexpr (is_single && has_packs) return run_own<kept_stage, P::fields + fields>(task);
         break;
       case kept_step:
-        if constexpr (is_single && has_packs) return run_own<kept_step, 2 * P::fields>(task);
+        if constexpr (is_single && has_packs) return run_own<kept_step, P::fields + fields>(task);
         break;
       default:
         break;

@@ -24,6 +24,7 @@ inline constexpr std::array compiled_terms{
     Terms{true, true, false, false, false, false, true},
     Terms{true, true, true, true, true, false},
     Terms{true, true, true, true, true, false, true},
+    Terms{true, false, false, false, false, false, false, true},
     Terms{true, true, false, false, false, false, false, true},
     Terms{true, true, false, false, false, false, true, true},
     Terms{true, true, true, true, true, false, true, true},
@@ -42,10 +43,11 @@ inline constexpr bool has_all_kernels = true;
 /// Rarely used models leave out the damped oblong row of the paper's law; the full row covers it.
 /// They keep all rows of the material law, since the full row in their place would be slower
 /// (README.md). Of these, two shears are always in the full row and never in the others; spatial
-/// rows have both.
+/// rows have both. Of rows with pressures, only spatial ones may be undamped.
 constexpr bool is_compiled(Model model, const Terms& terms) {
   if (!has_all_kernels && (!terms.is_damped || (terms.is_oblong && !terms.is_full()))) return false;
   if (terms.has_pressure && pressure_parts(model, terms).count() == 0) return false;
+  if (terms.has_pressure && !terms.is_damped) return model == Model::spatial;
   if (terms.is_material && terms.has_two_shears != terms.is_full()) return model == Model::spatial;
   if (model == Model::spatial || model == Model::planar) return true;
   return terms.is_full() || terms.is_material || !terms.is_oblong;

@@ -122,7 +122,7 @@ std::string row_program(const ProgramKind& kind) {
             device_text(kind.has_items ? "row_of_items.cl" : "row_of_vectors.cl") +
             "#undef FLAGS\n#undef NAME\n#undef HAS_PRESSURE\n#undef IS_BENT\n"
             "#undef PRESSURE_SIZE\n#undef COMPONENTS_OF_PRESSURE\n#undef PRESSURE_AT\n#undef "
-            "PRESSURE_OF\n#undef PRESSED\n";
+            "PRESSURE_OF\n#undef BETWEEN\n";
     cases += fmt::format("  if (task->shape == {0}) return run_{0}(d, task, signals);\n", n);
   }
   text += fmt::format("static int run_task(device d, global const row_stage* task, global const "

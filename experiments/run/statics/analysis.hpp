@@ -44,7 +44,8 @@ struct AnalysisResult {
   double residual = 0;
   double wall_s = 0;
   double max_displacement_m = 0;
-  double energy_j = 0; ///< elastic
+  double energy_j = 0;                ///< elastic
+  std::optional<Reactions> reactions; ///< of statics; absent without clamps
   ModalAnalysis modal;
   std::vector<double> state;      ///< of statics: 13 numbers per element
   std::vector<std::string> files; ///< written files, as text

@@ -72,7 +72,11 @@ std::string stability_note(const Problem& problem, const AnalysisModel& of, doub
 void describe(const Problem& problem, Model model, double loads, AnalysisResult& result) {
   StaticSystem system(problem, rotation_of(model), unknowns_of(model, problem), loads);
   result.residual = system.residual(system.inside(result.state));
-  result.energy_j = total_energy(problem, result.state, rotation_of(model));
+  reference::Dynamics<double> terms = energy_terms(problem, rotation_of(model));
+  const std::vector<double> fields = placed(terms, result.state);
+  result.energy_j = terms.energy(fields);
+  if (!problem.clamps.empty())
+    result.reactions = clamp_reactions(problem, terms, fields, system.signals());
   for (std::size_t e = 0; e < result.elements; ++e) {
     const double* f = &result.state[e * field_count];
     result.max_displacement_m = std::max(result.max_displacement_m,

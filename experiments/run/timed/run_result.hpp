@@ -5,6 +5,7 @@
 #include "experiments/run/state/accuracy.hpp"
 #include "experiments/run/state/saved_times.hpp"
 #include "solver/model/energy_balance.hpp"
+#include "solver/model/reactions.hpp"
 #include "solver/numerics/step_control.hpp"
 #include "variants/api/device.hpp"
 #include "variants/api/distribution.hpp"
@@ -73,6 +74,8 @@ struct RunResult {
   double first_step_s = 0;           ///< time to make the executor and to do the very first step
   Usage usage;
   std::optional<double> energy_j; ///< absent if the state is too large to hold twice
+  std::optional<Reactions>
+      reactions; ///< in the final state; absent without clamps, and as energy_j
   /// Relative change over the whole run; only if energy is conserved and not zero.
   std::optional<double> energy_drift;
   std::optional<EnergyShares> balance; ///< absent if the state is too large to follow

@@ -2,6 +2,7 @@
 #include "experiments/run/timed/breakdown.hpp"
 #include "solver/error.hpp"
 #include "solver/model/energy.hpp"
+#include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/numerics/stability_at_state.hpp"
 
@@ -132,7 +133,11 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
 void describe_state(const RunPlan& plan, Rotation rotation, const std::vector<double>& state,
                     RunResult& result) {
   const Problem& problem = plan.scene.problem;
-  result.energy_j = total_energy(problem, state, rotation);
+  reference::Dynamics<double> terms = energy_terms(problem, rotation);
+  const std::vector<double> fields = placed(terms, state);
+  result.energy_j = terms.energy(fields);
+  if (!problem.clamps.empty())
+    result.reactions = clamp_reactions(problem, terms, fields, signals_at(problem, result.end_s));
   if (result.model_report.promotions.empty())
     result.energy_drift = energy_drift(problem, rotation, result.energy_j);
   if (problem.lattice.element_count <= stability_state_elements && !plan.adaptive &&

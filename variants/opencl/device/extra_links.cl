@@ -18,7 +18,7 @@ static inline pair_wrench wrench_of_extra(global const extra_link* link, element
       link->edge_i,       link->edge_j,       b->axis[axis].k_s,  b->axis[axis].k_ns,
       b->axis[axis].k_ts, b->axis[axis].d_s,  b->axis[axis].d_ns, b->axis[axis].d_ts,
       b->axis[axis].k_z,  b->axis[axis].k_xz, b->axis[axis].k_yz, b->axis[axis].d_z,
-      b->axis[axis].d_xz, b->axis[axis].d_yz, no_pressure()};
+      b->axis[axis].d_xz, b->axis[axis].d_yz};
   const paper_law law_i = {link->edge_i, link->edge_i / 2, b->tau, b->kt2, b->dt},
                   law_j = {link->edge_j, link->edge_j / 2, b->tau, b->kt2, b->dt};
   return wrench_of_pair(i, j, axis, link->is_material, m, law_i, law_j);

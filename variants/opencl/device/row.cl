@@ -26,7 +26,7 @@ static inline axis_law NAME(law_of)(device d, global const row_stage* task, cons
   const REAL edge = SPLAT(body->edge[axis]);
   material_law m = {edge,          edge,         OF_LINK(k_s),  OF_LINK(k_ns), OF_LINK(k_ts),
                     OF_LINK(d_s),  OF_LINK(d_ns), OF_LINK(d_ts), OF_LINK(k_z),  OF_LINK(k_xz),
-                    OF_LINK(k_yz), OF_LINK(d_z),  OF_LINK(d_xz), OF_LINK(d_yz), no_pressure()};
+                    OF_LINK(k_yz), OF_LINK(d_z),  OF_LINK(d_xz), OF_LINK(d_yz)};
 #undef OF_LINK
   axis_law law = {NAME(paper_law_of)(body, 0), NAME(paper_law_of)(body, axis), m,
                   SPLAT(body->edge_ratio)};
@@ -35,10 +35,11 @@ static inline axis_law NAME(law_of)(device d, global const row_stage* task, cons
 
 #if HAS_PRESSURE
 #define PRESSURE_AT(task) (((task)->fields - PRESSURE_SIZE) * W)
-/* The pressure of an element, or of a pack, of a row of `task`; and the law of a link with what the
- * pressures of its elements do to it. */
+/* The pressure of an element, or of a pack, of a row of `task`; and what the pressures of its
+ * elements do to a link. */
 #define PRESSURE_OF(p) NAME(pressure_at)((p) + PRESSURE_AT(task))
-#define PRESSED(law, i, j, axis) law = NAME(pressed)(law, d.bodies + task->body, i, j, axis)
+#define BETWEEN(i, j, axis) \
+  pressure_on_link(i, j, axis, SPLAT(d.bodies[task->body].inverse_edge[axis]), IS_BENT)
 #define READ_PART(c) a.c = LOAD(p), p += W;
 #define WRITE_PART(c) STORE(a.c, p), p += W;
 #define ADD_PART(c) a.c = a.c + b.c;
@@ -57,11 +58,6 @@ static inline pressure NAME(pressure_sum)(pressure a, pressure b) {
 #undef READ_PART
 #undef WRITE_PART
 #undef ADD_PART
-static inline axis_law NAME(pressed)(axis_law law, global const body_constants* body,
-                                     const pressure i, const pressure j, const int axis) {
-  law.material.pressure = pressure_on_link(i, j, axis, SPLAT(body->inverse_edge[axis]), IS_BENT);
-  return law;
-}
 static inline pressure NAME(strain)(global const body_constants* body, element i, element j,
                                     const int axis) {
   return link_strain(i, j, axis, SPLAT(body->edge[axis]), SPLAT(body->inverse_edge[axis]), IS_BENT);
@@ -88,7 +84,7 @@ static inline void NAME(finish_pressure)(device d, global const row_stage* task,
 }
 #else
 #define PRESSURE_OF(p) pressure_zero()
-#define PRESSED(law, i, j, axis) (void)0
+#define BETWEEN(i, j, axis) no_pressure()
 #endif
 
 static inline wrench NAME(apply)(device d, global const row_stage* task,

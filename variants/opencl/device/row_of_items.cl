@@ -5,9 +5,10 @@
 static inline vec NAME(upper_x)(prepared i) {
   return FLAGS.is_material ? i.e.u : upper_face(i.pull, i.x);
 }
-static inline exchange NAME(exchange_x)(prepared i, prepared j, axis_law law) {
+static inline exchange NAME(exchange_x)(prepared i, prepared j, axis_law law,
+                                        link_pressure pressure) {
   return link_exchange(i.e, NAME(upper_x)(i), j.e, FLAGS.is_material ? i.e.u : j.lower_x, 0, law,
-                       FLAGS);
+                       pressure, FLAGS);
 }
 
 /* Adds the links across y or z.
@@ -21,15 +22,15 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
   if (above) {
-    PRESSED(law, own_pressure, PRESSURE_OF(upper), axis);
-    up = link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS);
+    const link_pressure pressure = BETWEEN(own_pressure, PRESSURE_OF(upper), axis);
+    up = link_across(i.e, own.upper, element_at(upper), axis, law, pressure, FLAGS);
   }
   carried low = nothing_carried();
   if (below) {
     const element j = element_at(lower);
-    PRESSED(law_below, PRESSURE_OF(lower), own_pressure, axis);
+    const link_pressure pressure = BETWEEN(PRESSURE_OF(lower), own_pressure, axis);
     low = carried_by(link_across(j, upper_across(j, axis, law_below, FLAGS), i.e, axis, law_below,
-                                 FLAGS),
+                                 pressure, FLAGS),
                      FLAGS);
   }
   return wrench_across(sum, up, low, own.arm, axis, law, FLAGS);
@@ -95,7 +96,7 @@ static inline int NAME(run)(device d, global const row_stage* task, global const
     return 1; /* else a body without pressures, beside one that has them */
   }
   global const pack_masks* masks = d.masks + task->masks + pack;
-  axis_law x = NAME(law_of)(d, task, pack, 0, 0), x_below = NAME(law_of)(d, task, pack, 0, 1);
+  const axis_law x = NAME(law_of)(d, task, pack, 0, 0), x_below = NAME(law_of)(d, task, pack, 0, 1);
   const int stride = task->fields * W;
   const long place = (long)pack * stride + lane;
   global const NUMBER* in = d.arena + task->in;
@@ -104,15 +105,15 @@ static inline int NAME(run)(device d, global const row_stage* task, global const
   exchange up = no_exchange();
   if (masks->link_x >> lane & 1) {
     const long above = NAME(place_above)(place, lane, stride);
-    PRESSED(x, own_pressure, PRESSURE_OF(in + above), 0);
-    up = NAME(exchange_x)(i, prepare(element_at(in + above), x.x, FLAGS), x);
+    up = NAME(exchange_x)(i, prepare(element_at(in + above), x.x, FLAGS), x,
+                          BETWEEN(own_pressure, PRESSURE_OF(in + above), 0));
   }
   carried low = nothing_carried();
   if (NAME(is_linked_below)(masks, pack, lane)) {
     const long below = NAME(place_below)(place, lane, stride);
-    PRESSED(x_below, PRESSURE_OF(in + below), own_pressure, 0);
     const prepared j = prepare(element_at(in + below), x.x, FLAGS);
-    low = carried_by(NAME(exchange_x)(j, i, x_below), FLAGS);
+    const link_pressure pressure = BETWEEN(PRESSURE_OF(in + below), own_pressure, 0);
+    low = carried_by(NAME(exchange_x)(j, i, x_below, pressure), FLAGS);
   }
   wrench sum = wrench_of_x(i, up, low, x, FLAGS);
 #if AXES > 1

@@ -71,8 +71,8 @@ static inline pressure NAME(pressure_from_below)(pressure a, pressure b) {
 }
 #endif
 
-static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, const uint mask,
-                                   carried* previous) {
+static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law,
+                                   link_pressure pressure, const uint mask, carried* previous) {
   element j = i.e;
   vec lower = i.e.u, upper = i.e.u;
   if (FLAGS.is_material) {
@@ -84,7 +84,7 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law, cons
   }
   if (FLAGS.is_material | FLAGS.is_bending) j.q = rotor_from_above(i.e.q, next.e.q);
   if (FLAGS.is_material | FLAGS.is_damped) j.w = spin_from_above(i.e.w, next.e.w);
-  const exchange up = NAME(masked)(link_exchange(i.e, upper, j, lower, 0, law, FLAGS), mask);
+  const exchange up = NAME(masked)(link_exchange(i.e, upper, j, lower, 0, law, pressure, FLAGS), mask);
   const carried own = carried_by(up, FLAGS);
   carried low = nothing_carried();
   low.force = vec_from_below(previous->force, own.force);
@@ -106,8 +106,9 @@ static inline wrench NAME(add_across)(wrench sum, prepared i, const int axis, ax
   const side own = side_across(i, axis, law, FLAGS);
   exchange up = no_exchange();
   if (above != 0) {
-    PRESSED(law, own_pressure, PRESSURE_OF(upper), axis);
-    up = NAME(masked)(link_across(i.e, own.upper, element_at(upper), axis, law, FLAGS), above);
+    const link_pressure pressure = BETWEEN(own_pressure, PRESSURE_OF(upper), axis);
+    up = NAME(masked)(
+        link_across(i.e, own.upper, element_at(upper), axis, law, pressure, FLAGS), above);
   }
   carried low = nothing_carried();
   if (below != 0) low = NAME(carried_at)(from);
@@ -145,10 +146,11 @@ static inline int NAME(run_row)(device d, global const row_stage* task,
 #if HAS_LINK_KINDS
     SET_LAWS(pack)
 #endif
-    PRESSED(x, own_pressure, NAME(pressure_from_above)(own_pressure, next_pressure), 0);
+    const link_pressure to_next =
+        BETWEEN(own_pressure, NAME(pressure_from_above)(own_pressure, next_pressure), 0);
     PARK_NEXT(pack + 1)
     READ_AGAIN
-    wrench sum = NAME(links_x)(i, next, x, masks[pack].link_x, &previous);
+    wrench sum = NAME(links_x)(i, next, x, to_next, masks[pack].link_x, &previous);
     READ_AGAIN
 #if AXES > 1
     sum = NAME(add_across)(sum, i, 1, y, masks[pack].link_y, masks[pack].below_y,
@@ -176,12 +178,13 @@ static inline void NAME(prime)(device d, global const row_stage* task, const int
     const uint mask =
         axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
     if (mask == 0) continue;
-    axis_law law = NAME(law_of)(d, task, pack, axis, 0);
+    const axis_law law = NAME(law_of)(d, task, pack, axis, 0);
     const long place = (long)pack * (task->fields * W) + LANE;
-    PRESSED(law, PRESSURE_OF(d.arena + task->in + place), PRESSURE_OF(upper + place), axis);
+    const link_pressure pressure =
+        BETWEEN(PRESSURE_OF(d.arena + task->in + place), PRESSURE_OF(upper + place), axis);
     const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
     const exchange up =
-        NAME(masked)(link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, FLAGS), mask);
+        NAME(masked)(link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, pressure, FLAGS), mask);
     NAME(put_carried)(carried_by(up, FLAGS), carry + (long)pack * (CARRY_SIZE(FLAGS) * W) + LANE);
   }
 }
