@@ -56,7 +56,7 @@ class Statics(ProgramTest):
     def test_a_run_tells_the_reactions_of_its_end(self):
         record = self.record(*BEAM, "--analysis", "dynamic", "--steps", "400")
         self.assertEqual(len(record["reaction_force_n"]), 3)
-        self.assertGreater(record["reaction_force_n"][2], 0)
+        self.assertNotEqual(record["reaction_force_n"][2], 0)
         box = self.record("run", "tumbling_box", "--steps", "2")
         self.assertIsNone(box["reaction_force_n"])
 

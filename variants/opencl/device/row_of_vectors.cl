@@ -84,7 +84,8 @@ static inline wrench NAME(links_x)(prepared i, prepared next, axis_law law,
   }
   if (FLAGS.is_material | FLAGS.is_bending) j.q = rotor_from_above(i.e.q, next.e.q);
   if (FLAGS.is_material | FLAGS.is_damped) j.w = spin_from_above(i.e.w, next.e.w);
-  const exchange up = NAME(masked)(link_exchange(i.e, upper, j, lower, 0, law, pressure, FLAGS), mask);
+  const exchange up =
+      NAME(masked)(link_exchange(i.e, upper, j, lower, 0, law, pressure, FLAGS), mask);
   const carried own = carried_by(up, FLAGS);
   carried low = nothing_carried();
   low.force = vec_from_below(previous->force, own.force);
@@ -184,7 +185,9 @@ static inline void NAME(prime)(device d, global const row_stage* task, const int
         BETWEEN(PRESSURE_OF(d.arena + task->in + place), PRESSURE_OF(upper + place), axis);
     const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
     const exchange up =
-        NAME(masked)(link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, pressure, FLAGS), mask);
+        NAME(masked)(link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, pressure,
+                                 FLAGS),
+                     mask);
     NAME(put_carried)(carried_by(up, FLAGS), carry + (long)pack * (CARRY_SIZE(FLAGS) * W) + LANE);
   }
 }
