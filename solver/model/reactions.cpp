@@ -1,11 +1,15 @@
 #include "solver/model/reactions.hpp"
 
+#include "solver/model/energy.hpp"
+
 #include <Eigen/Geometry>
 
 #include <vector>
 
 namespace dss {
+namespace {
 
+/// @param fields  the state as `placed` gives it
 Reactions clamp_reactions(const Problem& problem, reference::Dynamics<double>& terms,
                           std::span<const double> fields, std::span<const double> signals) {
   const std::size_t count = problem.lattice.element_count;
@@ -31,6 +35,17 @@ Reactions clamp_reactions(const Problem& problem, reference::Dynamics<double>& t
     moment += place.cross(of_force) + of_moment;
   });
   return {{force[0], force[1], force[2]}, {moment[0], moment[1], moment[2]}};
+}
+
+} // namespace
+
+EnergyAndReactions energy_and_reactions(const Problem& problem, std::span<const double> state,
+                                        Rotation equations, std::span<const double> signals) {
+  reference::Dynamics<double> terms = energy_terms(problem, equations);
+  const std::vector<double> fields = placed(terms, state);
+  EnergyAndReactions found{terms.energy(fields), {}};
+  if (!problem.clamps.empty()) found.reactions = clamp_reactions(problem, terms, fields, signals);
+  return found;
 }
 
 } // namespace dss

@@ -34,8 +34,7 @@ std::vector<Case> cases() {
 
 std::vector<Case> cases_of(const Plugin& plugin) {
   std::vector<Case> all = cases();
-  std::erase_if(all,
-                [&](const Case& c) { return c.problem.has_pressure() && !plugin.has_pressure; });
+  std::erase_if(all, [&](const Case& c) { return lacks_pressure(plugin, c.problem); });
   return all;
 }
 

@@ -83,7 +83,7 @@ struct TestedVariant {
   /// hybrids, because devices compile each model of each problem. Variants that compute by others
   /// take a few of these rows: one element, and packs that are full, one short, one over.
   std::vector<Model> tested_models(const Case& c) const {
-    if (c.problem.has_pressure() && !plugin.has_pressure) return {};
+    if (lacks_pressure(plugin, c.problem)) return {};
     const bool is_row = c.name.starts_with("row_of");
     if (is_composed(plugin) && ((is_row && !is_row_for_all(c)) || !is_for_joined(c))) return {};
     // Another description of finite rotations: the rest is the code of the same oracle.
@@ -182,7 +182,7 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
       if (is_on_device &&
           ((c.name.starts_with("row_of") && !c.name.starts_with("row_of_17")) || !is_for_joined(c)))
         continue;
-      if (c.problem.has_pressure() && !plugin.has_pressure) continue;
+      if (lacks_pressure(plugin, c.problem)) continue;
       const State state =
           rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
       const State one =

@@ -1,6 +1,7 @@
 /// Reactions of clamps against the loads that they balance.
 #include "solver/model/energy.hpp"
 #include "solver/model/reactions.hpp"
+#include "solver/numerics/signal_rows.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <Eigen/Geometry>
@@ -11,17 +12,11 @@ namespace {
 
 constexpr Rotation all_equations[] = {Rotation::quaternion, Rotation::small, Rotation::linearised};
 
-std::vector<double> signals_of(const Problem& problem, double t) {
-  std::vector<double> row;
-  for (const Signal& a : problem.frame_acceleration) row.push_back(a(t));
-  for (const Load& load : problem.loads) row.push_back(load.signal(t));
-  return row;
-}
-
 Reactions reactions_at(const Problem& problem, const std::vector<double>& state, Rotation equations,
                        double t) {
-  reference::Dynamics<double> terms = energy_terms(problem, equations);
-  return clamp_reactions(problem, terms, placed(terms, state), signals_of(problem, t));
+  const auto found = energy_and_reactions(problem, state, equations, signals_at(problem, t));
+  EXPECT_EQ(found.energy_j, total_energy(problem, state, equations));
+  return found.reactions.value();
 }
 
 Eigen::Vector3d vector_of(const Vec3& v) { return {v[0], v[1], v[2]}; }

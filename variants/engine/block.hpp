@@ -70,7 +70,9 @@ private:
   std::vector<std::size_t> offset_; ///< of each row in `state_`
   Buffer<T> state_;
   std::array<Buffer<T>, 2> published_;
-  /// Published rows follow one another without gaps, so that neighbouring rows make one message.
+  /// Published rows follow one another without gaps, so that neighbouring rows make one message. A
+  /// row that looks one pack ahead may read the next one's pressure while another thread stores it;
+  /// no link reads these lanes.
   std::vector<std::size_t> published_offset_;
 };
 

@@ -1,7 +1,6 @@
 #include "variants/engine/link_table.hpp"
 
 #include "solver/model/link_constants.hpp"
-#include "variants/engine/lane_numbers.hpp"
 #include "variants/engine/packs.hpp"
 
 namespace dss {
@@ -18,29 +17,22 @@ LinkTable<T, W>::LinkTable(std::span<const Problem* const> members) : members_(m
 }
 
 template <class T, int W>
-LinkLanes<T> LinkTable<T, W>::lanes_of(const FaceKinds<W>& face) const {
-  LinkLanes<T> all{};
-  for (std::size_t lane = 0; lane < std::size_t(simd::lanes<T>); ++lane) {
-    const Problem& member = *members_[members_.size() > 1 ? lane : 0];
-    const Body& body = member.bodies[std::size_t(face.body)];
-    LinkConstants<T> one{};
-    set_material_constants(one, body.link(face.axis, face.kinds[lane]), face.axis);
-    set_lane<T>(all, lane, one, sizeof one / sizeof(T));
-  }
-  return all;
-}
-
-template <class T, int W>
 void LinkTable<T, W>::finish() {
-  kinds_.resize(numbers_.size());
-  for (const auto& [face, number] : numbers_) kinds_[std::size_t(number)] = face;
-  numbers_.clear();
+  numbers_.finish();
   lower_ = {};
   if constexpr (W == simd::lanes<T>) {
+    const auto add_lanes = [&](const PackKinds<W>& face) {
+      lanes_.push_back(
+          lanes_of<T, LinkLanes<T>>(members_, face, [&](const Body& body, std::uint8_t kind) {
+            LinkConstants<T> link{};
+            set_material_constants(link, body.link(face.axis, kind), face.axis);
+            return link;
+          }));
+    };
     if (!is_mixed())
       for (std::size_t b = 0; b < members_.front()->bodies.size(); ++b)
-        for (const int axis : {0, 1, 2}) lanes_.push_back(lanes_of({int(b), axis, {}}));
-    for (const FaceKinds<W>& face : kinds_) lanes_.push_back(lanes_of(face));
+        for (const int axis : {0, 1, 2}) add_lanes({int(b), axis, {}});
+    for (const PackKinds<W>& face : kinds()) add_lanes(face);
   }
 }
 

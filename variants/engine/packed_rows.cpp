@@ -198,14 +198,19 @@ void PackedRows<T, W>::mark_links() {
 }
 
 template <class T, int W>
-void PackedRows<T, W>::set_link_constants() {
-  if (links_.is_mixed())
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      links_.add_packs(lattice.rows[r].body, rows[r].packs, [&](auto&& visit) {
-        each_element(int(r), [&](std::size_t element, int x) {
-          visit(element / members_.size(), x - rows[r].first_pack * W);
-        });
+template <class Table>
+void PackedRows<T, W>::add_all_packs(Table& table) const {
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    table.add_packs(lattice.rows[r].body, rows[r].packs, [&](auto&& visit) {
+      each_element(int(r), [&](std::size_t element, int x) {
+        visit(element / members_.size(), x - rows[r].first_pack * W);
       });
+    });
+}
+
+template <class T, int W>
+void PackedRows<T, W>::set_link_constants() {
+  if (links_.is_mixed()) add_all_packs(links_);
   links_.finish();
   if (links_.lanes().empty()) return;
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -217,12 +222,7 @@ void PackedRows<T, W>::set_link_constants() {
 template <class T, int W>
 void PackedRows<T, W>::set_pressures() {
   if (pressure_fields == 0) return;
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    pressures_.add_packs(lattice.rows[r].body, rows[r].packs, [&](auto&& visit) {
-      each_element(int(r), [&](std::size_t element, int x) {
-        visit(element / members_.size(), x - rows[r].first_pack * W);
-      });
-    });
+  add_all_packs(pressures_);
   pressures_.finish();
   for (const PackedRow<T>& row : rows)
     row_pressures_.push_back({pressures_.lanes().data(), &pressures_.index()[row.pack_offset]});

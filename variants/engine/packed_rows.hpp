@@ -163,6 +163,9 @@ private:
   void set_constants();
   void find_layers();
   void mark_links();
+  /// Adds the packs of all rows to a LinkTable or PressureTable.
+  template <class Table>
+  void add_all_packs(Table& table) const;
   void set_link_constants();
   void set_pressures();
   void apply_face_strains();

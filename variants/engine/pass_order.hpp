@@ -21,15 +21,18 @@ enum class RowWork : std::uint8_t {
   extra_sum ///< the sum of a row's extra links, before its stage
 };
 
+/// Whether a task computes a row as a whole, and not only links that it leaves.
+constexpr bool computes_row(RowWork work) {
+  return work == RowWork::stage || work == RowWork::pressure;
+}
 /// Whether a task computes the links that a row leaves for its upper row across an axis.
 constexpr bool leaves_links(RowWork work, int axis) {
   constexpr RowWork alone[] = {RowWork::upper_link_x, RowWork::upper_link_y, RowWork::upper_link_z};
-  return work == RowWork::stage || work == RowWork::pressure || work == RowWork::upper_links ||
-         work == alone[axis];
+  return computes_row(work) || work == RowWork::upper_links || work == alone[axis];
 }
 /// Whether a task reads the links that lower rows left.
 constexpr bool reads_links(RowWork work) {
-  return work == RowWork::stage || work == RowWork::pressure || work == RowWork::upper_links;
+  return computes_row(work) || work == RowWork::upper_links;
 }
 
 struct PassTask {

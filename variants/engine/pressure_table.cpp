@@ -1,6 +1,5 @@
 #include "variants/engine/pressure_table.hpp"
 
-#include "variants/engine/lane_numbers.hpp"
 #include "variants/engine/packs.hpp"
 
 namespace dss {
@@ -15,23 +14,11 @@ PressureConstants<T> pressure_constants(const Body& body, std::uint8_t kind) {
 }
 
 template <class T, int W>
-PressureLanes<T> PressureTable<T, W>::lanes_of(const FaceKinds<W>& pack) const {
-  PressureLanes<T> all{};
-  for (std::size_t lane = 0; lane < std::size_t(simd::lanes<T>); ++lane) {
-    const Problem& member = *members_[members_.size() > 1 ? lane : 0];
-    const auto one = pressure_constants<T>(member.bodies[std::size_t(pack.body)], pack.kinds[lane]);
-    set_lane<T>(all, lane, one, sizeof one / sizeof(T));
-  }
-  return all;
-}
-
-template <class T, int W>
 void PressureTable<T, W>::finish() {
-  kinds_.resize(numbers_.size());
-  for (const auto& [pack, number] : numbers_) kinds_[std::size_t(number)] = pack;
-  numbers_.clear();
+  numbers_.finish();
   if constexpr (W == simd::lanes<T>)
-    for (const FaceKinds<W>& pack : kinds_) lanes_.push_back(lanes_of(pack));
+    for (const PackKinds<W>& pack : kinds())
+      lanes_.push_back(lanes_of<T, PressureLanes<T>>(members_, pack, pressure_constants<T>));
 }
 
 #define DSS_INSTANTIATE(T, W) template class PressureTable<T, W>;

@@ -26,8 +26,7 @@ std::vector<PassTask> WavefrontStep<T, W>::order(std::span<const SweepRows> swee
   std::vector<PassTask> tasks = order_pass(packed_.lattice, division().order, sweeps, shape_.form,
                                            extra_links_.rows(), sweeps_);
   for (PassTask& task : tasks)
-    if ((task.work == RowWork::stage || task.work == RowWork::pressure) &&
-        !packed_.is_computed(task.row, sweeps_.left(task.sweep)))
+    if (computes_row(task.work) && !packed_.is_computed(task.row, sweeps_.left(task.sweep)))
       task.work = RowWork::upper_links;
   return tasks;
 }

@@ -149,8 +149,12 @@ void end_variants(int exit_code, bool is_in_order) {
     if (plugin->end != nullptr) plugin->end(exit_code, is_in_order);
 }
 
+bool lacks_pressure(const Plugin& plugin, const Problem& problem) {
+  return problem.has_pressure() && !plugin.has_pressure;
+}
+
 void require_pressure(const Plugin& plugin, const Problem& problem) {
-  if (problem.has_pressure() && !plugin.has_pressure)
+  if (lacks_pressure(plugin, problem))
     throw InputError(fmt::format("{}: variant {} {}; give another variant, or G in place of nu",
                                  problem.name, plugin.name, pressure_is_missing));
 }

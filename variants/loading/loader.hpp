@@ -42,7 +42,9 @@ std::vector<std::string> usable_variants();
 /// @throws InputError if the name is unknown (suggests the nearest), the CPU lacks a feature, or
 /// the module does not load
 const Plugin& load_variant(const std::string& name);
-/// @throws InputError if the elements of a problem have a pressure that a variant does not compute
+/// Whether the elements of a problem have a pressure that a variant does not compute.
+bool lacks_pressure(const Plugin& plugin, const Problem& problem);
+/// @throws InputError if lacks_pressure
 void require_pressure(const Plugin& plugin, const Problem& problem);
 
 /// Ends all opened variants. Call it once before the program ends.

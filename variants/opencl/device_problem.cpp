@@ -138,7 +138,7 @@ void DeviceProblem<T, W>::make_constant_tables() {
 }
 
 /// The constants of each lane of some kinds, as device/tables.h has them.
-/// @param constants  (FaceKinds, lane) -> a struct of numbers of type T
+/// @param constants  (PackKinds, lane) -> a struct of numbers of type T
 template <class T, std::size_t W, class Kinds, class Constants>
 static std::vector<T> lane_table(const Kinds& all, Constants&& constants) {
   std::vector<T> numbers;
@@ -159,7 +159,7 @@ template <class T, int W>
 void DeviceProblem<T, W>::make_link_tables() {
   static_assert(LinkTable<T, W>::faces == 6);
   links_ = table(lane_table<T, std::size_t(W)>(
-      packed.links().kinds(), [&](const FaceKinds<W>& face, std::size_t lane) {
+      packed.links().kinds(), [&](const PackKinds<W>& face, std::size_t lane) {
         const Body& body = problem_.bodies[std::size_t(face.body)];
         LinkConstants<T> link{};
         set_material_constants(link, body.link(face.axis, face.kinds[lane]), face.axis);
@@ -171,7 +171,7 @@ void DeviceProblem<T, W>::make_link_tables() {
 template <class T, int W>
 void DeviceProblem<T, W>::make_pressure_tables() {
   pressures_ = table(lane_table<T, std::size_t(W)>(
-      packed.pressures().kinds(), [&](const FaceKinds<W>& pack, std::size_t lane) {
+      packed.pressures().kinds(), [&](const PackKinds<W>& pack, std::size_t lane) {
         return pressure_constants<T>(problem_.bodies[std::size_t(pack.body)], pack.kinds[lane]);
       }));
   pressure_index_ = table(packed.pressures().index());

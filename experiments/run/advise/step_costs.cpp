@@ -23,10 +23,10 @@ std::vector<std::string> advised_variants(const Problem& problem,
   // variants of one kind (with or without FMA) give the same bits, so one run gives the error of
   // all
   for (auto variant = variants().rbegin(); variant != variants().rend(); ++variant)
-    if (variant->is_usable() && !variant->is_by_name &&
-        load_variant(variant->name).has_fma == has_fma &&
-        (!problem.has_pressure() || load_variant(variant->name).has_pressure))
-      usable.push_back(variant->name);
+    if (variant->is_usable() && !variant->is_by_name)
+      if (const Plugin& plugin = load_variant(variant->name);
+          plugin.has_fma == has_fma && !lacks_pressure(plugin, problem))
+        usable.push_back(variant->name);
   return usable;
 }
 

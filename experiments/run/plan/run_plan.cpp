@@ -240,8 +240,7 @@ void require_outputs_writable(const RunRequest& request) {
 
 std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Precision precision,
                                const Method& method, Rotation rotation) {
-  if (problem.has_pressure() && !plugin.has_pressure)
-    return Lack{problem.name, pressure_is_missing};
+  if (lacks_pressure(plugin, problem)) return Lack{problem.name, pressure_is_missing};
   if (precision == Precision::f32c && !plugin.is_compensated)
     return Lack{"--precision f32c", "has f64 and f32 alone"};
   if (plugin.rotation != Rotation::quaternion && rotation != plugin.rotation)

@@ -5,7 +5,6 @@
 #include "experiments/run/statics/analysis_model.hpp"
 #include "experiments/run/statics/relaxation.hpp"
 #include "solver/error.hpp"
-#include "solver/model/energy.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/numerics/stability.hpp"
@@ -72,11 +71,10 @@ std::string stability_note(const Problem& problem, const AnalysisModel& of, doub
 void describe(const Problem& problem, Model model, double loads, AnalysisResult& result) {
   StaticSystem system(problem, rotation_of(model), unknowns_of(model, problem), loads);
   result.residual = system.residual(system.inside(result.state));
-  reference::Dynamics<double> terms = energy_terms(problem, rotation_of(model));
-  const std::vector<double> fields = placed(terms, result.state);
-  result.energy_j = terms.energy(fields);
-  if (!problem.clamps.empty())
-    result.reactions = clamp_reactions(problem, terms, fields, system.signals());
+  const auto [energy_j, reactions] =
+      energy_and_reactions(problem, result.state, rotation_of(model), system.signals());
+  result.energy_j = energy_j;
+  result.reactions = reactions;
   for (std::size_t e = 0; e < result.elements; ++e) {
     const double* f = &result.state[e * field_count];
     result.max_displacement_m = std::max(result.max_displacement_m,

@@ -74,8 +74,8 @@ struct RunResult {
   double first_step_s = 0;           ///< time to make the executor and to do the very first step
   Usage usage;
   std::optional<double> energy_j; ///< absent if the state is too large to hold twice
-  std::optional<Reactions>
-      reactions; ///< in the final state; absent without clamps, and as energy_j
+  /// In the final state; absent without clamps, and as energy_j.
+  std::optional<Reactions> reactions;
   /// Relative change over the whole run; only if energy is conserved and not zero.
   std::optional<double> energy_drift;
   std::optional<EnergyShares> balance; ///< absent if the state is too large to follow

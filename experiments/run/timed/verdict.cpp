@@ -133,11 +133,10 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
 void describe_state(const RunPlan& plan, Rotation rotation, const std::vector<double>& state,
                     RunResult& result) {
   const Problem& problem = plan.scene.problem;
-  reference::Dynamics<double> terms = energy_terms(problem, rotation);
-  const std::vector<double> fields = placed(terms, state);
-  result.energy_j = terms.energy(fields);
-  if (!problem.clamps.empty())
-    result.reactions = clamp_reactions(problem, terms, fields, signals_at(problem, result.end_s));
+  const auto [energy_j, reactions] =
+      energy_and_reactions(problem, state, rotation, signals_at(problem, result.end_s));
+  result.energy_j = energy_j;
+  result.reactions = reactions;
   if (result.model_report.promotions.empty())
     result.energy_drift = energy_drift(problem, rotation, result.energy_j);
   if (problem.lattice.element_count <= stability_state_elements && !plan.adaptive &&

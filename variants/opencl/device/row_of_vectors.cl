@@ -171,27 +171,6 @@ static inline int NAME(run_row)(device d, global const row_stage* task,
   return IS_ZERO(check);
 }
 
-/* Computes only the links across an axis, for the rows above. */
-static inline void NAME(prime)(device d, global const row_stage* task, const int axis) {
-  global const NUMBER* upper = d.arena + (axis == 1 ? task->upper_y : task->upper_z);
-  global NUMBER* carry = d.arena + (axis == 1 ? task->carry_y : task->carry_z);
-  for EACH_PACK(task) {
-    const uint mask =
-        axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
-    if (mask == 0) continue;
-    const axis_law law = NAME(law_of)(d, task, pack, axis, 0);
-    const long place = (long)pack * (task->fields * W) + LANE;
-    const link_pressure pressure =
-        BETWEEN(PRESSURE_OF(d.arena + task->in + place), PRESSURE_OF(upper + place), axis);
-    const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
-    const exchange up =
-        NAME(masked)(link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, pressure,
-                                 FLAGS),
-                     mask);
-    NAME(put_carried)(carried_by(up, FLAGS), carry + (long)pack * (CARRY_SIZE(FLAGS) * W) + LANE);
-  }
-}
-
 #if HAS_PRESSURE
 static inline pressure NAME(masked_strain)(pressure a, const uint mask) {
 #define KEEP_PART(c) KEEP(a.c)
@@ -247,7 +226,11 @@ static inline void NAME(find_pressure)(device d, global const row_stage* task,
     NAME(finish_pressure)(d, task, signals, pack, place, sum);
   }
 }
-static inline void NAME(prime_strain)(device d, global const row_stage* task, const int axis) {
+#endif
+
+/* Computes only the links across an axis, for the rows above, or only their strains. */
+static inline void NAME(prime)(device d, global const row_stage* task, const int axis,
+                               const int is_strain) {
   global const NUMBER* upper = d.arena + (axis == 1 ? task->upper_y : task->upper_z);
   global NUMBER* carry = d.arena + (axis == 1 ? task->carry_y : task->carry_z);
   for EACH_PACK(task) {
@@ -255,56 +238,55 @@ static inline void NAME(prime_strain)(device d, global const row_stage* task, co
         axis == 1 ? d.masks[task->masks + pack].link_y : d.masks[task->masks + pack].link_z;
     if (mask == 0) continue;
     const long place = (long)pack * (task->fields * W) + LANE;
-    const pressure up =
-        NAME(strain)(d.bodies + task->body, element_at(d.arena + task->in + place),
-                     element_at(upper + place), axis);
-    NAME(put_pressure)(NAME(masked_strain)(up, mask),
-                       carry + (long)pack * (CARRY_SIZE(FLAGS) * W) + LANE);
+    const element i = element_at(d.arena + task->in + place), j = element_at(upper + place);
+    global NUMBER* to = carry + (long)pack * (CARRY_SIZE(FLAGS) * W) + LANE;
+#if HAS_PRESSURE
+    if (is_strain) {
+      const pressure up = NAME(strain)(d.bodies + task->body, i, j, axis);
+      NAME(put_pressure)(NAME(masked_strain)(up, mask), to);
+      continue;
+    }
+#endif
+    const axis_law law = NAME(law_of)(d, task, pack, axis, 0);
+    const link_pressure pressure =
+        BETWEEN(PRESSURE_OF(d.arena + task->in + place), PRESSURE_OF(upper + place), axis);
+    const exchange up = link_across(i, upper_across(i, axis, law, FLAGS), j, axis, law, pressure,
+                                    FLAGS);
+    NAME(put_carried)(carried_by(NAME(masked)(up, mask), FLAGS), to);
   }
 }
-#endif
 
 /* Does the action of a row, for one combination of terms.
  * @return false if the last stage of a step left a number that is not finite */
 static int NAME(run)(device d, global const row_stage* task, global const NUMBER* signals) {
-  switch (task->action) {
-  case prime_upper:
-    if (task->upper_y >= 0) NAME(prime)(d, task, 1);
-#if AXES > 2
-    if (task->upper_z >= 0) NAME(prime)(d, task, 2);
-#endif
-    return 1;
+  const int action = task->action;
+  const int is_strain = action == prime_strain_y || action == prime_strain_z ||
+                        action == prime_strain_upper;
 #if HAS_PRESSURE
-  case find_pressure:
+  if (action == find_pressure) {
     NAME(find_pressure)(d, task, signals);
     return 1;
-  case prime_strain_upper:
-    if (task->upper_y >= 0) NAME(prime_strain)(d, task, 1);
-#if AXES > 2
-    if (task->upper_z >= 0) NAME(prime_strain)(d, task, 2);
-#endif
-    return 1;
-  case prime_strain_y:
-    NAME(prime_strain)(d, task, 1);
-    return 1;
-#if AXES > 2
-  case prime_strain_z:
-    NAME(prime_strain)(d, task, 2);
-    return 1;
-#endif
+  }
 #else
-  case find_pressure: /* a body without pressures, beside one that has them */
-  case prime_strain_upper:
-  case prime_strain_y:
-  case prime_strain_z:
-    return 1;
+  if (action == find_pressure || is_strain)
+    return 1; /* a body without pressures, beside one that has them */
 #endif
+  switch (action) {
+  case prime_upper:
+  case prime_strain_upper:
+    if (task->upper_y >= 0) NAME(prime)(d, task, 1, is_strain);
+#if AXES > 2
+    if (task->upper_z >= 0) NAME(prime)(d, task, 2, is_strain);
+#endif
+    return 1;
   case prime_y:
-    NAME(prime)(d, task, 1);
+  case prime_strain_y:
+    NAME(prime)(d, task, 1, is_strain);
     return 1;
 #if AXES > 2
   case prime_z:
-    NAME(prime)(d, task, 2);
+  case prime_strain_z:
+    NAME(prime)(d, task, 2, is_strain);
     return 1;
 #endif
   default:
