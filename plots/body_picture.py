@@ -53,8 +53,9 @@ class Body:
 
     def __init__(self, path):
         arrays = read_vtu(path)
-        self.rest = arrays["Points", "points"].reshape(-1, 8, 3)
-        self.moved = arrays["PointData", "displacement"].reshape(-1, 8, 3)
+        corners = arrays["Cells", "connectivity"].reshape(-1, 8)
+        self.rest = arrays["Points", "points"][corners]
+        self.moved = arrays["PointData", "displacement"][corners]
         self.stress = arrays["CellData", "von_mises"]
         self.extent = float(numpy.ptp(self.rest, axis=(0, 1)).max())
         self.largest = float(numpy.abs(self.moved).max())

@@ -103,7 +103,7 @@ void write_shapes(const Problem& problem, const RunRequest& run, FileSet& output
                                       (system.dofs().dof[std::size_t(k)] % 6 < 3 ? 1 : edge / 2));
     StaticSystem::State state = system.rest();
     system.move(state, size / largest * shape);
-    series.add(problem, system.fields(state), Rotation::linearised, double(n + 1));
+    series.add(problem, system.fields(state), Rotation::linearised, {}, double(n + 1));
   }
   result.files.push_back(series.finish());
 }
@@ -114,10 +114,10 @@ void write_files(const RunRequest& run, FileSet& outputs, AnalysisResult& result
   if (result.analysis == "modal") return write_shapes(problem, run, outputs, result);
   const Rotation equations = rotation_of(*find_model(result.model));
   FrameSeries frame(run.output, false, outputs);
-  frame.add(problem, result.state, equations, 0);
+  frame.add(problem, result.state, equations, result.signals, 0);
   if (const std::string written = frame.finish(); !written.empty()) result.files.push_back(written);
   if (run.state_csv.empty()) return;
-  write_state(outputs, run.state_csv, problem, result.state, equations);
+  write_state(outputs, run.state_csv, problem, result.state, equations, result.signals);
   result.files.push_back(run.state_csv);
 }
 

@@ -19,7 +19,7 @@ void write_state_csv(AtomicFile& file, const Problem& problem, std::span<const d
     for (const int column : columns)
       fmt::format_to(std::back_inserter(line), ",{:.17g}",
                      column == qs ? 1 + fields[qs] : fields[column]);
-    fmt::format_to(std::back_inserter(line), ",{:.17g}\n", stress[element][6]);
+    fmt::format_to(std::back_inserter(line), ",{:.17g}\n", von_mises(stress[element].stress));
     file.write({line.data(), line.size()});
   });
 }

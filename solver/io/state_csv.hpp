@@ -2,7 +2,7 @@
 /// The state as a table, one row an element.
 #include "solver/io/atomic_file.hpp"
 #include "solver/model/problem.hpp"
-#include "solver/model/stress.hpp"
+#include "solver/model/stress/stress_field.hpp"
 
 #include <array>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
-/// VTK XML output, readable by ParaView. Every element is a hexahedron of its own, because elements
-/// are rigid and gaps open between them.
+/// VTK XML output, readable by ParaView. Elements share their corners, so a body that is warped
+/// looks whole although its elements are rigid and gaps open between them.
 #include "solver/io/state_csv.hpp"
 #include "solver/model/problem.hpp"
 
@@ -10,16 +10,23 @@
 
 namespace dss {
 
-/// Writes one state as an unstructured grid (.vtu, inline base64, 64-bit floats). Points are the
-/// corners at rest; point data `displacement` [m] moves them (ParaView: Warp By Vector). Cell data:
-/// displacement [m], velocity [m/s], rotation_vector [rad], stress [Pa] (VTK's order: xx, yy, zz,
-/// xy, yz, xz) and von_mises [Pa].
+/// Stress and strain of a state, as written.
+struct StressOutput {
+  std::vector<ElementStress> elements;
+  ElementNodes nodes;
+  std::vector<SymmetricTensor> at_nodes; ///< stress of each node [Pa]
+};
+
+/// Writes one state as an unstructured grid (.vtu, inline base64, 64-bit floats). Points are nodes
+/// at rest. Point data, means of what the elements at a node have there: displacement [m], which
+/// moves them (ParaView: Warp By Vector), stress and von_mises [Pa]. Cell data, in the middle of
+/// elements: displacement [m], velocity [m/s], rotation_vector [rad], stress, von_mises and
+/// principal_stress [Pa], strain. Tensors have VTK's order: xx, yy, zz, xy, yz, xz.
 /// @param file    its caller commits it
 /// @param state   13 numbers an element
-/// @param stress  one entry an element
 /// @throws InputError if the file cannot be written
 void write_vtu(AtomicFile& file, const Problem& problem, std::span<const double> state,
-               std::span<const ElementStress> stress);
+               const StressOutput& stress);
 
 /// One file of a series: its name relative to the .pvd file, and its time [s].
 struct Frame {

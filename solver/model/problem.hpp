@@ -82,10 +82,15 @@ struct Body {
   bool has_tensor_inertia() const { return inertia[0] != inertia[1] || inertia[1] != inertia[2]; }
 };
 
+/// Faces -x, +x, -y, +y, -z, +z of an element, as bits.
+inline constexpr std::uint8_t all_faces = 0x3f;
+
 /// Clamped degrees of freedom. Their accelerations and initial velocities are zero.
 struct Clamp {
   std::size_t element = 0;
   std::uint8_t dofs = 0; ///< bits of Dof
+  /// Faces that it may hold, as bits: the selected ones, or all if it does not select a face.
+  std::uint8_t faces = all_faces;
 };
 
 /// The same wrench on each of some elements, scaled by a signal. It is in global axes and does not
@@ -97,6 +102,8 @@ struct Load {
   /// What the force adds to the volume strain of each element, at signal value 1, if it is the
   /// traction t of a free face with the normal n at rest: n.t / 4G.
   double face_strain = 0;
+  /// Number of the face that it acts on: 2 axis, + 1 if an upper one. -1: on the volume.
+  int face = -1;
 };
 
 /// A link outside the grid, between the upper (+axis) face of element i and the lower (-axis) face

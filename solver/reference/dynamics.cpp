@@ -143,6 +143,12 @@ LinkStrain<T> Dynamics<T>::strain(const Motion<T>& i, const Motion<T>& j, const 
 }
 
 template <class T>
+Vector<T> Dynamics<T>::stretch(const Motion<T>& i, const Motion<T>& j, const Link& link) const {
+  const LinkProperties<T>& properties = properties_[link.properties];
+  return is_linearised() ? linearised_stretch(i, j, properties) : link_stretch(i, j, properties);
+}
+
+template <class T>
 ElementStrain<T> Dynamics<T>::resistance(std::size_t e, const ElementStrain<T>& strain) const {
   const ElementStrain<T>& constants = pressures_[e];
   return {constants.volume * strain.volume, constants.curvature.cwiseProduct(strain.curvature)};

@@ -68,6 +68,8 @@ public:
   }
   int axis(const Link& link) const { return properties_[link.properties].axis; }
   LinkStrain<T> strain(const Motion<T>& i, const Motion<T>& j, const Link& link) const;
+  /// As link_stretch (pressure.hpp), of any link.
+  Vector<T> stretch(const Motion<T>& i, const Motion<T>& j, const Link& link) const;
   /// Adds the strain of a link to that of an element, and finds what pressures do to a link.
   void add_strain(const Link& link, const LinkStrain<T>& strain, ElementStrain<T>& sum) const {
     add_link(axis(link), strain, sum);

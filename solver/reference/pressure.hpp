@@ -63,21 +63,34 @@ LinkPressure<T> pressure_on_link(int axis, T area, const ElementStrain<T>& i,
   return link;
 }
 
+/// Gap of a link over its length, along the mean axes [1]: the strain along the link, and the shear
+/// that it takes across it.
+template <class T>
+Vector<T> link_stretch(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link) {
+  const Matrix<T> mean = Matrix<T>::Identity() + (i.turned + j.turned) / T(2);
+  return mean.transpose() * gap(i, j, link) / (link.arm_i[link.axis] + link.arm_j[link.axis]);
+}
+/// The same to first order in displacements and rotations.
+template <class T>
+Vector<T> linearised_stretch(const Motion<T>& i, const Motion<T>& j,
+                             const LinkProperties<T>& link) {
+  return gap(i, j, link) / (link.arm_i[link.axis] + link.arm_j[link.axis]);
+}
+
 /// @param relative  rotation from i to j in the present equations
 template <class T>
 LinkStrain<T> link_strain(const Motion<T>& i, const Motion<T>& j, const LinkProperties<T>& link,
                           const Vector<T>& relative) {
   const Matrix<T> mean = Matrix<T>::Identity() + (i.turned + j.turned) / T(2);
   const T length = link.arm_i[link.axis] + link.arm_j[link.axis];
-  return {mean.col(link.axis).dot(gap(i, j, link)) / length,
-          T(2) * (mean.transpose() * relative) / length};
+  return {link_stretch(i, j, link)[link.axis], T(2) * (mean.transpose() * relative) / length};
 }
 /// The same to first order in displacements and rotations.
 template <class T>
 LinkStrain<T> linearised_strain(const Motion<T>& i, const Motion<T>& j,
                                 const LinkProperties<T>& link) {
   const T length = link.arm_i[link.axis] + link.arm_j[link.axis];
-  return {gap(i, j, link)[link.axis] / length, T(2) * (j.q.v - i.q.v) / length};
+  return {linearised_stretch(i, j, link)[link.axis], T(2) * (j.q.v - i.q.v) / length};
 }
 
 /// Forces and moments of the pressures on a link: minus the derivative of W.

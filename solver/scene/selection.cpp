@@ -146,6 +146,14 @@ std::vector<std::size_t> read_selection(ObjectNode& select, const Problem& probl
   return elements;
 }
 
+std::optional<std::size_t> selected_face(ObjectNode& object) {
+  const auto select = object.find("select");
+  if (!select) return std::nullopt;
+  const auto face = ObjectNode(*select).find("face");
+  if (!face) return std::nullopt;
+  return face->choice("face", face_names);
+}
+
 std::vector<std::size_t> read_selected(ObjectNode& object, const Problem& problem,
                                        bool is_all_by_default) {
   const int body = read_body(object, problem);

@@ -3,6 +3,7 @@
 #include "solver/json/object_node.hpp"
 #include "solver/model/problem.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ int read_body(ObjectNode& object, const Problem& problem);
 /// @return numbers of the elements, each once; ascending, but for "elements" in the given order
 /// @throws InputError if nothing is selected
 std::vector<std::size_t> read_selection(ObjectNode& select, const Problem& problem, int body);
+
+/// The face that "select" of an object names, as an index of face_names, if it names one.
+std::optional<std::size_t> selected_face(ObjectNode& object);
 
 /// Reads "body" and "select" of an object. If `is_all_by_default`, "select" may be absent and means
 /// the whole body.

@@ -118,10 +118,10 @@ void set_pressures(const Solids& solids, std::span<const ThinAxes> thin, Problem
 
 } // namespace
 
-void set_face_strain(const Material& material, const Vec3& edge, std::size_t face, Load& load) {
-  const std::size_t axis = face / 2;
+void set_face_strain(const Material& material, const Vec3& edge, Load& load) {
+  const std::size_t axis = std::size_t(load.face) / 2;
   const double area = edge[(axis + 1) % 3] * edge[(axis + 2) % 3];
-  load.face_strain = (face % 2 == 1 ? 1 : -1) * load.force[axis] / area / (4 * material.G[0]);
+  load.face_strain = (load.face % 2 == 1 ? 1 : -1) * load.force[axis] / area / (4 * material.G[0]);
 }
 
 ElementPressure element_pressure(const Material& material, const Vec3& edge, const FreeFaces& free,

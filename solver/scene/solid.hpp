@@ -42,10 +42,9 @@ AxisConstants solid_link(const Material& material, int axis, const Vec3& edge, T
 ElementPressure element_pressure(const Material& material, const Vec3& edge,
                                  const std::array<int, 3>& free, ThinAxes thin);
 
-/// Sets Load::face_strain of a load that acts on free faces of a solid.
+/// Sets Load::face_strain of a load that acts on free faces of a solid (Load::face).
 /// @param edge  of an element of its body [m]
-/// @param face  number of the faces: 2 axis, + 1 if they are upper ones
-void set_face_strain(const Material& material, const Vec3& edge, std::size_t face, Load& load);
+void set_face_strain(const Material& material, const Vec3& edge, Load& load);
 
 /// Sets the links of all solids and the pressures of their elements. The lattice and the extra
 /// links must be complete: an element with an extra link of a solid has a neighbour there.

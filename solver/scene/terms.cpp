@@ -105,11 +105,11 @@ Load read_load(const Node& node, const Problem& problem, const Solids& solids) {
       load.torque[a] /= double(load.elements.size());
     }
   object.finish();
-  const std::optional<Material>& solid = solids.bodies[std::size_t(body)];
-  ObjectNode select(object.require("select"));
-  if (const auto face = select.find("face"); face && solid && solid->nu > 0)
-    set_face_strain(*solid, problem.bodies[std::size_t(body)].edge,
-                    face->choice("face", face_names), load);
+  const auto face = selected_face(object);
+  if (!face) return load;
+  load.face = int(*face);
+  if (const auto& solid = solids.bodies[std::size_t(body)]; solid && solid->nu > 0)
+    set_face_strain(*solid, problem.bodies[std::size_t(body)].edge, load);
   return load;
 }
 
@@ -222,17 +222,22 @@ void read_extra_links(const Node& node, Problem& problem, Solids& solids) {
 }
 
 void read_clamps(const Node& node, Problem& problem) {
-  std::vector<std::uint8_t> held(problem.lattice.element_count, 0);
+  std::vector<Clamp> held(problem.lattice.element_count, {0, 0, 0});
   for (const Node& item : node.items()) {
     ObjectNode object(item);
     const std::vector<std::size_t> elements = read_selected(object, problem, false);
     const auto dofs_node = object.find("dofs");
     const std::uint8_t dofs = dofs_node ? read_dofs(*dofs_node) : std::uint8_t(dof_all);
     object.finish();
-    for (const std::size_t element : elements) held[element] |= dofs;
+    const auto face = selected_face(object);
+    for (const std::size_t element : elements) {
+      held[element].dofs |= dofs;
+      held[element].faces |= face ? std::uint8_t(1U << *face) : all_faces;
+    }
   }
   for (std::size_t element = 0; element < held.size(); ++element)
-    if (held[element] != 0) problem.clamps.push_back({element, held[element]});
+    if (const Clamp& clamp = held[element]; clamp.dofs != 0)
+      problem.clamps.push_back({element, clamp.dofs, clamp.faces});
 }
 
 void read_loads(const Node& node, const Solids& solids, Problem& problem) {

@@ -43,13 +43,15 @@ def write_body(path, moved):
     corners = numpy.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))])
     points = numpy.concatenate([corners, corners + [1, 0, 0]]).astype("<f8")
     arrays = {"Points": ("points", points, 3),
+              "Cells": ("connectivity", numpy.arange(16), 1),
               "PointData": ("displacement", moved * points, 3),
               "CellData": ("von_mises", numpy.array([1e6, 2e6]), 1)}
     parts = []
     for section, (name, values, count) in arrays.items():
-        raw = values.astype("<f8").tobytes()
+        kind = "Int64" if section == "Cells" else "Float64"
+        raw = values.astype("<i8" if section == "Cells" else "<f8").tobytes()
         text = base64.b64encode(len(raw).to_bytes(8, "little") + raw).decode("ascii")
-        parts.append(f'<{section}><DataArray type="Float64" Name="{name}" '
+        parts.append(f'<{section}><DataArray type="{kind}" Name="{name}" '
                      f'NumberOfComponents="{count}">{text}</DataArray></{section}>')
     path.write_text(f"<VTKFile><Piece>{''.join(parts)}</Piece></VTKFile>", encoding="utf-8")
 

@@ -92,7 +92,8 @@ void expect_right(const Known& of, Quantity quantity, double tolerance) {
   const Advice advice = advise(of.scene.problem, of.times, request);
   ASSERT_EQ(advice.failure, "") << of.scene.name << " " << tolerance;
   const Workbench bench(of.scene.problem, of.times, quantity);
-  const Observed expected = observed_of(of.scene.problem, quantity, of.solution.states);
+  const Observed expected =
+      observed_of(of.scene.problem, quantity, of.solution.times, of.solution.states);
   const Observation run = bench.run(advice.chosen.configuration);
   const double error = bench.error(expected, run.observed);
   EXPECT_LE(error, tolerance) << of.scene.name;
@@ -143,10 +144,11 @@ TEST(ObservedError, OfDisplacementsIsThatOfAccuracy) {
   const Known chain = known("chain", {{"n", "8"}}, 5e-4);
   std::vector<std::vector<double>> other = chain.solution.states;
   other[2][3 * field_count + ux] *= 1.001;
-  const Observed expected =
-      observed_of(chain.scene.problem, Quantity::displacement, chain.solution.states);
+  const Observed expected = observed_of(chain.scene.problem, Quantity::displacement,
+                                        chain.solution.times, chain.solution.states);
   EXPECT_EQ(observed_error(chain.scene.problem, Quantity::displacement, expected,
-                           observed_of(chain.scene.problem, Quantity::displacement, other)),
+                           observed_of(chain.scene.problem, Quantity::displacement,
+                                       chain.solution.times, other)),
             accuracy_of(chain.scene.problem, chain.solution.states, other).max);
 }
 

@@ -37,9 +37,9 @@ TEST_F(Output, StateCsvHasOneRowAnElementAndTheWholeQuaternion) {
   state[ux] = 0.1;
   state[qs] = -0.25;
   AtomicFile csv(file("s.csv"));
-  write_state_csv(csv, problem, state,
-                  std::vector<ElementStress>(problem.lattice.element_count,
-                                             ElementStress{0, 0, 0, 0, 0, 0, 5}));
+  write_state_csv(
+      csv, problem, state,
+      std::vector<ElementStress>(problem.lattice.element_count, ElementStress{{5}, {}}));
   csv.commit();
   const std::string text = read_text(file("s.csv"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 17);

@@ -1,6 +1,7 @@
-/// Stress is recovered with the links of the equations that the state comes from.
+/// Stress and strain against closed forms, by the links of the equations that a state comes from.
 #include "solver/model/rotation_vector.hpp"
-#include "solver/model/stress.hpp"
+#include "solver/model/stress/stress_field.hpp"
+#include "solver/numerics/signal_rows.hpp"
 #include "tests/fixtures/problems.hpp"
 
 #include <algorithm>
@@ -12,8 +13,9 @@ namespace {
 double largest_von_mises(const Problem& problem, const std::vector<double>& state,
                          Rotation equations) {
   double largest = 0;
-  for (const ElementStress& stress : element_stress(problem, state, equations))
-    largest = std::max(largest, stress.back());
+  const StressField field(problem, state, equations, {});
+  for (const ElementStress& element : field.elements())
+    largest = std::max(largest, von_mises(element.stress));
   return largest;
 }
 

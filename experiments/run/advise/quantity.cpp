@@ -1,6 +1,8 @@
 #include "experiments/run/advise/quantity.hpp"
 #include "solver/model/energy.hpp"
-#include "solver/model/stress.hpp"
+#include "solver/model/stress/stress_field.hpp"
+
+#include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +11,7 @@
 namespace dss {
 
 void observe(const Problem& problem, Quantity quantity, Model model, std::span<const double> state,
-             Observed& observed) {
+             double time, Observed& observed) {
   const KindValues largest = largest_of_kinds(state);
   for (std::size_t kind = 0; kind < largest.size(); ++kind)
     observed.largest[kind] = std::max(observed.largest[kind], largest[kind]);
@@ -20,10 +22,12 @@ void observe(const Problem& problem, Quantity quantity, Model model, std::span<c
     for (std::size_t at = 0; at < state.size(); at += field_count)
       values.insert(values.end(), {state[at + ux], state[at + uy], state[at + uz]});
     break;
-  case Quantity::stress:
-    for (const ElementStress& stress : element_stress(problem, state, rotation_of(model)))
-      values.push_back(stress.back());
+  case Quantity::stress: {
+    const StressField field(problem, state, rotation_of(model), signals_at(problem, time));
+    for (const ElementStress& element : field.elements())
+      values.push_back(von_mises(element.stress));
     break;
+  }
   case Quantity::energy:
     values.push_back(total_energy(problem, state, rotation_of(model)));
     break;
@@ -44,11 +48,12 @@ double observed_error(const Problem& problem, Quantity quantity, const Observed&
   return relative(difference, scale);
 }
 
-Observed observed_of(const Problem& problem, Quantity quantity,
+Observed observed_of(const Problem& problem, Quantity quantity, const SavedTimes& times,
                      const std::vector<std::vector<double>>& states) {
   Observed observed;
-  for (const std::vector<double>& state : states)
-    observe(problem, quantity, Model::spatial, state, observed);
+  for (std::size_t k = 0; k < states.size(); ++k)
+    observe(problem, quantity, Model::spatial, states[k], double(k + 1) * times.interval(),
+            observed);
   return observed;
 }
 

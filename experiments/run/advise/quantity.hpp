@@ -1,6 +1,7 @@
 #pragma once
 /// The quantity that `dssbench advise` keeps within a tolerance: its values at the saved times of a
 /// run, and the error of one run against another.
+#include "experiments/run/state/saved_times.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "kernels/model.hpp"
 
@@ -45,10 +46,10 @@ struct Observed {
   KindValues largest{}; ///< of all states
 };
 
-/// Adds the values of a state at the next saved time. The energy is that of the model's own
+/// Adds the values of a state at the next saved time [s]. The energy is that of the model's own
 /// equations, as in `dssbench run`.
 void observe(const Problem& problem, Quantity quantity, Model model, std::span<const double> state,
-             Observed& observed);
+             double time, Observed& observed);
 
 /// Error as measure_of defines it; for displacements equal to Accuracy::max (accuracy.hpp).
 /// Infinite if a number is not finite.
@@ -56,7 +57,7 @@ double observed_error(const Problem& problem, Quantity quantity, const Observed&
                       const Observed& actual);
 
 /// Values of whole states at the saved times, such as those of a solution.
-Observed observed_of(const Problem& problem, Quantity quantity,
+Observed observed_of(const Problem& problem, Quantity quantity, const SavedTimes& times,
                      const std::vector<std::vector<double>>& states);
 
 } // namespace dss

@@ -32,7 +32,7 @@ public:
     const long between = configuration_.steps_between;
     for (long k = 0; k < bench_.times_.count; ++k) {
       if (!advance(k * between, between)) return;
-      if (observed != nullptr && !look(*observed)) return;
+      if (observed != nullptr && !look(double(k + 1) * bench_.times_.interval(), *observed)) return;
     }
   }
 
@@ -72,18 +72,19 @@ private:
     AdaptiveSteps adaptive(*executor_, bench_.problem_, method_, {*configuration_.rtol, 0}, dt_,
                            bench_.times_.end);
     for (long k = 1; k <= bench_.times_.count && failure.empty(); ++k) {
-      failure = adaptive.advance_to(double(k) * bench_.times_.interval()).value_or("");
-      if (failure.empty() && observed != nullptr) look(*observed);
+      const double time = double(k) * bench_.times_.interval();
+      failure = adaptive.advance_to(time).value_or("");
+      if (failure.empty() && observed != nullptr) look(time, *observed);
     }
     wall_s += adaptive.counts().wall_s;
     steps += adaptive.counts().accepted;
   }
 
-  bool look(Observed& observed) {
+  bool look(double time, Observed& observed) {
     const std::vector<double> state =
         whole_state(*executor_, bench_.problem_.lattice.element_count);
     if (std::ranges::all_of(state, [](double value) { return std::isfinite(value); })) {
-      observe(bench_.problem_, bench_.quantity_, configuration_.model, state, observed);
+      observe(bench_.problem_, bench_.quantity_, configuration_.model, state, time, observed);
       return true;
     }
     failure = fmt::format("the state is not finite after {} steps", steps);

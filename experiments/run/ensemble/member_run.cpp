@@ -39,7 +39,10 @@ void MemberRun::look(std::span<const double> state, long step) {
     balance_.emplace(problem, equations(), state, time, false);
   if (oracle_check_.is_wanted(step)) oracle_check_.look(step, state, equations(), result_.check);
   if (std::ranges::binary_search(plan_.frame_steps, step))
-    guarded([&] { series_.add(problem, {state.begin(), state.end()}, equations(), time); });
+    guarded([&] {
+      series_.add(problem, {state.begin(), state.end()}, equations(), signals_at(problem, time),
+                  time);
+    });
 }
 
 void MemberRun::resume(const MemberStanding& standing) {
@@ -74,7 +77,8 @@ void MemberRun::end(std::span<const double> state) {
     if (!is_ok()) return;
     if (!request_.state_csv.empty()) {
       if (request_.is_root)
-        write_state(outputs_, request_.state_csv, plan_.scene.problem, copy, equations());
+        write_state(outputs_, request_.state_csv, plan_.scene.problem, copy, equations(),
+                    signals_at(plan_.scene.problem, result_.end_s));
       result_.files.push_back(request_.state_csv);
     }
     if (const std::string written = series_.finish(); !written.empty())

@@ -48,6 +48,7 @@ struct AnalysisResult {
   std::optional<Reactions> reactions; ///< of statics; absent without clamps
   ModalAnalysis modal;
   std::vector<double> state;      ///< of statics: 13 numbers per element
+  std::vector<double> signals;    ///< of statics: those of the loads (StaticSystem::signals)
   std::vector<std::string> files; ///< written files, as text
   /// other status: "not converged"; the reason says how far the analysis came
   std::string status = "ok", reason;

@@ -73,6 +73,7 @@ void describe(const Problem& problem, Model model, double loads, AnalysisResult&
   result.residual = system.residual(system.inside(result.state));
   const auto [energy_j, reactions] =
       energy_and_reactions(problem, result.state, rotation_of(model), system.signals());
+  result.signals.assign(system.signals().begin(), system.signals().end());
   result.energy_j = energy_j;
   result.reactions = reactions;
   for (std::size_t e = 0; e < result.elements; ++e) {

@@ -1,51 +1,70 @@
 #include "experiments/run/timed/output.hpp"
 #include "experiments/base/interrupt.hpp"
 #include "solver/error.hpp"
-#include "solver/model/stress.hpp"
+#include "solver/model/stress/stress_field.hpp"
+#include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <utility>
 
 namespace dss {
 namespace {
 
-bool is_finite(const ElementStress& stress) {
-  return std::ranges::all_of(stress, [](double value) { return std::isfinite(value); });
+bool is_finite(const SymmetricTensor& tensor) {
+  return std::ranges::all_of(tensor, [](double value) { return std::isfinite(value); });
+}
+bool is_finite(const ElementStress& element) {
+  return is_finite(element.stress) && is_finite(element.strain) &&
+         std::isfinite(von_mises(element.stress));
 }
 
 /// @throws UnstableError if a stress is beyond the range of numbers; InputError if that holds from
 /// the start
-std::vector<ElementStress> finite_stress(const Problem& problem, const std::vector<double>& state,
-                                         Rotation equations) {
-  std::vector<ElementStress> stress = element_stress(problem, state, equations);
-  const auto wrong = std::ranges::find_if_not(stress, is_finite);
-  if (wrong == stress.end()) return stress;
+void require_finite(const Problem& problem, const StressField& field, Rotation equations) {
+  const std::vector<ElementStress>& stress = field.elements();
+  const auto wrong = std::ranges::find_if_not(
+      stress, [](const ElementStress& element) { return is_finite(element); });
+  if (wrong == stress.end()) return;
   const std::string what =
       fmt::format("{}: the stress of element {} is beyond the range of numbers", problem.name,
                   wrong - stress.begin());
-  if (std::ranges::all_of(element_stress(problem, initial_state(problem), equations), is_finite))
+  const StressField start(problem, initial_state(problem), equations, signals_at(problem, 0));
+  if (std::ranges::all_of(start.elements(),
+                          [](const ElementStress& element) { return is_finite(element); }))
     throw UnstableError(what + "; take a smaller --dt");
   throw InputError(what + "; give lengths and constants in SI units");
+}
+
+StressOutput stress_output(const Problem& problem, const std::vector<double>& state,
+                           Rotation equations, std::span<const double> signals) {
+  const StressField field(problem, state, equations, signals);
+  require_finite(problem, field, equations);
+  ElementNodes nodes(problem.lattice);
+  std::vector<SymmetricTensor> at_nodes = field.at_nodes(nodes);
+  return {field.elements(), std::move(nodes), std::move(at_nodes)};
 }
 
 } // namespace
 
 void write_state(FileSet& outputs, const std::string& path, const Problem& problem,
-                 const std::vector<double>& state, Rotation equations) {
-  const std::vector<ElementStress> stress = finite_stress(problem, state, equations);
+                 const std::vector<double>& state, Rotation equations,
+                 std::span<const double> signals) {
+  const StressField field(problem, state, equations, signals);
+  require_finite(problem, field, equations);
   AtomicFile& file = outputs.open(path);
-  write_state_csv(file, problem, state, stress);
+  write_state_csv(file, problem, state, field.elements());
   file.finish();
 }
 
 void FrameSeries::add(const Problem& problem, const std::vector<double>& state, Rotation equations,
-                      double time) {
+                      std::span<const double> signals, double time) {
   if (output_.empty()) return;
   const std::filesystem::path path = next_file();
   try {
-    const std::vector<ElementStress> stress = finite_stress(problem, state, equations);
+    const StressOutput stress = stress_output(problem, state, equations, signals);
     if (is_series_) {
       AtomicFile file(path.string());
       write_vtu(file, problem, state, stress);

@@ -4,14 +4,17 @@
 #include "solver/io/file_set.hpp"
 #include "solver/io/vtu.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace dss {
 
 /// Adds a state as CSV to the files of a run (solver/io/state_csv.hpp).
+/// @param signals  a row at its time (solver/numerics/signal_rows.hpp)
 void write_state(FileSet& outputs, const std::string& path, const Problem& problem,
-                 const std::vector<double>& state, Rotation equations);
+                 const std::vector<double>& state, Rotation equations,
+                 std::span<const double> signals);
 
 /// The .vtu file of a run, one of its set of files. A series has several files and a .pvd index:
 /// F.vtu becomes F_0000.vtu, F_0001.vtu, ... and F.pvd, each of which appears at once.
@@ -20,10 +23,10 @@ public:
   /// @param outputs  files of the run; lives longer
   FrameSeries(std::string output, bool is_series, FileSet& outputs)
       : output_(std::move(output)), is_series_(is_series), outputs_(&outputs) {}
-  /// Writes the state at a time [s]. The index of a series so far is at most a second older. Does
-  /// nothing without an output.
+  /// Writes the state at a time [s]; signals as in write_state, empty: without loads. The index of
+  /// a series so far is at most a second older. Does nothing without an output.
   void add(const Problem& problem, const std::vector<double>& state, Rotation equations,
-           double time);
+           std::span<const double> signals, double time);
   /// Goes on with a series whose frames at these times [s] were written before.
   /// @throws InputError if one of them is missing
   void go_on(const std::vector<double>& times);

@@ -47,7 +47,9 @@ RunResult run_scene(const RunRequest& request, FileSet& outputs) {
   if (!request.state_csv.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), problem.lattice.element_count);
     const WorkAlone alone(timed.executor(), request.is_root);
-    if (request.is_root) write_state(outputs, request.state_csv, problem, state, rotation);
+    if (request.is_root)
+      write_state(outputs, request.state_csv, problem, state, rotation,
+                  signals_at(problem, result.end_s));
     result.files.push_back(request.state_csv);
   }
   result.wall_s += result.model_report.look_s;

@@ -295,7 +295,8 @@ void TimedRun::look(long step) {
   if (std::binary_search(plan_.frame_steps.begin(), plan_.frame_steps.end(), step)) {
     const std::vector<double> state = whole_state(*executor_, count);
     const WorkAlone alone(*executor_, is_root_);
-    series_.add(problem_, state, equations(), double(step) * plan_.dt);
+    const double time = double(step) * plan_.dt;
+    series_.add(problem_, state, equations(), signals_at(problem_, time), time);
   }
 }
 

@@ -60,7 +60,7 @@ public:
            const std::function<void(const std::string&)>& note)
       : study_(study), of_(of), solution_(solution), note_(note),
         bench_(of.loaded.problem, of.times, of.quantity),
-        expected_(observed_of(of.loaded.problem, of.quantity, solution.states)),
+        expected_(observed_of(of.loaded.problem, of.quantity, solution.times, solution.states)),
         costs_(bench_, base(), advised_variants(bench_.problem(), {}), usable_cores()) {}
 
   std::vector<Record> rows() {

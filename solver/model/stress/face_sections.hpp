@@ -1,0 +1,106 @@
+#pragma once
+/// What acts across the faces of elements.
+#include "solver/model/problem.hpp"
+#include "solver/model/rotation.hpp"
+#include "solver/reference/dynamics.hpp"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace dss {
+
+/// Resultants of the stress on a face: what the side above it, along its axis, exerts on the side
+/// below. Both elements at a face have the same.
+struct Section {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< global axes [N]
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero(); ///< about the face's centre, global axes [N m]
+  /// Strain along the face's normal and shear across it, in the axes of the link.
+  Eigen::Vector3d stretch = Eigen::Vector3d::Zero();
+};
+
+enum class FaceKind {
+  free,   ///< nothing acts
+  linked, ///< by links
+  loaded, ///< by loads that select the face (Load::face)
+  held    ///< by a clamp; its section follows from those behind it
+};
+
+struct Face {
+  FaceKind kind = FaceKind::free;
+  Section section;
+};
+/// Faces -x, +x, -y, +y, -z, +z of an element.
+using Faces = std::array<Face, 6>;
+
+/// The faces of all elements in a state. Sections are found when they are asked for.
+class FaceSections {
+public:
+  /// @param problem    lives longer
+  /// @param equations  equations that the states come from; links of other equations would be
+  ///     strained by their rotations even at rest
+  FaceSections(const Problem& problem, Rotation equations);
+  /// @param state    field_count numbers an element (kernels/fields.hpp)
+  /// @param signals  a row at the time of the state (solver/numerics/signal_rows.hpp); empty:
+  ///     without loads
+  void take(std::span<const double> state, std::span<const double> signals);
+  /// Finds the sections of all links of the state, to be asked for more than once: 72 bytes a link.
+  void find_all();
+
+  /// A held face continues the sections behind it linearly, in each component that the clamp holds.
+  /// A component that it leaves free is the negative of that on the opposite face: there is none in
+  /// the middle, where clamps act.
+  Faces of(std::size_t element) const;
+  /// The element across a face, or `none`. Extra links do not count.
+  std::size_t beyond(std::size_t element, std::size_t face) const;
+  static constexpr std::size_t none = std::size_t(-1);
+
+  /// Axes of an element as columns.
+  Eigen::Matrix3d axes(std::size_t element) const { return axes_of(motion(element)); }
+  const Body& body(std::size_t element) const {
+    return problem_.bodies[std::size_t(body_of_[element])];
+  }
+  /// Of a face across an axis [m^2].
+  double area(std::size_t element, int axis) const;
+  std::size_t element_count() const { return body_of_.size(); }
+
+private:
+  struct FaceLink {
+    std::size_t face; ///< 6 element + number of the face
+    std::size_t link;
+    auto operator<=>(const FaceLink&) const = default;
+  };
+  struct FaceLoad {
+    std::size_t face;
+    Eigen::Vector3d force, moment; ///< on the element [N], [N m]
+  };
+
+  void add_extra_links();
+  void add_loads(std::span<const double> signals);
+  reference::Motion<double> motion(std::size_t element) const;
+  Eigen::Matrix3d axes_of(const reference::Motion<double>& motion) const;
+  Section found(std::size_t link) const;
+  Section section(std::size_t link) const { return found_.empty() ? found(link) : found_[link]; }
+  /// A face as links and loads leave it.
+  Face face(std::size_t element, std::size_t face) const;
+  Vec3 open_stretch(std::size_t element, int axis, const Eigen::Vector3d& force) const;
+  Section held_section(std::size_t element, std::size_t face, const Section& opposite) const;
+
+  const Problem& problem_;
+  bool is_linearised_;
+  reference::Dynamics<double> terms_;
+  std::vector<double> fields_;
+  std::vector<reference::ElementStrain<double>> strains_; ///< as Dynamics::strains
+  std::vector<Section> found_;                            ///< of all links, or empty
+  std::vector<int> body_of_;
+  std::vector<std::array<std::uint32_t, 6>> links_; ///< of the grid, by faces
+  std::vector<FaceLink> extra_links_;               ///< ascending
+  std::vector<FaceLoad> loads_;                     ///< ascending by face
+  std::vector<Clamp> clamps_;                       ///< of each element
+};
+
+} // namespace dss
