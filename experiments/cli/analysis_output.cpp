@@ -4,6 +4,7 @@
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/run_summary.hpp"
 #include "experiments/run/statics/analysis.hpp"
+#include "experiments/run/timed/history.hpp"
 #include "experiments/run/timed/output.hpp"
 #include "experiments/run/timed/run_record.hpp"
 #include "solver/io/atomic_file.hpp"
@@ -109,13 +110,20 @@ void write_shapes(const Problem& problem, const RunRequest& run, FileSet& output
 }
 
 void write_files(const RunRequest& run, FileSet& outputs, AnalysisResult& result) {
-  if (run.output.empty() && run.state_csv.empty()) return;
+  if (run.output.empty() && run.state_csv.empty() && run.history.empty()) return;
   const Problem problem = load_scene(run.scene, run.overrides).problem;
   if (result.analysis == "modal") return write_shapes(problem, run, outputs, result);
   const Rotation equations = rotation_of(*find_model(result.model));
   FrameSeries frame(run.output, false, outputs);
   frame.add(problem, result.state, equations, result.signals, 0);
   if (const std::string written = frame.finish(); !written.empty()) result.files.push_back(written);
+  if (!run.history.empty()) {
+    RunHistory history(run.history, problem, read_probes(run.probes, problem));
+    history.add(0, 0, result.state, equations, result.signals);
+    history.write(outputs);
+    result.probes = history.probe_texts();
+    result.files.push_back(run.history);
+  }
   if (run.state_csv.empty()) return;
   write_state(outputs, run.state_csv, problem, result.state, equations, result.signals);
   result.files.push_back(run.state_csv);
@@ -166,8 +174,10 @@ Json analysis_json(const RunRequest& run, const AnalysisResult& result) {
 int run_analysis(const std::string& analysis, const RunRequest& run,
                  const AnalysisRequest& request) {
   for (const std::string& path :
-       {run.output, run.state_csv, run.json == "-" ? std::string() : run.json})
+       {run.output, run.state_csv, run.history, run.json == "-" ? std::string() : run.json})
     if (!path.empty()) require_writable(path);
+  if (!run.probes.empty()) // before the solution
+    read_probes(run.probes, load_scene(run.scene, run.overrides).problem);
   AnalysisResult result =
       analysis == "static" ? solve_static(run, request) : solve_modal(run, request);
   const bool is_fine = result.status == "ok";
@@ -183,6 +193,7 @@ int run_analysis(const std::string& analysis, const RunRequest& run,
     else
       print_modes(result);
     if (!result.note.empty()) fmt::print("note: {}\n", result.note);
+    for (const std::string& probe : result.probes) fmt::print("{}\n", probe);
     for (const std::string& file : result.files) fmt::print("wrote {}\n", file);
   }
   if (is_fine) return exit_success;

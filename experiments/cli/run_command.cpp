@@ -83,12 +83,14 @@ void require_distinct_files(const RunRequest& request, const std::string& analys
   }
   if (has_members) {
     files.write_members("--state", request.state_csv);
+    files.write_members("--history", request.history);
     files.write_members("--output", request.output);
     if (request.frames > 0 && !request.output.empty())
       files.write_members("--output",
                           std::filesystem::path(request.output).replace_extension(".pvd").string());
   } else {
     files.write("--state", request.state_csv);
+    files.write("--history", request.history);
     if (request.frames > 0 || analysis == "modal")
       files.write_series("--output", request.output);
     else
@@ -128,6 +130,12 @@ int run(const CLI::App& command, const RunArguments& arguments) {
        {std::pair("--checkpoint", request.checkpoint), std::pair("--restart", request.restart)})
     if (command.count(option) > 0 && file.empty())
       throw InputError(fmt::format("{}: its name is empty; give a file", option));
+  if (command.count("--history") > 0 && request.history.empty())
+    throw InputError("--history: its name is empty; give a file");
+  if (command.count("--every") > 0 && request.every < 1)
+    throw InputError(fmt::format("--every {}: give 1 step or more", request.every));
+  if (request.history.empty() && (!request.probes.empty() || request.every > 0))
+    request.history = "history.csv";
   if (command.count("--checkpoint-every") > 0 && request.checkpoint.empty())
     throw InputError("--checkpoint-every: give --checkpoint FILE, too");
   require_distinct_files(request, analysis);

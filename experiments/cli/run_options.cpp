@@ -135,6 +135,17 @@ void add_output_options(CLI::App& command, RunRequest& request) {
       ->capture_default_str();
   command.add_option("--state", request.state_csv,
                      "F.csv: file for the final state, one row per element");
+  command
+      .add_option("--probe", request.probes,
+                  "NAME=BODY,x,y,z: a place in a body, in m at rest. The history has its "
+                  "displacement, velocity and stress. May be given several times")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--history", request.history,
+                     "F.csv: file for energies, reactions and probes over time (default with "
+                     "--probe or --every: history.csv)");
+  command.add_option("--every", request.every,
+                     "Steps between two rows of the history (default: about 1,000 rows)");
   command.add_option("--json", request.json, "File for the result, or - for standard output");
 }
 

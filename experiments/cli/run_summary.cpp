@@ -136,6 +136,7 @@ void print_summary(const RunResult& result) {
                result.ranks.imbalance);
   if (!result.ranks.halo_reason.empty())
     fmt::print("halo {}: {}\n", result.ranks.halo, result.ranks.halo_reason);
+  for (const std::string& probe : result.probes) fmt::print("{}\n", probe);
   for (const std::string& file : result.files) fmt::print("wrote {}\n", file);
 }
 

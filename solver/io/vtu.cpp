@@ -1,5 +1,6 @@
 #include "solver/io/vtu.hpp"
 #include "solver/io/base64.hpp"
+#include "solver/model/element_place.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,16 +27,6 @@ Vec3 arm(const Problem& problem, const Row& row, std::size_t corner) {
   Vec3 arm = problem.bodies[std::size_t(row.body)].edge;
   for (std::size_t a = 0; a < 3; ++a) arm[a] *= (corner >> a & 1) != 0 ? 0.5 : -0.5;
   return arm;
-}
-
-/// Displacement of the end of an arm c of a rigid element: u + (A - I) c, with
-/// A - I = 2 q0 [r]x + 2 [r]x^2.
-Vec3 corner_displacement(const double* fields, const Vec3& c) {
-  const double w = 1 + fields[qs], x = fields[qx], y = fields[qy], z = fields[qz];
-  const Vec3 t = {y * c[2] - z * c[1], z * c[0] - x * c[2], x * c[1] - y * c[0]};
-  return {fields[ux] + 2 * (w * t[0] + y * t[2] - z * t[1]),
-          fields[uy] + 2 * (w * t[1] + z * t[0] - x * t[2]),
-          fields[uz] + 2 * (w * t[2] + x * t[1] - y * t[0])};
 }
 
 /// Rotation vector [rad] of the stored quaternion, with an angle in [0, pi].
@@ -90,7 +81,7 @@ NodeMotion node_motion(const Problem& problem, std::span<const double> state,
     for (std::size_t corner = 0; corner < 8; ++corner) {
       const std::size_t node = nodes.of(element)[corner];
       const Vec3 c = arm(problem, row, corner),
-                 moved = corner_displacement(&state[element * field_count], c);
+                 moved = displacement_at(&state[element * field_count], c);
       for (std::size_t a = 0; a < 3; ++a) {
         motion.rest[node][a] = centre[a] + c[a];
         motion.displacement[node][a] += moved[a];

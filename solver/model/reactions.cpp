@@ -42,7 +42,12 @@ Reactions clamp_reactions(const Problem& problem, reference::Dynamics<double>& t
 EnergyAndReactions energy_and_reactions(const Problem& problem, std::span<const double> state,
                                         Rotation equations, std::span<const double> signals) {
   reference::Dynamics<double> terms = energy_terms(problem, equations);
-  const std::vector<double> fields = placed(terms, state);
+  return energy_and_reactions(problem, terms, placed(terms, state), signals);
+}
+
+EnergyAndReactions energy_and_reactions(const Problem& problem, reference::Dynamics<double>& terms,
+                                        std::span<const double> fields,
+                                        std::span<const double> signals) {
   EnergyAndReactions found{terms.energy(fields), {}};
   if (!problem.clamps.empty()) found.reactions = clamp_reactions(problem, terms, fields, signals);
   return found;

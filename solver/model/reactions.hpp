@@ -2,6 +2,7 @@
 /// What clamps exert on bodies.
 #include "solver/model/problem.hpp"
 #include "solver/model/rotation.hpp"
+#include "solver/reference/dynamics.hpp"
 
 #include <optional>
 #include <span>
@@ -26,5 +27,10 @@ struct EnergyAndReactions {
 /// @param signals    a row at the time of the state (solver/numerics/signal_rows.hpp)
 EnergyAndReactions energy_and_reactions(const Problem& problem, std::span<const double> state,
                                         Rotation equations, std::span<const double> signals);
+/// The same from terms that were made before (energy_terms).
+/// @param fields  the state as `placed` gives it
+EnergyAndReactions energy_and_reactions(const Problem& problem, reference::Dynamics<double>& terms,
+                                        std::span<const double> fields,
+                                        std::span<const double> signals);
 
 } // namespace dss

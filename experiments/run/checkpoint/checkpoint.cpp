@@ -38,8 +38,8 @@ constexpr Fact known_facts[] = {
     {"rtol", "--rtol", "give that --rtol"},
     {"atol", "--atol", "give that --atol"},
     {"pauses", "pauses of the run",
-     "with adaptive steps and watched models, give the --steps, --frames, --output, --check-state, "
-     "--check-tail and --no-balance of the interrupted run"},
+     "with adaptive steps and watched models, give the --steps, --frames, --output, --history, "
+     "--every, --check-state, --check-tail and --no-balance of the interrupted run"},
     {"has_fma", "rounding (fused multiply-add)", "give a --variant that rounds as that run did"},
     {"kept_fields", "numbers an element", "give the --integrator and --precision of that run"},
 };

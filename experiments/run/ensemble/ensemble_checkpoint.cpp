@@ -113,6 +113,11 @@ void EnsembleSaving::save_end(long step) { note(save(step)); }
 
 std::string EnsembleSaving::save(long step) {
   clock_.take(step);
+  try {
+    for (const auto& member : members_) member->save_history();
+  } catch (const InputError& error) {
+    return error.what();
+  }
   return write_ensemble(request_.checkpoint, identity_, plan_, batches_, members_,
                         request_.is_root);
 }

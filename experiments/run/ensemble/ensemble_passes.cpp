@@ -24,6 +24,7 @@ std::vector<long> EnsembleRun::stops(std::size_t b, Looks looks) const {
     const std::vector<long> checks = member.oracle_check().stops();
     steps.insert(steps.end(), checks.begin(), checks.end());
     steps.insert(steps.end(), plan.frame_steps.begin(), plan.frame_steps.end());
+    steps.insert(steps.end(), plan.history_steps.begin(), plan.history_steps.end());
     const long between = energy_look_interval(plan.scene.problem.lattice.element_count, plan.steps);
     for (long step = between; step < plan.steps && member.has_balance(); step += between)
       steps.push_back(step);

@@ -2,6 +2,7 @@
 
 #include "experiments/run/state/state_access.hpp"
 #include "solver/error.hpp"
+#include "solver/numerics/signal_rows.hpp"
 
 #include <algorithm>
 
@@ -10,7 +11,10 @@ namespace dss {
 MemberRun::MemberRun(const RunPlan& plan, const RunRequest& request)
     : plan_(plan), request_(request), result_(described(plan, request)),
       series_(request.is_root ? request.output : "", plan.frame_steps.size() > 1, outputs_),
-      oracle_check_(plan) {}
+      oracle_check_(plan) {
+  if (request.is_root && !request.history.empty())
+    history_.emplace(request.history, plan.scene.problem, plan.probes);
+}
 
 std::uint64_t MemberRun::digest_of(std::span<const double> state) const {
   StateDigest digest(plan_.precision);
@@ -38,11 +42,14 @@ void MemberRun::look(std::span<const double> state, long step) {
   else if (has_balance() && is_due && step < plan_.steps) // the balance of a continued run begins
     balance_.emplace(problem, equations(), state, time, false);
   if (oracle_check_.is_wanted(step)) oracle_check_.look(step, state, equations(), result_.check);
-  if (std::ranges::binary_search(plan_.frame_steps, step))
-    guarded([&] {
-      series_.add(problem, {state.begin(), state.end()}, equations(), signals_at(problem, time),
-                  time);
-    });
+  const bool has_frame = std::ranges::binary_search(plan_.frame_steps, step),
+             has_row = history_ && std::ranges::binary_search(plan_.history_steps, step);
+  if (!has_frame && !has_row) return;
+  guarded([&] {
+    const std::vector<double> signals = signals_at(problem, time);
+    if (has_frame) series_.add(problem, {state.begin(), state.end()}, equations(), signals, time);
+    if (has_row) history_->add(step, time, state, equations(), signals);
+  });
 }
 
 void MemberRun::resume(const MemberStanding& standing) {
@@ -57,6 +64,10 @@ void MemberRun::resume(const MemberStanding& standing) {
   for (const long frame : plan_.frame_steps)
     if (frame <= standing.step) times.push_back(double(frame) * plan_.dt);
   if (request_.is_root && !request_.output.empty()) series_.go_on(times);
+  std::vector<long> rows;
+  for (const long step : plan_.history_steps)
+    if (step <= standing.step) rows.push_back(step);
+  if (history_) history_->go_on(rows);
 }
 
 void MemberRun::fail(const Outcome& failure) {
@@ -83,6 +94,8 @@ void MemberRun::end(std::span<const double> state) {
     }
     if (const std::string written = series_.finish(); !written.empty())
       result_.files.push_back(written);
+    if (!request_.history.empty()) result_.files.push_back(request_.history);
+    if (history_) history_->write(outputs_);
     outputs_.commit();
   });
   if (is_ok() && balance_) result_.balance = balance_->shares();

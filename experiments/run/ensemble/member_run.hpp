@@ -3,6 +3,7 @@
 /// files, its result.
 #include "experiments/run/ensemble/member_batch.hpp"
 #include "experiments/run/plan/run_plan.hpp"
+#include "experiments/run/timed/history.hpp"
 #include "experiments/run/timed/oracle_check.hpp"
 #include "experiments/run/timed/output.hpp"
 #include "experiments/run/timed/run_result.hpp"
@@ -30,6 +31,10 @@ public:
   void look(std::span<const double> state, long step);
   /// Frames that are written stay if a later one cannot be written: the ensemble is saved.
   void keep_frames() { series_.keep_finished(); }
+  /// Writes the rows so far: the ensemble is saved.
+  void save_history() const {
+    if (history_ && is_ok()) history_->save();
+  }
   /// Goes on where an earlier run stood, in which the member may have failed.
   void resume(const MemberStanding& standing);
   /// The member became unstable; steps count from the start.
@@ -55,6 +60,7 @@ private:
   RunResult result_;
   FileSet outputs_; ///< of this member
   FrameSeries series_;
+  std::optional<RunHistory> history_; ///< of the root
   OracleCheck oracle_check_;
   std::optional<EnergyBalance> balance_;
 };

@@ -72,6 +72,7 @@ void require_devices(const RunRequest& request, const RunPlan& plan) {
 /// More is beyond a lifetime. Options read larger numbers as the largest of their type.
 constexpr long most_steps_of_run = 1'000'000'000'000'000;
 constexpr int most_frames_of_run = 1'000'000;
+constexpr long most_rows_of_history = 1'000'000;
 
 void require_sensible(const RunRequest& request, const RunPlan& plan) {
   const auto refuse = [](const std::string& what) { throw InputError(what); };
@@ -233,8 +234,9 @@ ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
 } // namespace
 
 void require_outputs_writable(const RunRequest& request) {
-  for (const std::string& path : {request.output, request.state_csv, request.checkpoint,
-                                  request.json == "-" ? std::string() : request.json})
+  for (const std::string& path :
+       {request.output, request.state_csv, request.history, request.checkpoint,
+        request.json == "-" ? std::string() : request.json})
     if (!path.empty()) require_writable(path);
 }
 
@@ -305,6 +307,20 @@ void require_room(const RunRequest& request, double elements, int fields, Precis
                  "give the scene fewer elements");
 }
 
+/// @param every  0: about 1,000 rows
+std::vector<long> history_steps(long every, long steps) {
+  constexpr long rows = 1000;
+  if (every < 0) throw InputError(fmt::format("--every {}: give 1 step or more", every));
+  if (every == 0) every = (steps + rows - 1) / rows;
+  if (steps / every > most_rows_of_history)
+    throw InputError(fmt::format("--every {}: {} steps would have {} rows; give at least {}", every,
+                                 steps, steps / every, steps / most_rows_of_history + 1));
+  std::vector<long> of_rows;
+  for (long step = 0; step < steps; step += every) of_rows.push_back(step);
+  of_rows.push_back(steps);
+  return of_rows;
+}
+
 RunPlan plan_run(const RunRequest& request) {
   RunPlan plan;
   plan.precision = require_precision_name(request.precision.value_or("f64"));
@@ -351,6 +367,8 @@ RunPlan plan_run(const RunRequest& request) {
   }
   plan.frame_steps.erase(std::unique(plan.frame_steps.begin(), plan.frame_steps.end()),
                          plan.frame_steps.end());
+  plan.probes = read_probes(request.probes, problem);
+  if (!request.history.empty()) plan.history_steps = history_steps(request.every, plan.steps);
   return plan;
 }
 

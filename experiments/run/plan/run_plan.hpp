@@ -2,6 +2,7 @@
 /// Turns a request into a plan. All mistakes in the request are found here, before anything is
 /// computed.
 #include "experiments/run/model/model_choice.hpp"
+#include "experiments/run/plan/probe.hpp"
 #include "experiments/run/plan/run_request.hpp"
 #include "experiments/run/state/oracle_state.hpp"
 #include "experiments/run/state/solution.hpp"
@@ -33,6 +34,8 @@ struct RunPlan {
   long steps_between = 0;              ///< steps between saved times of the reference
   /// steps at which a frame is written: ascending, the last is `steps`
   std::vector<long> frame_steps;
+  std::vector<Probe> probes;
+  std::vector<long> history_steps; ///< steps of the rows of the history: likewise
 
   const Tolerance& tolerance() const {
     return precision == Precision::f64 ? scene.problem.tolerance_f64 : scene.problem.tolerance_f32;

@@ -47,9 +47,10 @@ struct AnalysisResult {
   double energy_j = 0;                ///< elastic
   std::optional<Reactions> reactions; ///< of statics; absent without clamps
   ModalAnalysis modal;
-  std::vector<double> state;      ///< of statics: 13 numbers per element
-  std::vector<double> signals;    ///< of statics: those of the loads (StaticSystem::signals)
-  std::vector<std::string> files; ///< written files, as text
+  std::vector<double> state;       ///< of statics: 13 numbers per element
+  std::vector<double> signals;     ///< of statics: those of the loads (StaticSystem::signals)
+  std::vector<std::string> files;  ///< written files, as text
+  std::vector<std::string> probes; ///< of statics: what they saw, as text
   /// other status: "not converged"; the reason says how far the analysis came
   std::string status = "ok", reason;
   std::string note; ///< a remark for the user about a valid result

@@ -6,6 +6,7 @@
 #include "experiments/run/timed/output.hpp"
 #include "experiments/run/timed/timed_run.hpp"
 #include "experiments/run/timed/verdict.hpp"
+#include "solver/numerics/signal_rows.hpp"
 #include "variants/isa/denormals.hpp"
 
 #include <fmt/format.h>

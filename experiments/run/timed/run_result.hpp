@@ -88,7 +88,8 @@ struct RunResult {
   CheckResult check;
   std::optional<ReferenceResult> reference;
   std::optional<GuardReport> guard;
-  std::vector<std::string> files; ///< written files, as text
+  std::vector<std::string> files;  ///< written files, as text
+  std::vector<std::string> probes; ///< what they saw, as text
   /// status other than "ok": "unstable", "wrong", "bound", "faulty"; reason: what happened, and
   /// where
   std::string status = "ok", reason;

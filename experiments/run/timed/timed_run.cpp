@@ -27,6 +27,8 @@ TimedRun::TimedRun(const RunPlan& plan, const RunRequest& request, FileSet& outp
     : plan_(plan), request_(request), problem_(plan.scene.problem), outputs_(outputs),
       result_(result), executor_(created(plan.model)), series_(new_series()),
       is_root_(request.is_root), oracle_check_(plan) {
+  if (is_root_ && !request.history.empty())
+    history_.emplace(request.history, problem_, plan.probes);
   if (plan.reference) meter_.emplace(problem_, plan.reference->states);
   if (plan.model_choice.is_bounded)
     monitor_.emplace(problem_, plan.model, plan.model_choice.tolerance, plan.steps, plan.dt);
@@ -60,6 +62,11 @@ void TimedRun::run() {
   result_.device_use = since(used_by_looks_, since(used_before, device_use(*executor_)));
   if (const std::string written = series_.finish(); !written.empty())
     result_.files.push_back(written);
+  if (history_) {
+    history_->write(outputs_);
+    result_.files.push_back(request_.history);
+    result_.probes = history_->probe_texts();
+  }
 }
 
 void TimedRun::warm_up() {
@@ -154,6 +161,7 @@ bool TimedRun::pass_all_stops() {
 std::vector<long> TimedRun::stops() const {
   std::vector<long> steps = oracle_check_.stops();
   steps.insert(steps.end(), plan_.frame_steps.begin(), plan_.frame_steps.end());
+  steps.insert(steps.end(), plan_.history_steps.begin(), plan_.history_steps.end());
   for (long k = 1; meter_ && k <= plan_.reference->times.count; ++k)
     steps.push_back(k * plan_.steps_between);
   if (const long between = balance_interval(); between > 0)
@@ -292,12 +300,19 @@ void TimedRun::look(long step) {
   }
   if (meter_ && step > 0 && step % plan_.steps_between == 0)
     meter_->add(std::size_t(step / plan_.steps_between - 1), whole_state(*executor_, count));
-  if (std::binary_search(plan_.frame_steps.begin(), plan_.frame_steps.end(), step)) {
-    const std::vector<double> state = whole_state(*executor_, count);
-    const WorkAlone alone(*executor_, is_root_);
-    const double time = double(step) * plan_.dt;
-    series_.add(problem_, state, equations(), signals_at(problem_, time), time);
-  }
+  write_frame(step);
+}
+
+void TimedRun::write_frame(long step) {
+  const bool has_frame = std::ranges::binary_search(plan_.frame_steps, step),
+             has_row = std::ranges::binary_search(plan_.history_steps, step);
+  if (!has_frame && !has_row) return;
+  const std::vector<double> state = whole_state(*executor_, problem_.lattice.element_count);
+  const WorkAlone alone(*executor_, is_root_);
+  const double time = double(step) * plan_.dt;
+  const std::vector<double> signals = signals_at(problem_, time);
+  if (has_frame) series_.add(problem_, state, equations(), signals, time);
+  if (has_row && history_) history_->add(step, time, state, equations(), signals);
 }
 
 } // namespace dss

@@ -9,6 +9,7 @@
 #include "experiments/run/guard/guard.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/timed/adaptive_steps.hpp"
+#include "experiments/run/timed/history.hpp"
 #include "experiments/run/timed/oracle_check.hpp"
 #include "experiments/run/timed/output.hpp"
 #include "experiments/run/timed/run_result.hpp"
@@ -92,6 +93,7 @@ private:
   double adapt_again(Usage& usage);
 
   void look(long step);
+  void write_frame(long step);
   std::unique_ptr<Guard> made_guard(); ///< null if the request has none
   /// Steps from a step to the next pause of the guard, at most to `stop`.
   long steps_to_pause(long step, long stop) const;
@@ -168,6 +170,7 @@ private:
   std::unique_ptr<Executor> executor_;
   FrameSeries series_;
   bool is_root_;
+  std::optional<RunHistory> history_; ///< of the root
   std::optional<AdaptiveSteps> adaptive_;
   /// Error bounds of the models that ran before the spatial model; the spatial model has no bound.
   struct LeftOut {

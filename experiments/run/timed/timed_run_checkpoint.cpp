@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <utility>
 
 namespace dss {
@@ -104,6 +105,10 @@ void TimedRun::resume(SavedRun& saved) {
   for (const long frame : plan_.frame_steps)
     if (is_passed(frame)) times.push_back(double(frame) * plan_.dt);
   if (is_root_ && !request_.output.empty()) series_.go_on(times);
+  std::vector<long> rows;
+  std::ranges::copy_if(plan_.history_steps, std::back_inserter(rows),
+                       [&](long step) { return is_passed(step); });
+  if (history_) history_->go_on(rows);
 }
 
 bool TimedRun::is_passed(long stop) const {
@@ -138,6 +143,11 @@ std::string TimedRun::save() {
   PutNumbers put(standing.steps_kept);
   if (adaptive_) adaptive_->each_kept(put);
   saved_->take(steps_done());
+  try {
+    if (history_) history_->save(); // it has the rows up to the checkpoint at least
+  } catch (const InputError& error) {
+    return error.what();
+  }
   return write_checkpoint(request_.checkpoint, *identity_, standing, *executor_,
                           problem_.lattice.element_count, is_root_);
 }

@@ -86,6 +86,7 @@ void TimedRun::begin_anew() {
   begin_balance(0);
   series_.discard();
   series_ = new_series();
+  if (history_) history_->clear();
   if (meter_) meter_.emplace(problem_, plan_.reference->states);
   result_.check = {};
 }

@@ -67,6 +67,9 @@ public:
   /// Of a face across an axis [m^2].
   double area(std::size_t element, int axis) const;
   std::size_t element_count() const { return body_of_.size(); }
+  /// The terms of the equations, and the state as `placed` gives it (energy.hpp).
+  reference::Dynamics<double>& terms() { return terms_; }
+  std::span<const double> fields() const { return fields_; }
 
 private:
   struct FaceLink {

@@ -31,6 +31,7 @@ public:
   /// A new state, of which single elements are wanted.
   void take(std::span<const double> state, std::span<const double> signals);
   ElementStress of(std::size_t element) const;
+  FaceSections& sections() { return sections_; }
 
   /// Of all elements; empty after take().
   const std::vector<ElementStress>& elements() const { return elements_; }
