@@ -37,26 +37,28 @@ std::string escaped(const std::string& text) {
   return pattern;
 }
 
-/// Adds the voxel files that a scene names: values of {"voxels": {"file": ...}}, at any depth.
-void add_voxel_files(const nlohmann::json& value, const fs::path& folder,
+/// Adds the files that a scene names, of {"voxels": {"file": ...}} and {"series": {"file": ...}} at
+/// any depth.
+void add_named_files(const nlohmann::json& value, const fs::path& folder,
                      std::vector<std::string>& files) {
   if (!value.is_structured()) return;
-  if (value.is_object() && value.contains("voxels")) {
-    const nlohmann::json& voxels = value["voxels"];
-    if (voxels.is_object() && voxels.contains("file") && voxels["file"].is_string())
-      files.push_back((folder / voxels["file"].get<std::string>()).string());
+  for (const char* key : {"voxels", "series"}) {
+    if (!value.is_object() || !value.contains(key)) continue;
+    const nlohmann::json& named = value[key];
+    if (named.is_object() && named.contains("file") && named["file"].is_string())
+      files.push_back((folder / named["file"].get<std::string>()).string());
   }
-  for (const nlohmann::json& inner : value) add_voxel_files(inner, folder, files);
+  for (const nlohmann::json& inner : value) add_named_files(inner, folder, files);
 }
 
 /// None of a scene that cannot be read: the command will say what is wrong with it. A pipe can be
 /// read only once.
-std::vector<std::string> voxel_files(const std::string& scene,
+std::vector<std::string> named_files(const std::string& scene,
                                      const std::vector<Override>& overrides) {
   std::vector<std::string> files;
   if (is_stream(scene)) return files;
   try {
-    add_voxel_files(read_scene_text(scene, overrides).root, fs::path(scene).parent_path(), files);
+    add_named_files(read_scene_text(scene, overrides).root, fs::path(scene).parent_path(), files);
   } catch (const InputError&) {
   }
   return files;
@@ -67,7 +69,7 @@ std::vector<std::string> voxel_files(const std::string& scene,
 void CommandFiles::read_scene(const std::string& scene, const std::vector<Override>& overrides) {
   const std::string path = scene_path(scene);
   read("SCENE", path);
-  for (const std::string& file : voxel_files(path, overrides)) read("SCENE", file);
+  for (const std::string& file : named_files(path, overrides)) read("SCENE", file);
 }
 
 void CommandFiles::read(const std::string& option, const std::string& path) {

@@ -45,7 +45,8 @@ void append(const std::string& path, const char* list, const std::string& text) 
 } // namespace
 
 std::string scene_digest(const Scene& scene) {
-  return text_digest(read_text(scene.path) + shape_digest(scene.problem.lattice));
+  return text_digest(read_text(scene.path) + shape_digest(scene.problem.lattice) +
+                     series_digest(scene.problem));
 }
 
 std::string scene_key(const Cell& cell, const Scene& scene) {

@@ -1,7 +1,9 @@
 #pragma once
-/// Motion of a place in a rigid element.
+/// Places in rigid elements, and their motion.
 #include "kernels/fields.hpp"
 #include "solver/model/problem.hpp"
+
+#include <array>
 
 namespace dss {
 
@@ -28,5 +30,16 @@ inline Vec3 velocity_at(const double* fields, const Vec3& arm) {
   return {fields[vx] + w[1] * c[2] - w[2] * c[1], fields[vy] + w[2] * c[0] - w[0] * c[2],
           fields[vz] + w[0] * c[1] - w[1] * c[0]};
 }
+
+/// The place in a body's elements that is nearest to a point.
+struct NearestPlace {
+  std::size_t element = 0;   ///< of several, the first
+  std::array<int, 3> cell{}; ///< of the body's grid
+  Vec3 centre{}, arm{};      ///< of the element; from there to the place [m]
+  double distance = 0;       ///< from the point; 0 if it is in the body [m]
+};
+/// @param body   index
+/// @param point  at rest [m]
+NearestPlace nearest_place(const Problem& problem, int body, const Vec3& point);
 
 } // namespace dss

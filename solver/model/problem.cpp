@@ -1,7 +1,12 @@
 #include "solver/model/problem.hpp"
 
+#include "solver/digest.hpp"
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
 #include <limits>
 
 namespace dss {
@@ -115,6 +120,32 @@ std::vector<double> initial_state(const Problem& problem) {
   std::vector<double> state(problem.lattice.element_count * field_count);
   initial_state(problem, 0, problem.lattice.element_count, state.data());
   return state;
+}
+
+std::string why_series_too_short(const Problem& problem, double end) {
+  const auto why = [&](const Signal& signal) {
+    if (signal.last >= end * (1 - 1e-12)) return std::string();
+    return fmt::format("the series {} ends at {:g} s, the run at {:g} s; give fewer steps or a "
+                       "longer series, or \"hold\": true to keep its last value",
+                       signal.source, signal.last, end);
+  };
+  for (const Signal& signal : problem.frame_acceleration)
+    if (std::string text = why(signal); !text.empty()) return text;
+  for (const Load& load : problem.loads)
+    if (std::string text = why(load.signal); !text.empty()) return text;
+  return {};
+}
+
+std::string series_digest(const Problem& problem) {
+  Digest digest;
+  const auto add = [&](const Signal& signal) {
+    if (signal.kind != Signal::Kind::table) return;
+    for (const std::vector<double>* numbers : {&signal.times, &signal.values})
+      for (const double number : *numbers) digest.add(std::bit_cast<std::uint64_t>(number));
+  };
+  std::ranges::for_each(problem.frame_acceleration, add);
+  for (const Load& load : problem.loads) add(load.signal);
+  return fmt::format("{:016x}", digest.value());
 }
 
 } // namespace dss

@@ -192,6 +192,13 @@ double shortest_edge(const Problem& problem);
 /// Rest position of the centre of cell (x, row.y, row.z) [m].
 Vec3 rest_position(const Problem& problem, const Row& row, int x);
 
+/// Returns an empty text if all series of files last until a time [s]. Otherwise returns one line
+/// that says which does not.
+std::string why_series_too_short(const Problem& problem, double end);
+/// Digest of the tables of all signals, 16 hexadecimal digits. They may come from files, which the
+/// text of a scene does not hold.
+std::string series_digest(const Problem& problem);
+
 /// Returns an empty text if the planar model is exact for the problem: one element thick, and
 /// clamps, loads, acceleration and initial state symmetric about the plane z = const. Otherwise
 /// returns one line that says what leaves the plane.

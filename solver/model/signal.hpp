@@ -1,6 +1,8 @@
 #pragma once
 /// Functions of time for loads and for the frame. The core evaluates them once, in double, so every
 /// variant sees the same numbers.
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace dss {
@@ -15,6 +17,9 @@ struct Signal {
   double frequency = 0, phase = 0;
   std::vector<double> times, values; ///< table: times [s], linear between points, constant outside
   double offset = 0;                 ///< added to every kind
+  /// A series of a file has no value after this time [s], and this name.
+  double last = std::numeric_limits<double>::infinity();
+  std::string source;
   double operator()(double t) const;
 };
 /// True if the signal is 0 at every time.

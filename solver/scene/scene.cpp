@@ -5,6 +5,7 @@
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
 #include "solver/scene/constants.hpp"
+#include "solver/scene/loads.hpp"
 #include "solver/scene/terms.hpp"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 
 #include "solver/scene/constants.hpp"
 #include "solver/scene/selection.hpp"
+#include "solver/scene/signals.hpp"
 
 #include <fmt/format.h>
 
@@ -11,37 +12,6 @@ namespace dss {
 namespace {
 
 const std::vector<std::string> axis_names = {"x", "y", "z"};
-
-void read_ramp(const Node& node, Signal& signal) {
-  ObjectNode ramp(node);
-  signal.kind = Signal::Kind::ramp;
-  signal.amplitude = ramp.number_or("to", 1);
-  signal.duration = ramp.require("duration").positive();
-  ramp.finish();
-}
-
-void read_harmonic(const Node& node, Signal& signal) {
-  ObjectNode harmonic(node);
-  signal.kind = Signal::Kind::harmonic;
-  signal.amplitude = harmonic.number_or("amplitude", 1);
-  signal.frequency = harmonic.require("frequency").non_negative();
-  signal.phase = harmonic.number_or("phase", 0);
-  harmonic.finish();
-}
-
-void read_table(const Node& node, Signal& signal) {
-  signal.kind = Signal::Kind::table;
-  for (const Node& point : node.items()) {
-    const std::vector<Node> pair = point.items();
-    if (pair.size() != 2) point.fail("not [time, value]");
-    const double time = pair[0].number();
-    if (!signal.times.empty() && time <= signal.times.back())
-      pair[0].fail(fmt::format("{} s is not after {} s; times ascend", time, signal.times.back()));
-    signal.times.push_back(time);
-    signal.values.push_back(pair[1].number());
-  }
-  if (signal.times.empty()) node.fail("the table is empty; give at least one [time, value]");
-}
 
 /// One side of a joint: elements of a body, by face or listed.
 struct JointSide {
@@ -86,31 +56,6 @@ std::uint8_t read_dofs(const Node& node) {
   for (const Node& item : node.items()) dofs |= 1U << item.choice("degree of freedom", names);
   if (dofs == 0) node.fail("clamps nothing; list some of " + listed(names) + ", or write \"all\"");
   return std::uint8_t(dofs);
-}
-
-Load read_load(const Node& node, const Problem& problem, const Solids& solids) {
-  ObjectNode object(node);
-  Load load;
-  const int body = read_body(object, problem);
-  load.elements = read_selected(object, problem, false);
-  if (!object.has("force") && !object.has("torque"))
-    object.fail("a load needs \"force\" or \"torque\"");
-  load.force = object.vector_or("force", {});
-  load.torque = object.vector_or("torque", {});
-  if (const auto signal = object.find("signal")) load.signal = read_signal(*signal);
-  const auto share = object.find("share");
-  if (share && share->choice("share", {"each", "total"}) == 1)
-    for (std::size_t a = 0; a < 3; ++a) {
-      load.force[a] /= double(load.elements.size());
-      load.torque[a] /= double(load.elements.size());
-    }
-  object.finish();
-  const auto face = selected_face(object);
-  if (!face) return load;
-  load.face = int(*face);
-  if (const auto& solid = solids.bodies[std::size_t(body)]; solid && solid->nu > 0)
-    set_face_strain(*solid, problem.bodies[std::size_t(body)].edge, load);
-  return load;
 }
 
 Vec3 mean_position(const Problem& problem, const std::vector<std::size_t>& elements) {
@@ -170,24 +115,6 @@ std::string clamp_conflict(const Clamp& clamp, const Body& body, const double* f
 
 } // namespace
 
-Signal read_signal(const Node& node) {
-  Signal signal;
-  if (node.is_number()) {
-    signal.amplitude = node.number();
-    return signal;
-  }
-  ObjectNode object(node);
-  const std::string kind = object.require_one({"constant", "ramp", "harmonic", "table"});
-  const Node shape = object.require(kind);
-  signal.offset = object.number_or("offset", 0);
-  object.finish();
-  if (kind == "constant") signal.amplitude = shape.number();
-  if (kind == "ramp") read_ramp(shape, signal);
-  if (kind == "harmonic") read_harmonic(shape, signal);
-  if (kind == "table") read_table(shape, signal);
-  return signal;
-}
-
 void read_extra_links(const Node& node, Problem& problem, Solids& solids) {
   for (const Node& item : node.items()) {
     ObjectNode joint(item);
@@ -240,10 +167,6 @@ void read_clamps(const Node& node, Problem& problem) {
       problem.clamps.push_back({element, clamp.dofs, clamp.faces});
 }
 
-void read_loads(const Node& node, const Solids& solids, Problem& problem) {
-  for (const Node& item : node.items()) problem.loads.push_back(read_load(item, problem, solids));
-}
-
 void read_initial_motions(const Node& node, Problem& problem) {
   for (const Node& item : node.items())
     problem.initial_motions.push_back(read_initial_motion(item, problem));
@@ -265,7 +188,7 @@ std::array<Signal, 3> read_frame_acceleration(const std::optional<Node>& gravity
   if (base) {
     ObjectNode object(*base);
     for (std::size_t a = 0; a < 3; ++a) {
-      if (const auto node = object.find(axis_names[a])) frame[a] = read_signal(*node);
+      if (const auto node = object.find(axis_names[a])) frame[a] = read_signal(*node, "m/s^2");
       frame[a].amplitude = -frame[a].amplitude;
       frame[a].offset = -frame[a].offset;
     }

@@ -7,16 +7,11 @@
 
 namespace dss {
 
-/// Reads a signal: a number (constant), or one of {"constant"}, {"ramp"}, {"harmonic"}, {"table"}
-/// with an optional "offset".
-Signal read_signal(const Node& node);
-
 /// Each function appends the terms of one list of the scene to the problem.
 /// @throws InputError with file, JSON pointer and what is wrong (all functions of this file)
 /// @param solids  gets the extra links of the law `solid`
 void read_extra_links(const Node& node, Problem& problem, Solids& solids);
 void read_clamps(const Node& node, Problem& problem);
-void read_loads(const Node& node, const Solids& solids, Problem& problem);
 void read_initial_motions(const Node& node, Problem& problem);
 Stabilization read_stabilization(const Node& node);
 

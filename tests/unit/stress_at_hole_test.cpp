@@ -36,7 +36,8 @@ Problem holed_plate(int per_radius) {
   Problem plate = fixture::contracting_solid(grid, {edge, edge, edge}, 0.3);
   plate.bodies[0].origin = {-half_plate, -half_plate, -edge / 2};
   fixture::load_faces(plate, 0.3, [&](const Eigen::Vector3d& at, const Eigen::Vector3d& n) {
-    const bool is_outer = std::abs(at.x()) > 0.99 * half_plate || std::abs(at.y()) > 0.99 * half_plate;
+    const bool is_outer =
+        std::abs(at.x()) > 0.99 * half_plate || std::abs(at.y()) > 0.99 * half_plate;
     return is_outer ? Eigen::Vector3d(kirsch(at) * n) : Eigen::Vector3d(0, 0, 0);
   });
   plate.clamps = {{0, dof_all, 0}};

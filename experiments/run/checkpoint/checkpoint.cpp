@@ -44,14 +44,15 @@ constexpr Fact known_facts[] = {
     {"kept_fields", "numbers an element", "give the --integrator and --precision of that run"},
 };
 
-/// Digest of all that a scene says of the problem: its text with overrides, and its voxels, which
-/// may come from other files.
+/// Digest of all that a scene says of the problem: its text with overrides, and its voxels and
+/// series, which may come from other files.
 std::string problem_digest(const RunRequest& request, const RunPlan& plan) {
   nlohmann::json text = read_scene_text(plan.scene.path, request.overrides).root;
   // Names, defaults of a run and what checks need are not part of the problem.
   for (const char* key : {"$schema", "scene", "title", "description", "run", "verify", "tolerance"})
     text.erase(key);
-  return text_digest(text.dump() + shape_digest(plan.scene.problem.lattice));
+  const Problem& problem = plan.scene.problem;
+  return text_digest(text.dump() + shape_digest(problem.lattice) + series_digest(problem));
 }
 
 } // namespace

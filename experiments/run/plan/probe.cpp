@@ -1,6 +1,7 @@
 #include "experiments/run/plan/probe.hpp"
 
 #include "solver/error.hpp"
+#include "solver/model/element_place.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <limits>
 #include <string_view>
 
 namespace dss {
@@ -60,30 +60,16 @@ Probe read_probe(const std::string& text, const Problem& problem) {
     throw InputError(fmt::format("--probe {}: the scene has no body \"{}\"; {}", text, asked.body,
                                  nearest_name(asked.body, names)));
   const int body = int(found - names.begin());
+  const NearestPlace at = nearest_place(problem, body, asked.place);
   const Vec3& edge = problem.bodies[std::size_t(body)].edge;
-  Probe probe{asked.name, 0, {}, {}, {}};
-  double nearest = std::numeric_limits<double>::infinity();
-  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
-    if (row.body != body) return;
-    const Vec3 centre = rest_position(problem, row, x);
-    Vec3 arm{}, off{};
-    for (std::size_t a = 0; a < 3; ++a) {
-      arm[a] = std::clamp(asked.place[a] - centre[a], -edge[a] / 2, edge[a] / 2);
-      off[a] = asked.place[a] - centre[a] - arm[a];
-    }
-    const double distance = std::hypot(off[0], off[1], off[2]);
-    if (distance >= nearest) return;
-    nearest = distance;
-    probe.element = e;
-    probe.arm = arm;
-    for (std::size_t a = 0; a < 3; ++a) probe.place[a] = arm[a] / (edge[a] / 2);
-    probe.text =
-        fmt::format("probe {}: in element [{}, {}, {}] of body \"{}\", whose centre is "
-                    "({:.6g}, {:.6g}, {:.6g}) m at rest",
-                    asked.name, x, row.y, row.z, asked.body, centre[0], centre[1], centre[2]);
-  });
-  if (nearest > 1e-9 * shortest_edge(problem))
-    probe.text += fmt::format("; the place given is {:.3g} m outside of the body", nearest);
+  Probe probe{asked.name, at.element, {}, at.arm, {}};
+  for (std::size_t a = 0; a < 3; ++a) probe.place[a] = at.arm[a] / (edge[a] / 2);
+  probe.text =
+      fmt::format("probe {}: in element [{}] of body \"{}\", whose centre is ({:.6g}) m at "
+                  "rest",
+                  asked.name, fmt::join(at.cell, ", "), asked.body, fmt::join(at.centre, ", "));
+  if (at.distance > 1e-9 * shortest_edge(problem))
+    probe.text += fmt::format("; the place given is {:.3g} m outside of the body", at.distance);
   return probe;
 }
 

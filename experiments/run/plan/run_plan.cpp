@@ -351,6 +351,9 @@ RunPlan plan_run(const RunRequest& request) {
         fmt::format("{}: variant {} {}; give {}", lack->asked_by, plan.plugin->name, lack->what,
                     plan.plugin->has_all ? "another --variant" : "--variant reference"));
   require_sensible(request, plan);
+  if (const std::string why = why_series_too_short(problem, double(plan.steps) * plan.dt);
+      !why.empty())
+    throw InputError(fmt::format("{}: {}", problem.name, why));
   if (request.is_root) require_outputs_writable(request);
   plan.adaptive = chosen_tolerance(request, *plan.method, plan.precision);
   plan.model_choice = chosen_model(request, plan);

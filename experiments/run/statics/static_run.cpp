@@ -166,6 +166,10 @@ AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& reques
   if (!(request.tolerance > 0))
     throw InputError(fmt::format("--tolerance {:g}: give a positive number", request.tolerance));
   const Scene scene = load_scene(run.scene, run.overrides);
+  if (const std::string why =
+          why_series_too_short(scene.problem, double(scene.problem.steps) * scene.problem.dt);
+      !why.empty())
+    throw InputError(fmt::format("{}: {}", scene.name, why));
   const AnalysisModel of = static_model(run, scene, solver);
   const Model model = of.model;
   AnalysisResult result;

@@ -1,0 +1,189 @@
+#include "solver/scene/loads.hpp"
+
+#include "solver/memory.hpp"
+#include "solver/model/element_place.hpp"
+#include "solver/scene/selection.hpp"
+#include "solver/scene/signals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <utility>
+#include <vector>
+
+namespace dss {
+namespace {
+
+Vec3 scaled(double factor, const Vec3& v) { return {factor * v[0], factor * v[1], factor * v[2]}; }
+Vec3 sum(const Vec3& v, const Vec3& w) { return {v[0] + w[0], v[1] + w[1], v[2] + w[2]}; }
+Vec3 cross(const Vec3& v, const Vec3& w) {
+  return {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
+}
+
+/// A force that acts at the end of an arm from the centres of elements.
+void set_force_at(const Vec3& arm, const Vec3& force, Load& load) {
+  load.force = force;
+  load.torque = sum(load.torque, cross(arm, force));
+}
+
+/// "force" and "torque", on each selected element or shared among them.
+void read_wrench(ObjectNode& object, Load& load) {
+  load.force = object.vector_or("force", {});
+  load.torque = object.vector_or("torque", {});
+  const auto share = object.find("share");
+  if (!share || share->choice("share", {"each", "total"}) == 0) return;
+  const double part = 1 / double(load.elements.size());
+  load.force = scaled(part, load.force);
+  load.torque = scaled(part, load.torque);
+}
+
+/// "traction" or "pressure" on a face. It acts in the middle of the face of each element.
+void read_traction(ObjectNode& object, const Body& body, Load& load) {
+  if (load.face < 0)
+    object.fail("a traction or pressure acts on faces; select a \"face\", such as \"+x\"");
+  const auto axis = std::size_t(load.face) / 2;
+  Vec3 normal{}, traction{};
+  normal[axis] = load.face % 2 == 1 ? 1 : -1;
+  if (const auto given = object.find("traction")) traction = given->vector();
+  if (const auto pressure = object.find("pressure")) traction = scaled(-pressure->number(), normal);
+  const double area = body.edge[(axis + 1) % 3] * body.edge[(axis + 2) % 3];
+  set_force_at(scaled(body.edge[axis] / 2, normal), scaled(area, traction), load);
+}
+
+/// A load on selected elements.
+Load read_selected_load(ObjectNode& object, const Problem& problem, const Body& body) {
+  Load load;
+  load.elements = read_selected(object, problem, false);
+  const auto face = selected_face(object);
+  if (const auto density = object.find("body_force")) {
+    load.force = scaled(body.edge[0] * body.edge[1] * body.edge[2], density->vector());
+    return load;
+  }
+  if (face) load.face = int(*face);
+  if (object.has("traction") || object.has("pressure")) {
+    read_traction(object, body, load);
+  } else {
+    read_wrench(object, load);
+  }
+  return load;
+}
+
+/// "at": a force and a torque at a point of the body.
+Load read_point_load(ObjectNode& object, const Node& at, const Problem& problem, int body) {
+  const NearestPlace place = nearest_place(problem, body, at.vector());
+  if (place.distance > 1e-6 * shortest_edge(problem))
+    at.fail(fmt::format("is {:.3g} m outside of body \"{}\"", place.distance,
+                        problem.bodies[std::size_t(body)].name));
+  Load load;
+  load.elements = {place.element};
+  load.torque = object.vector_or("torque", {});
+  set_force_at(place.arm, object.vector_or("force", {}), load);
+  return load;
+}
+
+/// Part of a segment that lies in a box: from `first` to `last`, of 0 to 1.
+struct Part {
+  double first = 0, last = 1;
+};
+Part part_in_box(const Vec3& from, const Vec3& to, const Vec3& centre, const Vec3& edge) {
+  Part part;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double low = centre[a] - edge[a] / 2 - from[a], high = low + edge[a],
+                 along = to[a] - from[a];
+    if (along == 0) {
+      if (low > 0 || high < 0) return {1, 0};
+      continue;
+    }
+    part.first = std::max(part.first, std::min(low / along, high / along));
+    part.last = std::min(part.last, std::max(low / along, high / along));
+  }
+  return part;
+}
+
+/// "line": a force that is spread evenly over a segment. Each element that it passes takes its
+/// part, in the middle of this part.
+std::vector<Load> read_line_load(ObjectNode& object, const Node& line, const Problem& problem,
+                                 int body) {
+  ObjectNode ends(line);
+  const Vec3 from = ends.require("from").vector(), to = ends.require("to").vector();
+  ends.finish();
+  const Vec3 force = object.require("force").vector();
+  if (from == to) line.fail("has no length; give \"at\" for a force at a point");
+  std::vector<Load> loads;
+  double whole = 0;
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
+    if (row.body != body) return;
+    const Vec3 centre = rest_position(problem, row, x);
+    const Part part = part_in_box(from, to, centre, problem.bodies[std::size_t(body)].edge);
+    if (part.last <= part.first) return;
+    const double share = part.last - part.first, middle = (part.first + part.last) / 2;
+    Vec3 arm{};
+    for (std::size_t a = 0; a < 3; ++a) arm[a] = from[a] + middle * (to[a] - from[a]) - centre[a];
+    Load load;
+    load.elements = {e};
+    set_force_at(arm, scaled(share, force), load);
+    loads.push_back(load);
+    whole += share;
+  });
+  if (whole < 1 - 1e-6)
+    line.fail(fmt::format("is outside of body \"{}\" over {:.3g} % of its length",
+                          problem.bodies[std::size_t(body)].name, 100 * (1 - whole)));
+  for (Load& load : loads) { // a line between elements is in both
+    load.force = scaled(1 / whole, load.force);
+    load.torque = scaled(1 / whole, load.torque);
+  }
+  return loads;
+}
+
+/// Requires one kind of load, at one kind of place.
+void require_kind(ObjectNode& object) {
+  std::vector<std::string> kinds;
+  const bool is_wrench = object.has("force") || object.has("torque");
+  if (is_wrench) kinds.emplace_back("force or torque");
+  for (const char* kind : {"traction", "pressure", "body_force"})
+    if (object.node().json().contains(kind)) kinds.emplace_back(kind);
+  if (kinds.empty())
+    object.fail("a load needs \"force\" or \"torque\", \"traction\", \"pressure\" or "
+                "\"body_force\"");
+  if (kinds.size() > 1)
+    object.fail(fmt::format("{} exclude each other; give one of them", listed(kinds)));
+  if (object.require_one({"select", "at", "line"}) != "select" && !is_wrench)
+    object.fail(fmt::format("at a point or along a line a load has a \"force\"; \"{}\" needs "
+                            "\"select\"",
+                            kinds.front()));
+}
+
+std::vector<Load> read_load(const Node& node, const Solids& solids, const Problem& problem) {
+  ObjectNode object(node);
+  const int body = read_body(object, problem);
+  const Body& own = problem.bodies[std::size_t(body)];
+  require_kind(object);
+  std::vector<Load> loads;
+  if (const auto at = object.find("at"))
+    loads = {read_point_load(object, *at, problem, body)};
+  else if (const auto line = object.find("line"))
+    loads = read_line_load(object, *line, problem, body);
+  else
+    loads = {read_selected_load(object, problem, own)};
+  if (const auto given = object.find("signal")) {
+    const Signal signal = read_signal(*given);
+    require_memory(16.0 * double(loads.size()) * double(signal.times.size()),
+                   fmt::format("{}: the signals of {} loads", given->where(), loads.size()),
+                   "give a shorter series");
+    for (Load& load : loads) load.signal = signal;
+  }
+  object.finish();
+  const auto& solid = solids.bodies[std::size_t(body)];
+  for (Load& load : loads)
+    if (load.face >= 0 && solid && solid->nu > 0) set_face_strain(*solid, own.edge, load);
+  return loads;
+}
+
+} // namespace
+
+void read_loads(const Node& node, const Solids& solids, Problem& problem) {
+  for (const Node& item : node.items())
+    for (Load& load : read_load(item, solids, problem)) problem.loads.push_back(std::move(load));
+}
+
+} // namespace dss

@@ -1,0 +1,169 @@
+/// Loads of scenes: where they act, and series from files.
+#include "solver/error.hpp"
+#include "solver/io/series_csv.hpp"
+#include "solver/scene/scene.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+namespace dss {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SceneLoads : public testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("dss_loads_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string written(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  /// The problem of a bar of 4 x 2 x 1 elements of 2 x 3 x 5 m with these keys.
+  Problem with(const std::string& keys) const {
+    return load_scene(
+               written("bar.json",
+                       R"({"scene": "bar", "title": "a bar", "run": {"dt": 1e-3, "steps": 1000},
+      "bodies": [{"name": "b", "element": [2, 3, 5], "geometry": {"box": [4, 2, 1]},
+                  "constants": {"law": "solid", "E": 1e6, "nu": 0.25, "rho": 1000}}], )" +
+                           keys + "}"))
+        .problem;
+  }
+  Problem with_load(const std::string& load) const { return with(R"("loads": [{)" + load + "}]"); }
+  fs::path folder_;
+};
+
+std::string refused(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    return text;
+  }
+  ADD_FAILURE() << "accepted";
+  return {};
+}
+
+TEST_F(SceneLoads, tractions_and_pressures_act_in_the_middle_of_faces) {
+  const Load traction =
+      with_load(R"("select": {"face": "+x"}, "traction": [10, 0, 2])").loads.at(0);
+  EXPECT_EQ(traction.elements, (std::vector<std::size_t>{3, 7}));
+  EXPECT_EQ(traction.face, 1);
+  EXPECT_EQ(traction.force, (Vec3{150, 0, 30}));
+  EXPECT_EQ(traction.torque, (Vec3{0, -30, 0})); // (1, 0, 0) m x force
+  EXPECT_DOUBLE_EQ(traction.face_strain, 10 / (4 * 4e5));
+  const Load pressure = with_load(R"("select": {"face": "-z"}, "pressure": 7)").loads.at(0);
+  EXPECT_EQ(pressure.face, 4);
+  EXPECT_EQ(pressure.force, (Vec3{0, 0, 42})); // pushes from below
+  EXPECT_EQ(pressure.torque, (Vec3{0, 0, 0}));
+  EXPECT_DOUBLE_EQ(pressure.face_strain, -7 / (4 * 4e5));
+}
+
+TEST_F(SceneLoads, body_forces_act_on_volumes) {
+  const Load load = with_load(R"("select": {"face": "+x"}, "body_force": [0, 0, -2])").loads.at(0);
+  EXPECT_EQ(load.force, (Vec3{0, 0, -60}));
+  EXPECT_EQ(load.face, -1);
+  EXPECT_EQ(load.face_strain, 0);
+}
+
+TEST_F(SceneLoads, a_force_at_a_point_has_its_moment_about_the_middle_of_its_element) {
+  const Load load =
+      with_load(R"("at": [8, 4, 5], "force": [0, 0, 6], "torque": [1, 2, 3])").loads.at(0);
+  EXPECT_EQ(load.elements, (std::vector<std::size_t>{7})); // its middle is (7, 4.5, 2.5)
+  EXPECT_EQ(load.force, (Vec3{0, 0, 6}));
+  EXPECT_EQ(load.torque, (Vec3{1 - 3, 2 - 6, 3})); // (1, -0.5, 2.5) m x force
+  EXPECT_EQ(load.face, -1);
+}
+
+TEST_F(SceneLoads, a_line_has_its_force_and_its_moment_whole) {
+  const Problem bar = with_load(
+      R"("line": {"from": [1, 1, 5], "to": [7, 4, 5]}, "force": [0, 2, -9], "signal": 3)");
+  EXPECT_EQ(bar.loads.size(), 5u); // it crosses from y = 0 to y = 1 inside of an element in x
+  Vec3 force{}, moment{};
+  std::vector<Vec3> centres(8);
+  bar.lattice.for_each_element(
+      [&](std::size_t e, const Row& row, int x) { centres[e] = rest_position(bar, row, x); });
+  for (const Load& load : bar.loads) {
+    const Vec3 &c = centres[load.elements.at(0)], &f = load.force;
+    for (std::size_t a = 0; a < 3; ++a) force[a] += f[a], moment[a] += load.torque[a];
+    moment[0] += c[1] * f[2] - c[2] * f[1];
+    moment[1] += c[2] * f[0] - c[0] * f[2];
+    EXPECT_EQ(load.signal(0), 3);
+  }
+  EXPECT_NEAR(force[1], 2, 1e-12);
+  EXPECT_NEAR(force[2], -9, 1e-12);
+  EXPECT_NEAR(moment[0], 2.5 * -9 - 5 * 2, 1e-11); // of the force in the middle (4, 2.5, 5)
+  EXPECT_NEAR(moment[1], 4 * 9, 1e-11);
+}
+
+TEST_F(SceneLoads, a_line_between_elements_is_shared_by_them) {
+  const Problem bar =
+      with_load(R"("line": {"from": [0, 3, 1], "to": [8, 3, 1]}, "force": [8, 0, 0])");
+  EXPECT_EQ(bar.loads.size(), 8u);
+  for (const Load& load : bar.loads) EXPECT_DOUBLE_EQ(load.force[0], 1);
+}
+
+TEST_F(SceneLoads, a_series_is_a_column_of_a_file) {
+  written("road.csv", "# a road\nt [s], ax [m/s^2], az [m/s^2]\n0,1,2\n\n0.5,3,4\r\n1,5,-6\n");
+  const Problem bar = with(R"("base_acceleration": {"z": {"series":
+      {"file": "road.csv", "column": "az", "factor": 2}, "offset": 1}})");
+  const Signal& felt = bar.frame_acceleration[2];
+  EXPECT_DOUBLE_EQ(felt(0), -(2 * 2 + 1));
+  EXPECT_DOUBLE_EQ(felt(0.25), -(2 * 3 + 1));
+  EXPECT_DOUBLE_EQ(felt(1), -(2 * -6 + 1));
+  EXPECT_EQ(why_series_too_short(bar, 1), "");
+  EXPECT_NE(why_series_too_short(bar, 1.5).find("road.csv ends at 1 s, the run at 1.5 s"),
+            std::string::npos);
+  const Problem held = with(R"("base_acceleration": {"z": {"series":
+      {"file": "road.csv", "column": "az", "hold": true}}})");
+  EXPECT_EQ(why_series_too_short(held, 1.5), "");
+  EXPECT_NE(series_digest(bar), series_digest(with_load(R"("at": [0, 0, 0], "force": [1, 0, 0])")));
+}
+
+TEST_F(SceneLoads, a_bad_series_is_refused_with_its_line) {
+  const auto says = [&](const std::string& text, const std::string& part) {
+    const std::string path = written("bad.csv", text);
+    const std::string why = refused([&] { read_series(path, "a"); });
+    EXPECT_NE(why.find("bad.csv"), std::string::npos) << why;
+    EXPECT_NE(why.find(part), std::string::npos) << why;
+  };
+  says("", "is empty");
+  says("t [s],a [N]\n", "has no values");
+  says("t,a\n0,1\n", "line 1: the first column is \"t\"; it must be the time, with its unit");
+  says("t [ms],a\n0,1\n", "must be the time");
+  says("t [s],b\n0,1\n", "line 1: there is no column \"a\"; known: b");
+  says("t [s],a\n0,1\n1\n", "line 3: has 1 values; the header has 2");
+  says("t [s],a\n0,1\n1,\n", "line 3: has no value of \"a\"");
+  says("t [s],a\n0,1\n1,x\n", "line 3: \"x\" of column \"a\" is no number");
+  says("t [s],a\n0,1\n1,nan\n", "no number");
+  says("t [s],a\n0,1\n0,2\n", "line 3: 0 s is not after 0 s; times ascend");
+  says("t [s],a\n0,1\n1,1\n2,1\n3,1\n40,1\n", "gap from 3 to 40 s, 37 times the usual interval");
+  EXPECT_NE(refused([&] { read_series((folder_ / "none.csv").string(), "a"); }).find("be read"),
+            std::string::npos);
+  EXPECT_NE(refused([&] { read_series(folder_.string(), "a"); }).find("be read"),
+            std::string::npos);
+}
+
+TEST_F(SceneLoads, a_series_of_another_unit_or_a_late_start_is_refused) {
+  written("late.csv", "t [s],az [m/s^2],u [m]\n0.5,1,2\n1,2,3\n");
+  const auto why = [&](const std::string& column) {
+    return refused([&] {
+      with(R"("base_acceleration": {"z": {"series": {"file": "late.csv", "column": ")" + column +
+           "\"}}}");
+    });
+  };
+  EXPECT_NE(why("u").find("has the unit [m]; it must be [m/s^2]"), std::string::npos) << why("u");
+  EXPECT_NE(why("az").find("begins at 0.5 s; a run begins at 0 s"), std::string::npos) << why("az");
+}
+
+} // namespace
+} // namespace dss
