@@ -38,7 +38,7 @@ std::string why_not_measured(const StabilityArguments& arguments, const Scene& s
 
 std::vector<LimitComparison> comparisons(const StabilityArguments& arguments, const Scene& scene) {
   const Plugin& plugin = load_variant(arguments.variant);
-  require_pressure(plugin, scene.problem);
+  require_terms(plugin, scene.problem);
   const std::string why_not = why_not_measured(arguments, scene);
   const std::vector<const Method*> chosen = chosen_methods(arguments, scene);
   const std::vector<StabilityLimit> predicted = stable_steps(scene.problem, chosen);

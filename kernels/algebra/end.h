@@ -3,3 +3,4 @@
 #undef PLANAR
 #undef LINEAR
 #undef STRESS
+#undef HAS_FRAME

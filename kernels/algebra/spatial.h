@@ -3,6 +3,7 @@
  * other algebra defines the same list (kernels/README.md). The includer defines the words REAL,
  * FMA(a, b, c) = a * b + c and SPLAT(scalar). */
 #define AXES 3
+#define HAS_FRAME /* it computes in a frame that rotates */
 #include "kernels/algebra/space.h"
 
 typedef struct {

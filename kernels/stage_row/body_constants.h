@@ -14,4 +14,5 @@ struct {
 #undef CONSTANT
 NUMBER mass, inverse_mass, inertia[3], inverse_inertia[3];
 NUMBER tie_k, tie_d, tie_k2_rot, tie_d_rot; /* stabilization */
-int is_accelerated;                         /* true if gravity or base acceleration acts */
+int is_accelerated; /* true if gravity or base acceleration acts, or the frame rotates */
+int frame_signal;   /* which signals are the frame's rate, then its change; 0: it does not rotate */

@@ -124,7 +124,10 @@ struct RowTask {
   const BodyConstants<T>* body = nullptr;
   const Applied<T>* applied = nullptr;      ///< null for most rows
   const RowPressure<T>* pressure = nullptr; ///< null if the elements have none
-  /// Frame acceleration x, y, z, then the loads' values. Of an ensemble: each of all lanes.
+  /// Of each pack the places of its elements at rest, if the frame rotates; else null.
+  const T* rest = nullptr;
+  /// Frame acceleration x, y, z, then the loads' values, then the frame's angular velocity and its
+  /// derivative if it rotates. Of an ensemble: each of all lanes.
   const T* signals = nullptr;
   /// Of an ensemble, in place of `body`: the constants of each lane.
   const BodyConstants<LaneNumbers<T>>* members = nullptr;

@@ -275,6 +275,18 @@ struct StageRow {
       each_component(sum.moment, add);
     }
   }
+  /// Rows with few terms have no code for a frame that rotates (needed_terms).
+  static constexpr bool may_rotate = P::of_model == Model::spatial && terms.is_full();
+  void turn_frame(int pack, const element& e, const spin& inertia, const spin& inverse_inertia,
+                  wrench& sum, spin& turn) const {
+    const auto part = [&](int first) {
+      return components<spin>([&](int axis) { return signal(body.frame_signal + first + axis); });
+    };
+    const typename P::frame_turn frame{part(0), part(3)};
+    const vec rest = load_at<vec>(task.rest + std::ptrdiff_t(pack) * P::vec_size * W);
+    sum.force = P::frame_force(e, rest, frame, R(body.mass), sum.force);
+    turn = P::turn_in_frame(sum.moment, e, frame, inertia, inverse_inertia);
+  }
   void hold_clamped(int pack, vec& force, spin& turn) const {
     if (task.applied->free_lanes == nullptr) return;
     const simd::LaneMask* mask =
@@ -399,6 +411,9 @@ struct StageRow {
       if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);
       read_again();
       spin turn = P::turn(sum.moment, i.e, inertia, inverse_inertia, terms.is_gyroscopic);
+      if constexpr (may_rotate)
+        if (!is_plain && body.frame_signal > 0)
+          turn_frame(pack, i.e, inertia, inverse_inertia, sum, turn);
       if (is_applied) hold_clamped(pack, sum.force, turn);
       update(place, i.e, sum.force, turn);
     };

@@ -96,6 +96,7 @@ void copy_common(const Problem& original, Problem& problem) {
   problem.bodies = original.bodies;
   problem.stabilization = original.stabilization;
   problem.frame_acceleration = original.frame_acceleration;
+  problem.frame_rotation = original.frame_rotation;
   problem.dt = original.dt;
   problem.steps = original.steps;
   problem.integrator = original.integrator;

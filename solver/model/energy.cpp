@@ -47,7 +47,7 @@ bool has_dampers(const Problem& problem) {
 }
 
 bool conserves_energy(const Problem& problem) {
-  return !has_dampers(problem) && problem.loads.empty() &&
+  return !has_dampers(problem) && problem.loads.empty() && !problem.has_rotating_frame() &&
          std::ranges::all_of(problem.frame_acceleration, is_zero_always);
 }
 

@@ -17,7 +17,8 @@ static bool bends(const Body& body) {
 std::vector<Terms> needed_terms(const Problem& problem, Model model) {
   const int axes = descriptor(model).axes;
   Terms common;
-  common.is_tied = problem.stabilization.is_present();
+  common.is_tied = problem.stabilization.is_present() || problem.has_rotating_frame();
+  common.is_gyroscopic = problem.has_rotating_frame(); // full rows alone have its code
   for (const Body& body : problem.bodies) {
     body.each_kind([&](const AxisConstants& a, int) {
       common.is_damped |= a.is_damped();

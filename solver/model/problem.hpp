@@ -5,6 +5,7 @@
 #include "solver/lattice/lattice.hpp"
 #include "solver/model/signal.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -140,6 +141,8 @@ struct Tolerance {
   double evaluation = 0, run = 0;
 };
 
+/// Why a variant does not compute a problem in a rotating frame.
+inline constexpr const char* rotation_is_missing = "has no frame that rotates (\"base_rotation\")";
 /// Why a variant does not compute a problem whose elements have a pressure.
 inline constexpr const char* pressure_is_missing =
     "has no law \"solid\" with nu > 0, whose elements have a pressure";
@@ -161,7 +164,11 @@ struct Problem {
   bool has_damped_links_elsewhere = false;
   Stabilization stabilization;
   /// Uniform acceleration of every element: gravity minus the frame's a(t) [m/s^2].
+  /// If the frame rotates, along fixed axes, which the frame's are where its rotation is 0.
   std::array<Signal, 3> frame_acceleration;
+  /// Rotation vector of the frame about its origin, along fixed axes [rad]
+  /// (solver/model/frame.hpp). Its signals are 0, or have derivatives (motion_of).
+  std::array<Signal, 3> frame_rotation{no_signal(), no_signal(), no_signal()};
   std::vector<InitialMotion> initial_motions;
   double dt = 0;          ///< default step [s]
   long steps = 0;         ///< default number of steps
@@ -174,6 +181,7 @@ struct Problem {
     return link_kinds.empty() ? 0 : link_kinds[element][std::size_t(axis)];
   }
   bool has_pressure() const { return !pressure_kinds.empty(); }
+  bool has_rotating_frame() const { return !std::ranges::all_of(frame_rotation, is_zero_always); }
   /// @param body  the element's own
   ElementPressure pressure(std::size_t element, const Body& body) const {
     return body.pressures.empty() ? ElementPressure{} : body.pressures[pressure_kinds[element]];

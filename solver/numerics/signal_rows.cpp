@@ -1,12 +1,21 @@
 #include "solver/numerics/signal_rows.hpp"
 
+#include "solver/model/frame.hpp"
+
 namespace dss {
 
 namespace {
 
 void append_row(const Problem& problem, double t, std::vector<double>& rows) {
+  const std::size_t first = rows.size();
   for (const Signal& signal : problem.frame_acceleration) rows.push_back(signal(t));
   for (const Load& load : problem.loads) rows.push_back(load.signal(t));
+  if (!problem.has_rotating_frame()) return;
+  const FrameTurn turn = turn_of_frame(problem, t);
+  Eigen::Map<Eigen::Vector3d> acceleration(&rows[first]);
+  acceleration = Eigen::Vector3d(turn.axes.transpose() * acceleration);
+  rows.insert(rows.end(), turn.rate.begin(), turn.rate.end());
+  rows.insert(rows.end(), turn.acceleration.begin(), turn.acceleration.end());
 }
 
 } // namespace

@@ -8,8 +8,11 @@
 
 namespace dss {
 
-/// Width of a row: frame acceleration x, y, z, then one value for each of problem.loads.
-inline std::size_t signal_count(const Problem& problem) { return 3 + problem.loads.size(); }
+/// Width of a row: frame acceleration x, y, z; one value for each of problem.loads; if the frame
+/// rotates, its angular velocity and the derivative of it. Vectors are along the frame's axes.
+inline std::size_t signal_count(const Problem& problem) {
+  return 3 + problem.loads.size() + (problem.has_rotating_frame() ? 6 : 0);
+}
 
 /// One row: the values at time t [s].
 std::vector<double> signals_at(const Problem& problem, double t);

@@ -62,6 +62,12 @@ Dynamics<T>::Dynamics(const Problem& problem, Rotation rotation)
         problem.pressure(e, problem.bodies[std::size_t(elements_[e].body)]);
     pressures_.push_back({T(pressure.volume), vector_of<T>(pressure.bending)});
   }
+  if (problem.has_rotating_frame()) {
+    rest_.resize(elements_.size());
+    problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
+      rest_[e] = vector_of<T>(rest_position(problem, row, x));
+    });
+  }
   add_links(problem);
 }
 
@@ -239,6 +245,29 @@ void Dynamics<T>::add_stabilization() {
   }
 }
 
+/// Inertia of a frame with the angular velocity W and its derivative W', at the place x = X + u:
+///   force   -m (W' x x + W x (W x x) + 2 W x v)
+///   moment  -J (W' + W x w) - [(w + W) x J (w + W) - w x J w]
+/// because the velocities against fixed axes are v + W x x and w + W.
+template <class T>
+void Dynamics<T>::add_frame_wrenches(std::span<const double> signals) {
+  if (rest_.empty()) return;
+  const double* const of_frame = &signals[3 + loads_.size()];
+  const Vector<T> rate = Eigen::Map<const Eigen::Vector3d>(of_frame).template cast<T>(),
+                  change = Eigen::Map<const Eigen::Vector3d>(of_frame + 3).template cast<T>();
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
+    const Motion<T>& m = motions_[e];
+    const Vector<T> x = rest_[e] + m.u, whole = m.w + rate;
+    wrenches_[e].force -=
+        body.mass * (change.cross(x) + rate.cross(Vector<T>(rate.cross(x) + T(2) * m.v)));
+    const Matrix<T> a = body_axes(m), inertia = a * body.inertia.asDiagonal() * a.transpose();
+    wrenches_[e].moment -= inertia * (change + rate.cross(m.w)) +
+                           whole.cross(Vector<T>(inertia * whole)) -
+                           m.w.cross(Vector<T>(inertia * m.w));
+  }
+}
+
 /// The axes of an element's inertia in the global frame, as columns.
 template <class T>
 Matrix<T> Dynamics<T>::body_axes(const Motion<T>& motion) const {
@@ -270,6 +299,7 @@ void Dynamics<T>::find_wrenches(std::span<const T> state, std::span<const double
   }
   add_loads(signals);
   add_stabilization();
+  add_frame_wrenches(signals);
 }
 
 template <class T>
@@ -363,6 +393,7 @@ T Dynamics<T>::supplied_power(std::span<const T> state, std::span<const double> 
   std::vector<ElementStrain<T>> loaded(pressures_.size());
   add_load_strains(signals, loaded);
   add_pressure_reactions(loaded);
+  add_frame_wrenches(signals);
   const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
   T power = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
@@ -398,7 +429,8 @@ template <class T>
 std::size_t Dynamics<T>::bytes() const {
   return elements_.size() * (sizeof(Element) + sizeof(Motion<T>) + sizeof(Wrench)) +
          links_.size() * sizeof(Link) + properties_.size() * sizeof(LinkProperties<T>) +
-         pressures_.size() * sizeof(pressures_[0]) + coordinates_.bytes();
+         pressures_.size() * sizeof(pressures_[0]) + rest_.size() * sizeof(Vector<T>) +
+         coordinates_.bytes();
 }
 
 #define DSS_INSTANTIATE(T)                                                                         \

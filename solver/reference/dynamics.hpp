@@ -125,6 +125,7 @@ private:
   void add_pressure_reactions(std::span<const ElementStrain<T>> strains);
   void add_loads(std::span<const double> signals);
   void add_stabilization();
+  void add_frame_wrenches(std::span<const double> signals);
   T kinetic_energy_of(std::size_t e) const;
   bool is_linearised() const { return coordinates_.rotation() == Rotation::linearised; }
   bool has_vectors() const { return coordinates_.has_vectors(); }
@@ -140,6 +141,7 @@ private:
   std::vector<ElementStrain<T>> pressures_; ///< constants of each element; empty if it has none
   std::vector<Load> loads_;
   Stabilization stabilization_;
+  std::vector<Vector<T>> rest_;    ///< centres at rest [m], if the frame rotates; else empty
   std::vector<Motion<T>> motions_; ///< of the state under evaluation
   std::vector<Wrench> wrenches_;   ///< on each element
 };

@@ -74,10 +74,7 @@ void Oracle<T>::read(std::span<double> fields, std::size_t first) const {
 
 template <class T>
 std::span<const double> Oracle<T>::signals_at(double t) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    signal_row_[axis] = problem_.frame_acceleration[axis](t);
-  for (std::size_t l = 0; l < problem_.loads.size(); ++l)
-    signal_row_[3 + l] = problem_.loads[l].signal(t);
+  signal_row_ = dss::signals_at(problem_, t);
   return signal_row_;
 }
 

@@ -58,6 +58,8 @@ void read_terms(ObjectNode& root, Problem& problem, Solids& solids) {
   if (const auto ties = root.find("stabilization"))
     problem.stabilization = read_stabilization(*ties);
   if (const auto initial = root.find("initial")) read_initial_motions(*initial, problem);
+  if (const auto rotation = root.find("base_rotation"))
+    problem.frame_rotation = read_frame_rotation(*rotation);
   problem.frame_acceleration =
       read_frame_acceleration(root.find("gravity"), root.find("base_acceleration"));
 }

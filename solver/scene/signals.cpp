@@ -81,4 +81,22 @@ Signal read_signal(const Node& node, std::string_view unit) {
   return signal;
 }
 
+Signal read_smooth_signal(const Node& node) {
+  if (node.is_object() && ObjectNode(node).has("rate")) {
+    ObjectNode object(node);
+    Signal signal;
+    signal.kind = Signal::Kind::rate;
+    signal.amplitude = object.require("rate").number();
+    signal.offset = object.number_or("offset", 0);
+    object.finish();
+    return signal;
+  }
+  Signal signal = read_signal(node, "rad");
+  if (signal.kind == Signal::Kind::ramp)
+    node.fail("a ramp has a kink, where a frame would turn in no time; give \"rate\", \"harmonic\" "
+              "or a \"table\"");
+  if (signal.kind == Signal::Kind::table) make_spline(signal);
+  return signal;
+}
+
 } // namespace dss

@@ -12,5 +12,8 @@ namespace dss {
 /// @param unit  that a series must have, or empty: any
 /// @throws InputError with file, JSON pointer and what is wrong
 Signal read_signal(const Node& node, std::string_view unit = {});
+/// Reads a signal that has two derivatives, of angles [rad]: a number, {"constant"}, {"rate"} or
+/// {"harmonic"}; {"table"} and {"series"} are smooth splines through their points.
+Signal read_smooth_signal(const Node& node);
 
 } // namespace dss

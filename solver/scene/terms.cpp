@@ -199,6 +199,15 @@ std::array<Signal, 3> read_frame_acceleration(const std::optional<Node>& gravity
   return frame;
 }
 
+std::array<Signal, 3> read_frame_rotation(const Node& node) {
+  std::array<Signal, 3> rotation{no_signal(), no_signal(), no_signal()};
+  ObjectNode object(node);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (const auto signal = object.find(axis_names[a])) rotation[a] = read_smooth_signal(*signal);
+  object.finish();
+  return rotation;
+}
+
 void check_clamps(const Problem& problem, const Node& scene) {
   if (problem.clamps.empty()) return;
   const bool is_at_rest = problem.initial_motions.empty();

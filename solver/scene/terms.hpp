@@ -20,6 +20,9 @@ Stabilization read_stabilization(const Node& node);
 std::array<Signal, 3> read_frame_acceleration(const std::optional<Node>& gravity,
                                               const std::optional<Node>& base);
 
+/// Rotation vector of the frame, by axis [rad]: an object of signals that have derivatives.
+std::array<Signal, 3> read_frame_rotation(const Node& node);
+
 /// Refuses a clamp if its element starts with a velocity that the clamp forbids. Refuses a tensor
 /// inertia with exactly one rotation clamped.
 /// @throws InputError

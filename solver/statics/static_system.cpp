@@ -54,6 +54,11 @@ std::string dof_text(const Problem& problem, std::size_t dof) {
 StaticSystem::StaticSystem(const Problem& problem, Rotation law, std::uint8_t dofs, double loads)
     : problem_(problem), moving_(dofs), dofs_(free_dofs(problem, dofs)), dynamics_(problem, law),
       signals_(signals_at_end(problem, loads)), edge_(shortest_edge(problem)) {
+  if (problem.has_rotating_frame())
+    throw InputError(
+        fmt::format("{}: its frame rotates, so this analysis has no state of rest; run "
+                    "it in time (--analysis dynamic)",
+                    problem.name));
   problem.lattice.for_each_element(
       [&](std::size_t, const Row& row, int) { body_.push_back(row.body); });
 }

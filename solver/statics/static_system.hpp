@@ -48,6 +48,7 @@ public:
   /// @param law    Rotation::quaternion, linearised or small
   /// @param dofs   bits of Dof that may move
   /// @param loads  factor on the loads and on the frame's acceleration
+  /// @throws InputError if the frame rotates
   explicit StaticSystem(const Problem& problem, Rotation law = Rotation::quaternion,
                         std::uint8_t dofs = dof_all, double loads = 1);
 

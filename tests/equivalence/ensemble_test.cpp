@@ -45,6 +45,7 @@ Problem varied(Problem problem, std::size_t member) {
   if (member % 3 == 1 && !problem.loads.empty()) problem.loads.back().elements.front() ^= 1;
   if (member % 2 == 1 && !problem.clamps.empty()) problem.clamps.pop_back();
   for (Signal& signal : problem.frame_acceleration) signal.amplitude *= 1 + 0.1 * more;
+  for (Signal& signal : problem.frame_rotation) signal.amplitude *= 1 - 0.2 * more;
   problem.stabilization.k *= 1 + 0.1 * more;
   return problem;
 }
@@ -150,6 +151,8 @@ TEST_P(EveryEnsemble, has_the_bits_of_single_runs_in_every_method) {
                                Model::spatial);
     expect_bits_of_single_runs(fixture::make_pressed_sponge(5, 4, 3), scheme, Model::spatial);
     expect_bits_of_single_runs(fixture::make_pressed_pair(5, 4), scheme, Model::spatial);
+    expect_bits_of_single_runs(fixture::rotating(fixture::make_everything()), scheme,
+                               Model::spatial);
   }
 }
 

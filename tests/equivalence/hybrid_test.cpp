@@ -17,7 +17,8 @@ std::vector<Case> cases() {
           {"sponge", fixture::make_sponge(21, 9, 7, LinkLaw::paper, 1)},
           {"flat_sponge", fixture::make_sponge(37, 13, 1, LinkLaw::material, 3)},
           {"undamped_block", fixture::make_block(6, 11, 13, LinkLaw::material, 0)},
-          {"pressed_plate", fixture::make_pressed_plate(9, 60)}};
+          {"pressed_plate", fixture::make_pressed_plate(9, 60)},
+          {"rotating_block", fixture::rotating(fixture::make_block(9, 8, 7, LinkLaw::material))}};
 }
 
 TEST_F(Hybrid, members_make_up_the_whole_to_the_last_bit) {

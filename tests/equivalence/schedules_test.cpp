@@ -284,6 +284,7 @@ TEST_P(EverySchedule, reports_the_same_first_failure_however_many_steps_and_thre
   if (!is_composed(plugin)) {
     problems.push_back(fixture::make_block(9, 8, 5, LinkLaw::paper)); // swept along y
     problems.push_back(fixture::make_pressed_sponge(9, 8, 5));
+    problems.push_back(fixture::rotating(fixture::make_block(9, 8, 5, LinkLaw::material)));
     problems.back().loads.clear();
     problems.push_back(bodies_end_to_end(LinkLaw::paper));
     problems.push_back(pair_side_by_side(LinkLaw::paper)); // of many threads: stage by stage

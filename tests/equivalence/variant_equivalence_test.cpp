@@ -55,10 +55,13 @@ std::vector<Case> cases() {
       {"pressed_everything", fixture::pressed(fixture::make_everything())},
       {"pressed_flat_everything", fixture::pressed(fixture::make_flat_everything()), true},
       {"pressed_comb", fixture::pressed(fixture::make_comb(47, 3, 2, LinkLaw::material))},
+      {"rotating_pressed", fixture::rotating(fixture::pressed(fixture::make_everything()))},
+      {"rotating_sponge", fixture::rotating(fixture::make_sponge(21, 6, 5, LinkLaw::material, 4))},
       {"bar", fixture::make_block(37, 1, 1, LinkLaw::paper), false, 0.02, true},
       {"undamped_bar", fixture::make_block(21, 1, 1, LinkLaw::material, 0), false, 0.02, true}};
   for (const LinkLaw law : {LinkLaw::paper, LinkLaw::material}) {
     const std::string suffix = law == LinkLaw::paper ? "_paper" : "_material";
+    all.push_back({"rotating" + suffix, fixture::rotating(fixture::make_block(5, 4, 3, law))});
     all.push_back({"undamped" + suffix, fixture::make_block(5, 4, 3, law, 0)});
     all.push_back({"sheet" + suffix, fixture::make_block(19, 6, 1, law), true});
     all.push_back({"lean_sheet" + suffix, fixture::make_lean_sheet(19, 6, law), true});
@@ -83,7 +86,7 @@ struct TestedVariant {
   /// hybrids, because devices compile each model of each problem. Variants that compute by others
   /// take a few of these rows: one element, and packs that are full, one short, one over.
   std::vector<Model> tested_models(const Case& c) const {
-    if (lacks_pressure(plugin, c.problem)) return {};
+    if (missing_term(plugin, c.problem) != nullptr) return {};
     const bool is_row = c.name.starts_with("row_of");
     if (is_composed(plugin) && ((is_row && !is_row_for_all(c)) || !is_for_joined(c))) return {};
     // Another description of finite rotations: the rest is the code of the same oracle.
@@ -98,7 +101,8 @@ struct TestedVariant {
   /// Hybrids and ranks have tests of their own. Their members run all cases.
   bool is_for_joined(const Case& c) const {
     return plugin.devices != nullptr || c.name == "plate" || c.name == "everything" ||
-           c.name == "sponge" || c.name == "lean_sheet_paper" || c.name == "pressed_plate";
+           c.name == "sponge" || c.name == "lean_sheet_paper" || c.name == "pressed_plate" ||
+           c.name == "rotating_paper" || c.name == "rotating_pressed";
   }
   /// What devices compile: every pairing for the problem with all terms and for the paper's plate.
   /// Other problems take the first pairing. If forces do not depend on velocities, they also take
@@ -182,7 +186,7 @@ TEST_P(EveryVariant, has_bitwise_equal_states_for_any_number_of_threads) {
       if (is_on_device &&
           ((c.name.starts_with("row_of") && !c.name.starts_with("row_of_17")) || !is_for_joined(c)))
         continue;
-      if (lacks_pressure(plugin, c.problem)) continue;
+      if (missing_term(plugin, c.problem) != nullptr) continue;
       const State state =
           rounded(fixture::random_state(c.problem, 3, c.gap * 0.01, 0.02, 0.01), precision);
       const State one =

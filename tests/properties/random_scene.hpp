@@ -135,7 +135,7 @@ inline void add_second(Json& scene, int length, Json constants) {
 inline rc::Gen<Json> random_json() {
   return rc::gen::apply(
       [](Json geometry, Json element, Json constants, Json start, std::vector<Json> loads,
-         Json gravity, int second, Json constants_of_second, bool is_tied) {
+         Json gravity, int second, Json constants_of_second, bool is_tied, int turning) {
         Json scene{{"scene", "random"},
                    {"title", "A random scene"},
                    {"bodies", Json::array({{{"name", "first"},
@@ -148,6 +148,9 @@ inline rc::Gen<Json> random_json() {
         if (!loads.empty()) scene["loads"] = std::move(loads);
         if (is_tied)
           scene["stabilization"] = {{"k", 20}, {"d", 0.2}, {"k_rot", 0.01}, {"d_rot", 1e-4}};
+        if (turning == 0)
+          scene["base_rotation"] = {{"x", {{"harmonic", {{"amplitude", 0.7}, {"frequency", 40}}}}},
+                                    {"z", {{"rate", 30}}}};
         if (second > 0 && scene["bodies"][0]["geometry"].contains("box"))
           add_second(scene, second, std::move(constants_of_second));
         return scene;
@@ -155,7 +158,7 @@ inline rc::Gen<Json> random_json() {
       random_geometry(), one_of<Json>({0.1, Json::array({0.1, 0.08, 0.12})}), random_constants(),
       random_start(), rc::gen::scale(0.03, rc::gen::container<std::vector<Json>>(random_load())),
       vector_within(10), rc::gen::map(below(10), [](int n) { return std::max(0, n - 4); }),
-      random_constants(), rc::gen::arbitrary<bool>());
+      random_constants(), rc::gen::arbitrary<bool>(), below(5));
 }
 
 } // namespace dss::test

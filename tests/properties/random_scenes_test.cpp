@@ -59,6 +59,7 @@ std::optional<Sample> read(const RandomScene& random) {
       throw;
     return {};
   }
+  if (sample.problem.has_rotating_frame()) sample.model = Model::spatial; // only this has it
   const double longest = stable_step(sample.problem, sample.method).dt;
   if (!(longest > 0)) return {};
   sample.problem.dt = random.share * std::min(longest, 1e-3);

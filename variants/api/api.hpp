@@ -93,8 +93,9 @@ struct Plugin {
   /// Has implicit methods and every Rotation too. Other variants have explicit methods and
   /// quaternions.
   bool has_all = false;
-  bool has_pressure = false; ///< computes elements with a pressure (Problem::has_pressure)
-  bool has_tiles = false;    ///< takes Setup::tile
+  bool has_pressure = false;       ///< computes elements with a pressure (Problem::has_pressure)
+  bool has_rotating_frame = false; ///< computes in one (Problem::has_rotating_frame)
+  bool has_tiles = false;          ///< takes Setup::tile
   /// Members of an ensemble that one executor computes: a member a lane of each rank. Null: none.
   /// @param distribution  for distributed variants
   int (*ensemble_lanes)(Precision precision, const Distribution& distribution) = nullptr;
@@ -105,7 +106,7 @@ struct Plugin {
 
 /// Raise this with every change of Plugin, Executor or a type that they receive (Method, Problem,
 /// Model).
-constexpr int plugin_abi = 16;
+constexpr int plugin_abi = 17;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

@@ -1,4 +1,5 @@
 /// What acts on rows from outside: loads, clamps, and where extra links add their wrenches.
+#include "solver/numerics/signal_rows.hpp"
 #include "variants/engine/packed_rows.hpp"
 #include "variants/engine/packs.hpp"
 
@@ -82,6 +83,23 @@ void PackedRows<T, W>::apply_face_strains() {
 }
 
 template <class T, int W>
+void PackedRows<T, W>::place_at_rest() {
+  if (!members_.front()->has_rotating_frame()) return;
+  for (PackedRow<T>& row : rows) {
+    rest_.emplace_back(std::size_t(row.packs) * 3 * W, memory);
+    row.rest = rest_.back().data();
+  }
+  for (std::size_t m = 0; m < members_.size(); ++m)
+    members_[m]->lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
+      const Place place = place_of(*this, element_of(m, e));
+      const Vec3 rest = rest_position(*members_[m], row, x);
+      for (std::size_t c = 0; c < 3; ++c)
+        rest_[place.row].data()[(std::size_t(place.pack) * 3 + c) * W + std::size_t(place.lane)] =
+            T(rest[c]);
+    });
+}
+
+template <class T, int W>
 void PackedRows<T, W>::AppliedRow::cover_patterns() {
   applied.patterns = patterns.data();
   applied.pattern_count = int(patterns.size());
@@ -99,7 +117,7 @@ void PackedRows<T, W>::apply_extra_links(const Problem& problem) {
   stage_halo = reach;
   if (problem.extra_links.empty()) return;
   extra_.resize(rows.size());
-  const int constant_one = int(3 + problem.loads.size());
+  const int constant_one = int(signal_count(problem));
   for (const ExtraLink& link : problem.extra_links) {
     const std::size_t linked[] = {place_of(*this, element_of(0, link.i)).row,
                                   place_of(*this, element_of(0, link.j)).row};
@@ -146,6 +164,7 @@ void PackedRows<T, W>::hand_out_applied() {
 #define DSS_INSTANTIATE(T, W)                                                                      \
   template void PackedRows<T, W>::apply_loads();                                                   \
   template void PackedRows<T, W>::apply_face_strains();                                            \
+  template void PackedRows<T, W>::place_at_rest();                                                 \
   template void PackedRows<T, W>::apply_extra_links(const Problem&);                               \
   template void PackedRows<T, W>::apply_clamps();                                                  \
   template void PackedRows<T, W>::hand_out_applied();

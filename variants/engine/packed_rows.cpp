@@ -95,6 +95,7 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
   for (std::size_t r = 0; r < rows.size(); ++r) rows[r].maps = maps_.of_row(r);
   apply_loads();
   apply_face_strains();
+  place_at_rest();
   apply_extra_links(problem);
   apply_clamps();
   hand_out_applied();
@@ -243,6 +244,7 @@ std::size_t PackedRows<T, W>::bytes() const {
     for (const Buffer<T>& values : row->values) sum += values.bytes();
   }
   for (const Buffer<T>& wrench : extra_) sum += wrench.bytes();
+  for (const Buffer<T>& places : rest_) sum += places.bytes();
   sum += pressures_.bytes() + row_pressures_.size() * sizeof(row_pressures_[0]);
   for (const auto& row : face_strains_)
     for (std::size_t n = 0; row != nullptr && n < row->values.size(); ++n)

@@ -19,6 +19,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .create = dss::create_row_executor,
                                       .kernels = dss::compiled_kernels,
                                       .has_pressure = true,
+                                      .has_rotating_frame = true,
                                       .has_tiles = true,
                                       .ensemble_lanes = ensemble_lanes};
   return &plugin;

@@ -51,7 +51,7 @@ ExtraLinkConstants<T> extra_link_constants(const Problem& problem, const ExtraLi
   return c;
 }
 
-/// Sets a lane of all constants of a body: its numbers, and an int behind them.
+/// Sets a lane of all constants of a body: its numbers, and the ints behind them.
 template <class T>
 static void set_body_lane(BodyConstants<LaneNumbers<T>>& all, std::size_t lane,
                           const BodyConstants<T>& one) {
@@ -60,6 +60,7 @@ static void set_body_lane(BodyConstants<LaneNumbers<T>>& all, std::size_t lane,
                 count * sizeof(LaneNumbers<T>));
   set_lane<T>(all, lane, one, count);
   all.is_accelerated |= one.is_accelerated;
+  all.frame_signal = one.frame_signal; // members have equally many loads
 }
 
 template <class T, int W>
@@ -83,6 +84,8 @@ void PackedRows<T, W>::set_constants() {
   const auto constants = [](const Problem& problem, std::size_t b) {
     BodyConstants<T> body = body_constants<T>(problem.bodies[b], problem.stabilization);
     for (const Signal& a : problem.frame_acceleration) body.is_accelerated |= !is_zero_always(a);
+    if (problem.has_rotating_frame())
+      body.is_accelerated = true, body.frame_signal = int(3 + problem.loads.size());
     return body;
   };
   for (std::size_t b = 0; b < members_.front()->bodies.size(); ++b) {

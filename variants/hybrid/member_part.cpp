@@ -15,7 +15,7 @@ namespace {
 std::unique_ptr<Executor> make_executor(const Setup& whole, const Participant& participant,
                                         const PartSetup& part_setup) {
   const Member& member = participant.member;
-  require_pressure(*participant.plugin, whole.problem);
+  require_terms(*participant.plugin, whole.problem);
   auto executor = participant.plugin->create({part_setup.part.problem, whole.method, whole.model,
                                               whole.precision, whole.dt, member.threads,
                                               &part_setup, nullptr, member.device});

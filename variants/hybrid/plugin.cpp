@@ -28,6 +28,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                   .create = dss::create_hybrid,
                                   .kernels = nullptr,
                                   .has_pressure = true,
+                                  .has_rotating_frame = true,
                                   .has_tiles = true};
   return &plugin;
 }

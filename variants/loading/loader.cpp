@@ -149,14 +149,16 @@ void end_variants(int exit_code, bool is_in_order) {
     if (plugin->end != nullptr) plugin->end(exit_code, is_in_order);
 }
 
-bool lacks_pressure(const Plugin& plugin, const Problem& problem) {
-  return problem.has_pressure() && !plugin.has_pressure;
+const char* missing_term(const Plugin& plugin, const Problem& problem) {
+  if (problem.has_pressure() && !plugin.has_pressure) return pressure_is_missing;
+  if (problem.has_rotating_frame() && !plugin.has_rotating_frame) return rotation_is_missing;
+  return nullptr;
 }
 
-void require_pressure(const Plugin& plugin, const Problem& problem) {
-  if (lacks_pressure(plugin, problem))
-    throw InputError(fmt::format("{}: variant {} {}; give another variant, or G in place of nu",
-                                 problem.name, plugin.name, pressure_is_missing));
+void require_terms(const Plugin& plugin, const Problem& problem) {
+  if (const char* const missing = missing_term(plugin, problem))
+    throw InputError(fmt::format("{}: variant {} {}; give --variant reference", problem.name,
+                                 plugin.name, missing));
 }
 
 const Plugin& load_variant(const std::string& name) {

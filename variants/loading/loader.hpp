@@ -42,10 +42,10 @@ std::vector<std::string> usable_variants();
 /// @throws InputError if the name is unknown (suggests the nearest), the CPU lacks a feature, or
 /// the module does not load
 const Plugin& load_variant(const std::string& name);
-/// Whether the elements of a problem have a pressure that a variant does not compute.
-bool lacks_pressure(const Plugin& plugin, const Problem& problem);
-/// @throws InputError if lacks_pressure
-void require_pressure(const Plugin& plugin, const Problem& problem);
+/// Why a variant does not compute a problem, after its name: "has no ..."; null if it does.
+const char* missing_term(const Plugin& plugin, const Problem& problem);
+/// @throws InputError if a term is missing
+void require_terms(const Plugin& plugin, const Problem& problem);
 
 /// Ends all opened variants. Call it once before the program ends.
 /// @param exit_code    exit code of the program

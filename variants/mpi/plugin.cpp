@@ -29,6 +29,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .kernels = nullptr,
                                       .end = dss::end,
                                       .has_pressure = true,
+                                      .has_rotating_frame = true,
                                       .has_tiles = true,
                                       .ensemble_lanes = dss::members_of_ranks};
   return &plugin;

@@ -37,7 +37,7 @@ const Plugin& rank_plugin(Setup& setup, const World& world) {
   const Plugin& plugin = load_variant(variant);
   if (plugin.is_distributed)
     throw InputError(fmt::format("variant mpi:{}: a part cannot be distributed again", variant));
-  require_pressure(plugin, setup.problem);
+  require_terms(plugin, setup.problem);
   return plugin;
 }
 

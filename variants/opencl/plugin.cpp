@@ -36,6 +36,7 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .devices = opencl::devices,
                            .ceilings = opencl::measure_ceilings,
                            .has_pressure = true,
+                           .has_rotating_frame = true,
                            .has_tiles = true};
 
 } // namespace

@@ -71,6 +71,7 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .is_compensated = false,
                            .has_all = true,
                            .has_pressure = true,
+                           .has_rotating_frame = true,
                            .rotation = own_rotation};
 
 } // namespace

@@ -16,7 +16,7 @@ constexpr double thread_gain = 0.95; ///< more threads must bring the time below
 
 std::vector<std::string> advised_variants(const Problem& problem,
                                           const std::vector<std::string>& named) {
-  for (const std::string& name : named) require_pressure(load_variant(name), problem);
+  for (const std::string& name : named) require_terms(load_variant(name), problem);
   if (!named.empty()) return named;
   std::vector<std::string> usable;
   const bool has_fma = load_variant("auto").has_fma;
@@ -25,7 +25,7 @@ std::vector<std::string> advised_variants(const Problem& problem,
   for (auto variant = variants().rbegin(); variant != variants().rend(); ++variant)
     if (variant->is_usable() && !variant->is_by_name)
       if (const Plugin& plugin = load_variant(variant->name);
-          plugin.has_fma == has_fma && !lacks_pressure(plugin, problem))
+          plugin.has_fma == has_fma && missing_term(plugin, problem) == nullptr)
         usable.push_back(variant->name);
   return usable;
 }

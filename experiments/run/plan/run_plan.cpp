@@ -242,7 +242,7 @@ void require_outputs_writable(const RunRequest& request) {
 
 std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Precision precision,
                                const Method& method, Rotation rotation) {
-  if (lacks_pressure(plugin, problem)) return Lack{problem.name, pressure_is_missing};
+  if (const char* const missing = missing_term(plugin, problem)) return Lack{problem.name, missing};
   if (precision == Precision::f32c && !plugin.is_compensated)
     return Lack{"--precision f32c", "has f64 and f32 alone"};
   if (plugin.rotation != Rotation::quaternion && rotation != plugin.rotation)

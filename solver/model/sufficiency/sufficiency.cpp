@@ -90,6 +90,7 @@ std::string why_not_in_translation(const Problem& problem) {
 }
 
 std::string why_not(Model model, const Problem& problem) {
+  if (model != Model::spatial && problem.has_rotating_frame()) return "its frame rotates";
   switch (degrees_of(model)) {
   case dof_all:
     return {};

@@ -135,6 +135,16 @@ static inline REAL NAME(update)(device d, global const row_stage* task,
   if (body->is_accelerated) sum.force = vec_axpy(SPLAT(body->mass), vec_splat(signals), sum.force);
   spin angular = turn(sum.moment, i.e, spin_splat(body->inertia), spin_splat(body->inverse_inertia),
                       FLAGS.is_gyroscopic);
+#ifdef HAS_FRAME
+  if (FLAGS.is_gyroscopic && FLAGS.is_tied && body->frame_signal > 0) {
+    global const NUMBER* rate = signals + body->frame_signal;
+    const frame_turn frame = {spin_splat(rate), spin_splat(rate + 3)};
+    const vec rest = vec_at(d.arena + task->rest + (long)pack * (VEC_SIZE * W) + LANE);
+    sum.force = frame_force(i.e, rest, frame, SPLAT(body->mass), sum.force);
+    angular = turn_in_frame(sum.moment, i.e, frame, spin_splat(body->inertia),
+                            spin_splat(body->inverse_inertia));
+  }
+#endif
   if (is_applied) NAME(hold)(d, task, pack, &sum.force, &angular);
   const device_row row = {d.arena, task};
   const row_update k =

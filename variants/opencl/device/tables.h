@@ -12,6 +12,7 @@ typedef struct {
   long lower_y, lower_z;                 /* for items: input of the lower rows */
   long base, out, increment[6];
   long published; /* where the new state is also stored */
+  long rest;      /* as in RowTask */
   /* action: of enum row_action; shape: of the compiled terms; applied: row, -1 for most rows */
   int action, shape, body, applied;
   int face_strains; /* as applied: loads' shares in pressures */
