@@ -51,9 +51,10 @@ TEST_P(EverySchedule, has_bitwise_equal_states_for_tiles_of_any_size_and_threads
   if (!plugin.has_tiles || plugin.is_distributed || GetParam() == "hybrid")
     GTEST_SKIP() << "has no tiles, or parts that choose their own";
   const bool is_brief = is_composed(plugin);
-  const std::vector<Problem> problems{fixture::make_sponge(13, 7, 8, LinkLaw::paper, 1),
-                                      fixture::make_sponge(21, 4, 11, LinkLaw::material, 2),
-                                      fixture::make_pressed_sponge(21, 5, 8)};
+  const std::vector<Problem> problems{
+      fixture::make_sponge(13, 7, 8, LinkLaw::paper, 1),
+      fixture::make_sponge(21, 4, 11, LinkLaw::material, 2), fixture::make_pressed_sponge(21, 5, 8),
+      fixture::rotating(fixture::make_block(9, 8, 5, LinkLaw::material))};
   for (const Problem& problem : std::span(problems).first(is_brief ? 1 : 3))
     for (const auto& [method, precision] : brief_schemes()) {
       if (is_brief && (method.name != std::string("rk4") || precision != Precision::f64)) continue;
@@ -284,7 +285,6 @@ TEST_P(EverySchedule, reports_the_same_first_failure_however_many_steps_and_thre
   if (!is_composed(plugin)) {
     problems.push_back(fixture::make_block(9, 8, 5, LinkLaw::paper)); // swept along y
     problems.push_back(fixture::make_pressed_sponge(9, 8, 5));
-    problems.push_back(fixture::rotating(fixture::make_block(9, 8, 5, LinkLaw::material)));
     problems.back().loads.clear();
     problems.push_back(bodies_end_to_end(LinkLaw::paper));
     problems.push_back(pair_side_by_side(LinkLaw::paper)); // of many threads: stage by stage
