@@ -69,7 +69,7 @@ void join_rows(Lattice& lattice, const Lattice& original, const std::vector<int>
 void restrict_terms(const Problem& original, const Addresses& addresses, Problem& problem) {
   for (const Clamp& clamp : original.clamps)
     if (const auto element = addresses.local(clamp.element))
-      problem.clamps.push_back({*element, clamp.dofs, clamp.faces});
+      problem.clamps.push_back({*element, clamp.dofs, clamp.at_faces});
   for (const Load& load : original.loads)
     problem.loads.push_back({restricted(load.elements, addresses), load.force, load.torque,
                              load.signal, load.face_strain, load.face});

@@ -83,15 +83,13 @@ struct Body {
   bool has_tensor_inertia() const { return inertia[0] != inertia[1] || inertia[1] != inertia[2]; }
 };
 
-/// Faces -x, +x, -y, +y, -z, +z of an element, as bits.
-inline constexpr std::uint8_t all_faces = 0x3f;
-
 /// Clamped degrees of freedom. Their accelerations and initial velocities are zero.
 struct Clamp {
   std::size_t element = 0;
   std::uint8_t dofs = 0; ///< bits of Dof
-  /// Faces that it may hold, as bits: the selected ones, or all if it does not select a face.
-  std::uint8_t faces = all_faces;
+  /// Those of them that clamps hold at faces -x, +x, -y, +y, -z, +z by selecting these faces. The
+  /// others are held at any face without neighbour.
+  std::array<std::uint8_t, 6> at_faces{};
 };
 
 /// The same wrench on each of some elements, scaled by a signal. It is in global axes and does not

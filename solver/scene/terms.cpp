@@ -149,7 +149,7 @@ void read_extra_links(const Node& node, Problem& problem, Solids& solids) {
 }
 
 void read_clamps(const Node& node, Problem& problem) {
-  std::vector<Clamp> held(problem.lattice.element_count, {0, 0, 0});
+  std::vector<Clamp> held(problem.lattice.element_count);
   for (const Node& item : node.items()) {
     ObjectNode object(item);
     const std::vector<std::size_t> elements = read_selected(object, problem, false);
@@ -159,12 +159,12 @@ void read_clamps(const Node& node, Problem& problem) {
     const auto face = selected_face(object);
     for (const std::size_t element : elements) {
       held[element].dofs |= dofs;
-      held[element].faces |= face ? std::uint8_t(1U << *face) : all_faces;
+      if (face) held[element].at_faces[*face] |= dofs;
     }
   }
   for (std::size_t element = 0; element < held.size(); ++element)
     if (const Clamp& clamp = held[element]; clamp.dofs != 0)
-      problem.clamps.push_back({element, clamp.dofs, clamp.faces});
+      problem.clamps.push_back({element, clamp.dofs, clamp.at_faces});
 }
 
 void read_initial_motions(const Node& node, Problem& problem) {

@@ -49,7 +49,7 @@ TEST(FrameTurn, has_the_rates_of_its_axes) {
     EXPECT_LE((now.axes * now.axes.transpose() - Matrix3d::Identity()).norm(), 1e-14);
     const Matrix3d spin = now.axes.transpose() * (after.axes - before.axes) / (2 * h);
     const Vector3d rate{spin(2, 1), spin(0, 2), spin(1, 0)};
-    EXPECT_LE((now.rate - rate).norm(), 1e-6 * size) << size;
+    EXPECT_LE((now.rate - rate).norm(), 1e-5 * size) << size;
     EXPECT_LE((now.acceleration - (after.rate - before.rate) / (2 * h)).norm(), 1e-5 * size)
         << size;
   }
@@ -116,9 +116,10 @@ std::vector<double> seen_from_frame(const Problem& problem, const std::vector<do
   return seen;
 }
 
-/// A free body of elements with a tensor inertia, under gravity.
+/// A free body of elements with a tensor inertia, under gravity. Dampers of the paper's law resist
+/// even a rigid motion if gaps are open, so they would resist the frame's.
 Problem tumbling_body(LinkLaw law) {
-  Problem problem = fixture::make_block(3, 2, 2, law, 0.3);
+  Problem problem = fixture::make_block(3, 2, 2, law, law == LinkLaw::paper ? 0 : 0.3);
   problem.bodies[0].edge = {0.1, 0.07, 0.05};
   problem.bodies[0].inertia = fixture::box_inertia(problem.bodies[0].mass, problem.bodies[0].edge);
   problem.bodies[0].origin = {0.3, -0.2, 0.1};

@@ -140,7 +140,7 @@ TEST_F(SceneLoads, a_bad_series_is_refused_with_its_line) {
   says("t [s],a [N]\n", "has no values");
   says("t,a\n0,1\n", "line 1: the first column is \"t\"; it must be the time, with its unit");
   says("t [ms],a\n0,1\n", "must be the time");
-  says("t [s],b\n0,1\n", "line 1: there is no column \"a\"; known: b");
+  says("t [s],b\n0,1\n", "line 1: there is no column \"a\"; did you mean \"b\"?");
   says("t [s],a\n0,1\n1\n", "line 3: has 1 values; the header has 2");
   says("t [s],a\n0,1\n1,\n", "line 3: has no value of \"a\"");
   says("t [s],a\n0,1\n1,x\n", "line 3: \"x\" of column \"a\" is no number");

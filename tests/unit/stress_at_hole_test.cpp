@@ -40,7 +40,7 @@ Problem holed_plate(int per_radius) {
         std::abs(at.x()) > 0.99 * half_plate || std::abs(at.y()) > 0.99 * half_plate;
     return is_outer ? Eigen::Vector3d(kirsch(at) * n) : Eigen::Vector3d(0, 0, 0);
   });
-  plate.clamps = {{0, dof_all, 0}};
+  plate.clamps = {{0, dof_all}};
   return plate;
 }
 

@@ -18,18 +18,12 @@ Eigen::Vector3d arm_of(const Body& body, std::size_t face) {
   return (face % 2 == 1 ? 0.5 : -0.5) * body.edge[face / 2] * Eigen::Vector3d::Unit(axis);
 }
 
-void add(const Section& other, Section& section) {
-  section.force += other.force;
-  section.moment += other.moment;
-  section.stretch += other.stretch;
-}
-
 } // namespace
 
 FaceSections::FaceSections(const Problem& problem, Rotation equations)
     : problem_(problem), is_linearised_(equations == Rotation::linearised),
       terms_(energy_terms(problem, equations)), body_of_(problem.lattice.element_count),
-      links_(body_of_.size()), clamps_(body_of_.size(), Clamp{0, 0, 0}) {
+      links_(body_of_.size()), clamps_(body_of_.size()) {
   problem.lattice.for_each_element(
       [&](std::size_t e, const Row& row, int) { body_of_[e] = row.body; });
   for (auto& of_element : links_) of_element.fill(no_link);
@@ -41,8 +35,9 @@ FaceSections::FaceSections(const Problem& problem, Rotation equations)
   }
   add_extra_links();
   for (const Clamp& clamp : problem.clamps) {
-    clamps_[clamp.element].dofs |= clamp.dofs;
-    clamps_[clamp.element].faces |= clamp.faces;
+    Clamp& all = clamps_[clamp.element];
+    all.dofs |= clamp.dofs;
+    for (std::size_t f = 0; f < 6; ++f) all.at_faces[f] |= clamp.at_faces[f];
   }
 }
 
@@ -121,25 +116,37 @@ Section FaceSections::found(std::size_t l) const {
                         arm_j = axes_of(j) * arm_of(body(link.j), upper);
   return {reaction.force,
           (reaction.moment_i - reaction.moment_j - (arm_i - arm_j).cross(reaction.force)) / 2,
-          terms_.stretch(i, j, link)};
+          axes_of(i) * terms_.stretch(i, j, link)};
 }
 
-/// An open face strains as its half of a link would under the face's force:
+const AxisConstants& FaceSections::link(std::size_t element, int axis) const {
+  const auto lower = 2 * std::size_t(axis);
+  std::size_t kind = 0;
+  if (const std::size_t below = beyond(element, lower); below != none)
+    kind = problem_.link_kind(below, axis);
+  else if (beyond(element, lower + 1) != none)
+    kind = problem_.link_kind(element, axis);
+  return body(element).link(axis, kind);
+}
+
+/// A face without a link inside the body strains as its half of one would under its force:
 ///   f_a/A = k_n L/A e_a + p,   f_b/A = k_b L/A e_b
 /// p: the element's pressure. That is how free half links are eliminated (ElementPressure).
-Vec3 FaceSections::open_stretch(std::size_t element, int axis, const Eigen::Vector3d& force) const {
-  const auto a = std::size_t(axis);
-  const AxisConstants& link = body(element).axis[a];
-  const double length = body(element).edge[a];
+Eigen::Vector3d FaceSections::open_stretch(std::size_t element, std::size_t face,
+                                           const Eigen::Vector3d& force) const {
+  const auto axis = Eigen::Index(face / 2);
+  const AxisConstants& constants = link(element, int(axis));
+  const double length = body(element).edge[face / 2];
   const double pressure =
       strains_.empty() ? 0 : terms_.resistance(element, strains_[element]).volume;
-  Eigen::Vector3d own = axes(element).transpose() * force;
-  own[axis] -= pressure * area(element, axis);
-  Vec3 stretch{};
-  for (std::size_t b = 0; b < 3; ++b)
-    if (const double k = b == a ? link.k_normal : link.k_shear[b]; k > 0)
-      stretch[b] = own[Eigen::Index(b)] / (k * length);
-  return stretch;
+  const Eigen::Matrix3d own_axes = axes(element);
+  Eigen::Vector3d own = own_axes.transpose() * force;
+  own[axis] -= pressure * area(element, int(axis));
+  for (Eigen::Index b = 0; b < 3; ++b) {
+    const double k = b == axis ? constants.k_normal : constants.k_shear[std::size_t(b)];
+    own[b] = k > 0 ? own[b] / (k * length) : 0;
+  }
+  return own_axes * own;
 }
 
 Face FaceSections::face(std::size_t element, std::size_t face) const {
@@ -147,6 +154,14 @@ Face FaceSections::face(std::size_t element, std::size_t face) const {
   const auto of_face = [&](const auto& list, auto face_of) {
     return std::ranges::equal_range(list, 6 * element + face, {}, face_of);
   };
+  if (const std::uint32_t own = links_[element][face]; own != no_link) {
+    found.kind = FaceKind::linked;
+    found.section = section(own); // loads and joints behind it act on the volume
+    for (const int b : {0, 1, 2})
+      if ((clamps_[element].dofs & clamps_[beyond(element, face)].dofs & (dof_ux << b)) != 0)
+        found.unknown |= std::uint8_t(1 << b);
+    return found;
+  }
   for (const FaceLoad& load : of_face(loads_, &FaceLoad::face)) {
     const double sign = face % 2 == 1 ? 1 : -1; // on a lower face it is what is below that loads
     const Eigen::Vector3d arm = axes(element) * arm_of(body(element), face);
@@ -154,46 +169,69 @@ Face FaceSections::face(std::size_t element, std::size_t face) const {
     found.section.force += sign * load.force;
     found.section.moment += sign * (load.moment - arm.cross(load.force));
   }
-  const auto joints = of_face(extra_links_, &FaceLink::face);
-  const std::uint32_t own = links_[element][face];
-  if (own == no_link && joints.empty()) {
-    found.section.stretch = vector_of(open_stretch(element, int(face / 2), found.section.force));
-    return found;
+  for (const FaceLink& joint : of_face(extra_links_, &FaceLink::face)) {
+    found.kind = FaceKind::loaded;
+    const Section of_joint = section(joint.link);
+    found.section.force += of_joint.force;
+    found.section.moment += of_joint.moment;
   }
-  found.kind = FaceKind::linked;
-  if (own != no_link) found.section = section(own); // loads behind it act on the volume
-  for (const FaceLink& joint : joints) add(section(joint.link), found.section);
+  found.section.stretch = open_stretch(element, face, found.section.force);
   return found;
 }
 
-Section FaceSections::held_section(std::size_t element, std::size_t held,
-                                   const Section& opposite) const {
-  Section continued = opposite;
-  if (const std::size_t next = beyond(element, held ^ 1); next != none)
-    if (const Face far = face(next, held ^ 1); far.kind != FaceKind::free) {
-      continued.force += opposite.force - far.section.force;
-      continued.moment += opposite.moment - far.section.moment;
-      continued.stretch += opposite.stretch - far.section.stretch;
-    }
+/// Degrees of freedom that clamps hold at a face: those of clamps that select it; at a free one,
+/// and between two held elements, also those of clamps that select no face.
+std::uint8_t FaceSections::held_at(std::size_t element, const Face& at, std::size_t face) const {
+  const Clamp& clamp = clamps_[element];
+  if (at.kind == FaceKind::linked) return at.unknown != 0 ? clamp.dofs : 0;
+  std::uint8_t at_some = 0;
+  for (const std::uint8_t dofs : clamp.at_faces) at_some |= dofs;
+  const bool is_free = at.kind == FaceKind::free;
+  return std::uint8_t(clamp.at_faces[face] | (is_free ? clamp.dofs & ~at_some : 0));
+}
+
+/// @param found  the faces of the element as links and loads leave them
+/// @param held   one of them, which is changed
+void FaceSections::hold(std::size_t element, std::size_t face, const Faces& found,
+                        Face& held) const {
+  const Face &own = found[face], &opposite = found[face ^ 1];
+  const std::uint8_t dofs = held_at(element, own, face);
+  if (dofs == 0 || opposite.kind != FaceKind::linked) return;
+  const std::size_t next = beyond(element, face ^ 1);
+  const Face far = this->face(next, face ^ 1);
+  const bool is_mirror =
+      own.kind != FaceKind::linked && (clamps_[element].at_faces[face] & (dof_ux << face / 2)) != 0;
   for (const int b : {0, 1, 2}) {
-    if ((clamps_[element].dofs & (dof_ux << b)) == 0) {
-      continued.force[b] = -opposite.force[b];
-      continued.stretch[b] = -opposite.stretch[b];
+    const auto bit = std::uint8_t(1 << b);
+    const bool is_held =
+        own.kind == FaceKind::linked ? (own.unknown & bit) != 0 : (dofs & (dof_ux << b)) != 0;
+    const auto continued = [&](auto part) {
+      const double behind = (opposite.section.*part)[b];
+      const bool goes_on = far.kind != FaceKind::free && (far.unknown & bit) == 0;
+      return goes_on ? 2 * behind - (far.section.*part)[b] : behind;
+    };
+    if ((opposite.unknown & bit) != 0) continue; // nothing is known behind it either
+    if (is_held) {
+      held.section.force[b] = continued(&Section::force);
+      held.section.stretch[b] = continued(&Section::stretch);
+      held.unknown &= std::uint8_t(~bit);
+    } else if (is_mirror) {
+      held.section.force[b] = -opposite.section.force[b];
+      held.section.stretch[b] = -opposite.section.stretch[b];
     }
-    if ((clamps_[element].dofs & (dof_rx << b)) == 0) continued.moment[b] = -opposite.moment[b];
+    if ((dofs & (dof_rx << b)) != 0)
+      held.section.moment[b] = continued(&Section::moment);
+    else if (is_mirror)
+      held.section.moment[b] = -opposite.section.moment[b];
   }
-  return continued;
 }
 
 Faces FaceSections::of(std::size_t element) const {
-  Faces faces;
-  for (std::size_t f = 0; f < faces.size(); ++f) faces[f] = face(element, f);
-  const Faces open = faces;
-  const Clamp& clamp = clamps_[element];
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    if ((clamp.faces >> f & 1) != 0 && clamp.dofs != 0 && open[f].kind != FaceKind::linked &&
-        open[f ^ 1].kind == FaceKind::linked)
-      faces[f] = {FaceKind::held, held_section(element, f, open[f ^ 1].section)};
+  Faces found;
+  for (std::size_t f = 0; f < found.size(); ++f) found[f] = face(element, f);
+  if (clamps_[element].dofs == 0) return found;
+  Faces faces = found;
+  for (std::size_t f = 0; f < faces.size(); ++f) hold(element, f, found, faces[f]);
   return faces;
 }
 

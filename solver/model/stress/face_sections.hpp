@@ -19,7 +19,7 @@ namespace dss {
 struct Section {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< global axes [N]
   Eigen::Vector3d moment = Eigen::Vector3d::Zero(); ///< about the face's centre, global axes [N m]
-  /// Strain along the face's normal and shear across it, in the axes of the link.
+  /// Strain along the face's normal and shear across it, as one vector along global axes.
   Eigen::Vector3d stretch = Eigen::Vector3d::Zero();
 };
 
@@ -27,12 +27,14 @@ enum class FaceKind {
   free,   ///< nothing acts
   linked, ///< by links
   loaded, ///< by loads that select the face (Load::face)
-  held    ///< by a clamp; its section follows from those behind it
 };
 
 struct Face {
   FaceKind kind = FaceKind::free;
   Section section;
+  /// Components (x, y, z) of which the section says nothing, as bits: clamps hold both elements, so
+  /// they do not strain their link.
+  std::uint8_t unknown = 0;
 };
 /// Faces -x, +x, -y, +y, -z, +z of an element.
 using Faces = std::array<Face, 6>;
@@ -51,9 +53,10 @@ public:
   /// Finds the sections of all links of the state, to be asked for more than once: 72 bytes a link.
   void find_all();
 
-  /// A held face continues the sections behind it linearly, in each component that the clamp holds.
-  /// A component that it leaves free is the negative of that on the opposite face: there is none in
-  /// the middle, where clamps act.
+  /// On a face without neighbour, or with one that is held too, each component that a clamp holds
+  /// continues the sections behind it linearly. If a clamp selects this face and holds its normal,
+  /// a component that it leaves free is the negative of that on the opposite face: there is none
+  /// in the middle, where clamps act.
   Faces of(std::size_t element) const;
   /// The element across a face, or `none`. Extra links do not count.
   std::size_t beyond(std::size_t element, std::size_t face) const;
@@ -64,6 +67,9 @@ public:
   const Body& body(std::size_t element) const {
     return problem_.bodies[std::size_t(body_of_[element])];
   }
+  /// Constants of the links of an element along an axis: those below it, or above it, or of the
+  /// body's first kind.
+  const AxisConstants& link(std::size_t element, int axis) const;
   /// Of a face across an axis [m^2].
   double area(std::size_t element, int axis) const;
   std::size_t element_count() const { return body_of_.size(); }
@@ -90,8 +96,10 @@ private:
   Section section(std::size_t link) const { return found_.empty() ? found(link) : found_[link]; }
   /// A face as links and loads leave it.
   Face face(std::size_t element, std::size_t face) const;
-  Vec3 open_stretch(std::size_t element, int axis, const Eigen::Vector3d& force) const;
-  Section held_section(std::size_t element, std::size_t face, const Section& opposite) const;
+  Eigen::Vector3d open_stretch(std::size_t element, std::size_t face,
+                               const Eigen::Vector3d& force) const;
+  std::uint8_t held_at(std::size_t element, const Face& at, std::size_t face) const;
+  void hold(std::size_t element, std::size_t face, const Faces& found, Face& held) const;
 
   const Problem& problem_;
   bool is_linearised_;

@@ -20,39 +20,53 @@ Eigen::Vector3d moment_along(const Eigen::Vector3d& moment, const Eigen::Matrix3
   return moment - axes.col(a).dot(moment) * axes.col(a);
 }
 
+/// Tractions on the planes across the element's axes, as rows, along these axes: the mean over the
+/// element of what is a symmetric stress in the whole.
+struct Tractions {
+  Eigen::Matrix3d by_forces;  ///< sections of both faces
+  Eigen::Matrix3d by_moments; ///< what their linear parts add to the planes across o
+};
+
 /// Integral of r (x) traction over the faces, over the volume: the arm of each face, and the
 /// moment of each of its linear parts, whose moment is M = n_o x (integral of z_o traction).
-Eigen::Matrix3d stress_of(const FaceSections& sections, std::size_t e, const Faces& faces) {
+Tractions tractions_of(const FaceSections& sections, std::size_t e, const Faces& faces) {
   const Eigen::Matrix3d axes = sections.axes(e);
   const Vec3& edge = sections.body(e).edge;
   const double volume = edge[0] * edge[1] * edge[2];
-  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+  Tractions t{Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
   for (const int a : {0, 1, 2}) {
     const auto lower = 2 * std::size_t(a);
     const Section &below = faces[lower].section, &above = faces[lower + 1].section;
-    stress += axes.col(a) * ((below.force + above.force) / (2 * sections.area(e, a))).transpose();
+    t.by_forces.row(a) = (below.force + above.force).transpose() * axes / (2 * sections.area(e, a));
     for (const int o : {(a + 1) % 3, (a + 2) % 3}) {
       const Eigen::Vector3d moment = moment_along(above.moment - below.moment, axes, faces, a, o);
-      stress += axes.col(o) * (moment.cross(axes.col(o)) / volume).transpose();
+      t.by_moments.row(o) += moment.cross(axes.col(o)).transpose() * axes / volume;
     }
   }
-  return stress;
+  return t;
 }
 
-/// In the element's axes. Elements turn freely by part of the shear, so links along both axes have
-/// the shear together; an axis without links leaves it to the other.
-Eigen::Matrix3d own_strain(const Faces& faces) {
-  Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
+/// Strains of links and open faces, as rows like Tractions. Elements turn freely by part of the
+/// shear, so links along both axes have the shear together; an axis without links leaves it to the
+/// other. Half of the sum with the transpose is the strain.
+Eigen::Matrix3d own_stretch(const Eigen::Matrix3d& axes, const Faces& faces) {
+  Eigen::Matrix3d rows = Eigen::Matrix3d::Zero();
   for (const int a : {0, 1, 2}) {
     const auto lower = 2 * std::size_t(a);
-    const Eigen::Vector3d stretch =
-        (faces[lower].section.stretch + faces[lower + 1].section.stretch) / 2;
-    strain(a, a) = stretch[a];
-    if (!has_links(faces, a)) continue;
-    for (const int b : {(a + 1) % 3, (a + 2) % 3})
-      strain(a, b) = stretch[b]; // half of the sum with (b, a) is the component
+    const Eigen::RowVector3d stretch =
+        (faces[lower].section.stretch + faces[lower + 1].section.stretch).transpose() * axes / 2;
+    if (has_links(faces, a))
+      rows.row(a) = stretch;
+    else
+      rows(a, a) = stretch[a];
   }
-  return strain;
+  return rows;
+}
+
+/// Whether both faces across an axis say nothing of a component (Face::unknown).
+bool is_unknown(const Faces& faces, int axis, int component) {
+  const auto lower = 2 * std::size_t(axis);
+  return (faces[lower].unknown & faces[lower + 1].unknown & 1 << component) != 0;
 }
 
 /// Change of the stress from the middle of an element to its faces across o, by the moments of its
@@ -102,10 +116,25 @@ ElementStress StressField::of(std::size_t element) const {
   return elements_.empty() ? found(element, sections_.of(element)) : elements_[element];
 }
 
+/// A clamp holds elements from turning, and their links from straining, so one of the two shears
+/// of the planes a, b may be unknown: it is the other one.
 ElementStress StressField::found(std::size_t element, const Faces& faces) const {
   const Eigen::Matrix3d axes = sections_.axes(element);
-  return {symmetric_part(stress_of(sections_, element, faces)),
-          symmetric_part(axes * own_strain(faces) * axes.transpose())};
+  const auto [by_forces, by_moments] = tractions_of(sections_, element, faces);
+  Eigen::Matrix3d stress = by_forces + by_moments, stretch = own_stretch(axes, faces);
+  for (const int a : {0, 1, 2})
+    for (const int b : {(a + 1) % 3, (a + 2) % 3}) {
+      if (is_unknown(faces, b, a) && !is_unknown(faces, a, b)) {
+        stress(a, b) = stress(b, a) = by_forces(a, b);
+        stretch(b, a) = stretch(a, b);
+      } else if (has_links(faces, a) && has_links(faces, b)) {
+        const double k = sections_.link(element, a).k_shear[std::size_t(b)] *
+                         sections_.body(element).edge[std::size_t(a)];
+        if (k > 0) stretch(a, b) += by_moments(a, b) * sections_.area(element, a) / k;
+      }
+    }
+  return {symmetric_part(axes * stress * axes.transpose()),
+          symmetric_part(axes * stretch * axes.transpose())};
 }
 
 /// Change of the stress from the middle of an element to a face.
