@@ -145,7 +145,8 @@ void add_output_options(CLI::App& command, RunRequest& request) {
                      "F.csv: file for energies, reactions and probes over time (default with "
                      "--probe or --every: history.csv)");
   command.add_option("--every", request.every,
-                     "Steps between two rows of the history (default: about 1,000 rows)");
+                     "Steps between two rows of the history (default: at most 1,000 rows, fewer "
+                     "of large bodies). With --rtol, each row ends a step");
   command.add_option("--json", request.json, "File for the result, or - for standard output");
 }
 

@@ -21,20 +21,32 @@ private:
   std::vector<std::uint32_t> nodes_;
 };
 
+/// A plane that holds the nodes of the body that begins with a row.
+Plane plane_of(const Lattice& lattice, std::size_t first) {
+  int width = 0, depth = 0; // cells
+  const int body = lattice.rows[first].body;
+  for (std::size_t r = first; r < lattice.rows.size() && lattice.rows[r].body == body; ++r) {
+    width = std::max(width, lattice.rows[r].x_end);
+    depth = std::max(depth, lattice.rows[r].y + 1);
+  }
+  return {width + 1, depth + 1};
+}
+
 } // namespace
 
 /// Goes through each body from plane to plane, as its rows do.
 ElementNodes::ElementNodes(const Lattice& lattice) : nodes_(lattice.element_count) {
-  int width = 0, depth = 0; // cells
-  for (const Row& row : lattice.rows)
-    width = std::max(width, row.x_end), depth = std::max(depth, row.y + 1);
-  std::array<Plane, 2> planes{Plane(width + 1, depth + 1), Plane(width + 1, depth + 1)};
+  std::array<Plane, 2> planes{Plane(0, 0), Plane(0, 0)};
   const Row* last = nullptr;
-  for (const Row& row : lattice.rows) {
-    if (last == nullptr || row.body != last->body || row.z != last->z) {
-      const bool is_next = last != nullptr && row.body == last->body && row.z == last->z + 1;
-      if (is_next) std::swap(planes[0], planes[1]);
-      if (!is_next) planes[0].clear();
+  for (std::size_t r = 0; r < lattice.rows.size(); ++r) {
+    const Row& row = lattice.rows[r];
+    if (last == nullptr || row.body != last->body) {
+      planes.fill(plane_of(lattice, r));
+    } else if (row.z != last->z) {
+      if (row.z == last->z + 1)
+        std::swap(planes[0], planes[1]);
+      else
+        planes[0].clear();
       planes[1].clear();
     }
     last = &row;

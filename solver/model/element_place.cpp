@@ -8,6 +8,7 @@ namespace dss {
 
 NearestPlace nearest_place(const Problem& problem, int body, const Vec3& point) {
   const Vec3& edge = problem.bodies[std::size_t(body)].edge;
+  const double rounding = 1e-9 * *std::ranges::min_element(edge);
   NearestPlace nearest;
   nearest.distance = std::numeric_limits<double>::infinity();
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
@@ -19,7 +20,8 @@ NearestPlace nearest_place(const Problem& problem, int body, const Vec3& point) 
       off[a] = point[a] - centre[a] - arm[a];
     }
     const double distance = std::hypot(off[0], off[1], off[2]);
-    if (distance < nearest.distance) nearest = {e, {x, row.y, row.z}, centre, arm, distance};
+    if (distance < nearest.distance - rounding)
+      nearest = {e, {x, row.y, row.z}, centre, arm, distance};
   });
   return nearest;
 }

@@ -33,7 +33,7 @@ inline Vec3 velocity_at(const double* fields, const Vec3& arm) {
 
 /// The place in a body's elements that is nearest to a point.
 struct NearestPlace {
-  std::size_t element = 0;   ///< of several, the first
+  std::size_t element = 0;   ///< of several that are equally near, the first
   std::array<int, 3> cell{}; ///< of the body's grid
   Vec3 centre{}, arm{};      ///< of the element; from there to the place [m]
   double distance = 0;       ///< from the point; 0 if it is in the body [m]

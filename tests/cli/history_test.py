@@ -36,7 +36,7 @@ class Histories(RunTest):
             self.assertEqual(rows[-1][f"corner.u{axis}"], float(first[f"u{axis}"]))
             self.assertEqual(rows[-1][f"corner.v{axis}"], float(first[f"v{axis}"]))
         self.assertEqual(rows[-1]["corner.von_mises"], float(first["stress_vm"]))
-        self.assertIn('probe tip: in element [10, 0, 1] of body "bracket"', printed)
+        self.assertIn('probe tip: in element [9, 0, 1] of body "bracket"', printed)
         self.assertIn("wrote history.csv", printed)
         self.assertEqual(sorted(os.listdir(self.directory)), ["history.csv", "s.csv"])
 
@@ -61,42 +61,85 @@ class Histories(RunTest):
             self.run_here(*BRACKET, *PROBES, *place)
             self.assertEqual(self.read("history.csv"), whole, place)
 
-    def test_a_continued_run_goes_on_in_the_file(self):
-        self.run_here(*BRACKET, *PROBES, "--every", "7")
+    def test_a_continued_run_goes_on_with_its_rows(self):
+        of_run = (*BRACKET, *PROBES, "--every", "7")
+        self.run_here(*of_run)
         whole = self.read("history.csv")
-        saved = (*BRACKET, *PROBES, "--every", "7", "--checkpoint", "c.ckpt",
-                 "--checkpoint-every", "130")
-        self.run_here(*saved)
+        saving = ("--checkpoint", "c.ckpt", "--checkpoint-every", "130")
+        self.run_here(*of_run, *saving)
         self.assertEqual(self.read("history.csv"), whole)
-        again = (*BRACKET, *PROBES, "--every", "7", "--restart", "c.ckpt.previous")
-        self.write("history.csv", whole[:whole.index("\n280,")] + "\n281,not of this run\n")
-        self.run_here(*again)
+        self.assertNotIn("history.csv.part", os.listdir(self.directory))
+        # rows of a run that was interrupted at step 281, and an earlier file of another run
+        self.write("history.csv.part", whole[:whole.index("\n280,")] + "\n281,later\n")
+        self.write("history.csv", "of another run\n")
+        again = (*of_run, "--restart", "c.ckpt.previous")
+        places = [("--threads", "2")] + ([] if why_no_variant("mpi") else [("--ranks", "2")])
+        for place in places:
+            self.run_here(*again, *place)
+            self.assertEqual(self.read("history.csv"), whole, place)
+        self.run_here(*again)  # from the file of the ended run
         self.assertEqual(self.read("history.csv"), whole)
-        for text, words in ((whole.replace("tip.", "top."), ["columns"]),
-                            (whole[:whole.index("\n140,")] + "\n", ["no row of step 140"])):
+
+    def test_rows_of_another_run_are_refused(self):
+        of_run = (*BRACKET, *PROBES, "--every", "7")
+        self.run_here(*of_run, "--checkpoint", "c.ckpt", "--checkpoint-every", "130")
+        whole = self.read("history.csv")
+        again = (*of_run, "--restart", "c.ckpt.previous")
+        for text in (whole.replace("tip.", "top."), whole[:whole.index("\n140,")] + "\n",
+                     whole.replace("\n70,", "\n70,1"), ""):
             self.write("history.csv", text)
-            self.assert_refused(2, ["history.csv", *words], "run", *again, cwd=self.directory)
+            self.assert_refused(2, ["history.csv", "rows"], "run", *again, cwd=self.directory)
             self.assertEqual(self.read("history.csv"), text)
         os.remove(self.path("history.csv"))
-        self.assert_refused(2, ["history.csv", "gone"], "run", *again, cwd=self.directory)
+        self.assert_refused(2, ["history.csv", "rows"], "run", *again, cwd=self.directory)
+        self.run_here(*BRACKET, "--checkpoint", "c.ckpt")
+        self.assert_refused(2, ["had no history"], "run", "l_bracket", "--steps", "390", "--model",
+                            "spatial", *PROBES, "--restart", "c.ckpt", cwd=self.directory)
 
     def test_a_longer_run_goes_on_where_a_shorter_one_ended(self):
-        options = (*PROBES, "--every", "20")
-        self.run_here("l_bracket", "--steps", "390", "--model", "spatial", *options)
+        longer = ("l_bracket", "--steps", "390", "--model", "spatial", *PROBES)
+        self.run_here(*longer, "--every", "20")
         whole = self.read("history.csv")
-        self.run_here(*BRACKET[:-2], "--model", "spatial", *options, "--checkpoint", "c.ckpt")
-        self.run_here("l_bracket", "--steps", "390", "--model", "spatial", *options, "--restart",
-                      "c.ckpt")
+        self.run_here(*BRACKET, *PROBES, "--every", "20", "--checkpoint", "c.ckpt")
+        self.run_here(*longer, "--every", "20", "--restart", "c.ckpt")
+        self.assertEqual(self.read("history.csv"), whole)
+        self.run_here("l_bracket", "--steps", "900", "--model", "spatial", "--history", "h.csv",
+                      "--checkpoint", "c.ckpt")  # each step has a row, later every second
+        self.run_here("l_bracket", "--steps", "1500", "--model", "spatial", "--history", "h.csv",
+                      "--restart", "c.ckpt")
+        self.assertEqual([row["step"] for row in self.rows("h.csv")],
+                         [*range(901), *range(902, 1501, 2)])
+
+    def test_a_run_that_fails_leaves_an_earlier_file(self):
+        self.run_here(*BRACKET, *PROBES)
+        whole = self.read("history.csv")
+        self.assert_refused(3, ["l_bracket"], "run", *BRACKET, *PROBES, "--dt", "1e-3", "--force",
+                            "--checkpoint", "c.ckpt", "--checkpoint-every", "1",
+                            cwd=self.directory)
         self.assertEqual(self.read("history.csv"), whole)
 
+    def test_adaptive_steps_end_at_rows(self):
+        adaptive = (*BRACKET, *PROBES, "--integrator", "dopri5", "--rtol", "1e-6")
+        self.run_here(*adaptive)
+        rows = self.rows()
+        self.assertEqual([row["step"] for row in rows], list(range(0, 301, 3)))
+        self.run_here(*BRACKET, *PROBES, "--every", "3")
+        for ours, fixed in zip(rows, self.rows()):
+            self.assertAlmostEqual(ours["tip.uy"], fixed["tip.uy"], delta=1e-9)
+
     def test_members_have_files_of_their_own(self):
-        members = self.members({}, {"loads.0.force.1": -5})
-        self.run_here(*BRACKET, *PROBES, "--every", "50", "--ensemble", members)
+        members = ("--ensemble", self.members({}, {"loads.0.force.1": -5}))
+        self.run_here(*BRACKET, *PROBES, "--every", "50", *members)
         self.assertEqual(len(self.rows("history-1.csv")), 7)
         alone = self.read("history-1.csv")
         self.assertNotEqual(self.read("history-2.csv"), alone)
         self.run_here(*BRACKET, *PROBES, "--every", "50")
         self.assertEqual(self.read("history.csv"), alone)
+        for place in [()] + ([] if why_no_variant("mpi") else [("--ranks", "2")]):
+            saved = (*BRACKET, *PROBES, "--every", "50", *members, *place)
+            self.run_here(*saved, "--checkpoint", "c.ckpt", "--checkpoint-every", "128")
+            self.run_here(*saved, "--restart", "c.ckpt.previous")
+            self.assertEqual(self.read("history-1.csv"), alone, place)
 
     def test_a_state_of_rest_has_one_row(self):
         self.run_here("l_bracket", "--analysis", "static", *PROBES, "--state", "s.csv")
@@ -116,6 +159,7 @@ class Histories(RunTest):
                 (["another name"], ("--probe", f"a={body}", "--probe", f"a={body}")),
                 (["--every 0"], ("--every", "0")),
                 (["--every -3"], ("--every", "-3")),
+                (["outside of the body"], ("--probe", "a=bracket,5,0,0")),
                 (["--every 1", "give at least 3"], ("--steps", "2000001", "--every", "1")),
                 (["--history", "empty"], ("--history", "")),
                 (["no/where"], ("--history", "no/where.csv")),

@@ -114,6 +114,19 @@ std::string CheckpointFile::commit() {
   return failure_;
 }
 
+void put_mark(const HistoryMark& mark, nlohmann::ordered_json& head) {
+  if (!mark.digest.empty()) head["history"] = {{"rows", mark.rows}, {"digest", mark.digest}};
+}
+
+HistoryMark mark_of(const nlohmann::json& head) {
+  const auto found = head.find("history");
+  if (found == head.end() || !found->is_object()) return {};
+  const long rows = whole_number(found->value("rows", nlohmann::json()));
+  const nlohmann::json digest = found->value("digest", nlohmann::json());
+  if (rows < 0 || !digest.is_string()) return {};
+  return {rows, digest.get<std::string>()};
+}
+
 std::string write_checkpoint(const std::string& path, const RunIdentity& identity,
                              const Standing& standing, Executor& executor, std::size_t elements,
                              bool is_root) {
@@ -122,6 +135,7 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
   head["model"] = name(standing.model);
   head["steps_kept"] = standing.steps_kept.size();
   head["watch_kept"] = standing.watch_kept.size();
+  put_mark(standing.history, head);
   CheckpointFile file(path, head, executor, is_root);
   for (const auto* list : {&standing.steps_kept, &standing.watch_kept})
     if (!list->empty()) file.write(*list);
@@ -155,6 +169,7 @@ SavedRun::SavedRun(std::string path) : path_(std::move(path)), reader_(path_) {
   standing_.model = *found;
   if (whole("steps_kept") > 0) standing_.steps_kept = reader_.next();
   if (whole("watch_kept") > 0) standing_.watch_kept = reader_.next();
+  standing_.history = mark_of(head);
 }
 
 void RunIdentity::require_same(const std::string& path, const nlohmann::json& head) const {

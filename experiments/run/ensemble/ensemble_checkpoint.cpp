@@ -3,6 +3,7 @@
 #include "experiments/base/progress.hpp"
 #include "experiments/run/checkpoint/saving.hpp"
 #include "experiments/run/state/state_access.hpp"
+#include "experiments/run/timed/timed_run.hpp"
 #include "solver/digest.hpp"
 #include "solver/error.hpp"
 
@@ -17,6 +18,7 @@ nlohmann::ordered_json head_of(std::size_t member, const MemberRun& run, const M
       {"member", member}, {"step", batch.step()}, {"is_done", batch.is_done()}};
   if (!run.is_ok())
     head["failure"] = {{"steps", run.result().steps}, {"reason", run.result().reason}};
+  put_mark(run.history_mark(), head);
   return head;
 }
 
@@ -36,6 +38,7 @@ void read_member(const nlohmann::json& head, BlockReader& file, std::size_t elem
     standing.failure = {whole_of(*failure, "steps"), failure->at("reason").get<std::string>()};
     return;
   }
+  standing.history = mark_of(head);
   standing.kept = file.next();
   if (head.at("is_done").get<bool>()) standing.end = file.next();
   if (standing.kept.size() != elements * width ||
@@ -113,13 +116,15 @@ void EnsembleSaving::save_end(long step) { note(save(step)); }
 
 std::string EnsembleSaving::save(long step) {
   clock_.take(step);
-  try {
-    for (const auto& member : members_) member->save_history();
-  } catch (const InputError& error) {
-    return error.what();
+  std::string failure;
+  if (request_.is_root) {
+    const WorkAlone alone(batches_.front()->executor(), true);
+    for (const auto& member : members_)
+      if (const std::string own = member->save_history(); failure.empty()) failure = own;
   }
-  return write_ensemble(request_.checkpoint, identity_, plan_, batches_, members_,
-                        request_.is_root);
+  const std::string of_states =
+      write_ensemble(request_.checkpoint, identity_, plan_, batches_, members_, request_.is_root);
+  return of_states.empty() ? failure : of_states;
 }
 
 void EnsembleSaving::note(const std::string& failure) const {

@@ -1,5 +1,6 @@
 #pragma once
 /// Members of an ensemble that one executor computes: a member a lane of its packs.
+#include "experiments/run/checkpoint/checkpoint.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "variants/api/api.hpp"
 
@@ -20,6 +21,7 @@ struct MemberStanding {
   };
   long step = 0;
   std::optional<Failure> failure;
+  HistoryMark history;
   std::vector<double> kept; ///< numbers of its elements (kept_state.hpp); empty if it failed
   /// Of a member that has done all of its steps: the state, since a leapfrog cannot give its
   /// velocities at the end anew (StateTransfer::restore). Else empty

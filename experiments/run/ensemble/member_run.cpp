@@ -48,7 +48,7 @@ void MemberRun::look(std::span<const double> state, long step) {
   guarded([&] {
     const std::vector<double> signals = signals_at(problem, time);
     if (has_frame) series_.add(problem, {state.begin(), state.end()}, equations(), signals, time);
-    if (has_row) history_->add(step, time, state, equations(), signals);
+    if (has_row) history_->add(step, time, state, equations(), signals), history_->release();
   });
 }
 
@@ -64,10 +64,7 @@ void MemberRun::resume(const MemberStanding& standing) {
   for (const long frame : plan_.frame_steps)
     if (frame <= standing.step) times.push_back(double(frame) * plan_.dt);
   if (request_.is_root && !request_.output.empty()) series_.go_on(times);
-  std::vector<long> rows;
-  for (const long step : plan_.history_steps)
-    if (step <= standing.step) rows.push_back(step);
-  if (history_) history_->go_on(rows);
+  if (history_) history_->go_on(standing.history);
 }
 
 void MemberRun::fail(const Outcome& failure) {

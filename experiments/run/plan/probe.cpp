@@ -62,6 +62,10 @@ Probe read_probe(const std::string& text, const Problem& problem) {
   const int body = int(found - names.begin());
   const NearestPlace at = nearest_place(problem, body, asked.place);
   const Vec3& edge = problem.bodies[std::size_t(body)].edge;
+  if (at.distance > *std::ranges::max_element(edge))
+    throw InputError(fmt::format("--probe {}: the place is {:.3g} m outside of the body, more than "
+                                 "an element; the nearest element is at ({:.6g}) m",
+                                 text, at.distance, fmt::join(at.centre, ", ")));
   Probe probe{asked.name, at.element, {}, at.arm, {}};
   for (std::size_t a = 0; a < 3; ++a) probe.place[a] = at.arm[a] / (edge[a] / 2);
   probe.text =

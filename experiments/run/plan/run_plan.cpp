@@ -307,14 +307,26 @@ void require_room(const RunRequest& request, double elements, int fields, Precis
                  "give the scene fewer elements");
 }
 
-/// @param every  0: about 1,000 rows
-std::vector<long> history_steps(long every, long steps) {
-  constexpr long rows = 1000;
+/// Rows of a history whose interval nobody gave. A row costs as much as some steps, and ends an
+/// adaptive step.
+long usual_rows(std::size_t elements, bool is_adaptive) {
+  constexpr long most_looked_at = 20'000'000; // elements of all rows
+  return std::clamp(most_looked_at / long(elements), 10L, is_adaptive ? 100L : 1000L);
+}
+
+/// @param every  0: usual_rows
+std::vector<long> history_steps(long every, const RunPlan& plan) {
+  const long steps = plan.steps;
   if (every < 0) throw InputError(fmt::format("--every {}: give 1 step or more", every));
-  if (every == 0) every = (steps + rows - 1) / rows;
+  if (every == 0) {
+    const long rows =
+        usual_rows(plan.scene.problem.lattice.element_count, plan.adaptive.has_value());
+    every = (steps + rows - 1) / rows;
+  }
   if (steps / every > most_rows_of_history)
     throw InputError(fmt::format("--every {}: {} steps would have {} rows; give at least {}", every,
-                                 steps, steps / every, steps / most_rows_of_history + 1));
+                                 steps, steps / every,
+                                 (steps + most_rows_of_history - 1) / most_rows_of_history));
   std::vector<long> of_rows;
   for (long step = 0; step < steps; step += every) of_rows.push_back(step);
   of_rows.push_back(steps);
@@ -371,7 +383,7 @@ RunPlan plan_run(const RunRequest& request) {
   plan.frame_steps.erase(std::unique(plan.frame_steps.begin(), plan.frame_steps.end()),
                          plan.frame_steps.end());
   plan.probes = read_probes(request.probes, problem);
-  if (!request.history.empty()) plan.history_steps = history_steps(request.every, plan.steps);
+  if (!request.history.empty()) plan.history_steps = history_steps(request.every, plan);
   return plan;
 }
 

@@ -40,7 +40,7 @@ struct RunRequest {
   std::string state_csv;                 ///< file, or empty
   std::string history;                   ///< CSV file of the history, or empty
   std::vector<std::string> probes;       ///< of the history, see read_probe
-  long every = 0;                        ///< steps between its rows; 0: about 1,000 rows
+  long every = 0;                        ///< steps between its rows; 0: by their cost
   std::string checkpoint;                ///< file that says where the run stands, or empty
   std::string checkpoint_every = "60s";  ///< see parse_checkpoint_interval
   std::string restart;                   ///< checkpoint that the run continues from, or empty

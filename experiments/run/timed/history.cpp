@@ -1,5 +1,6 @@
 #include "experiments/run/timed/history.hpp"
 
+#include "solver/digest.hpp"
 #include "solver/error.hpp"
 #include "solver/model/element_place.hpp"
 #include "solver/model/reactions.hpp"
@@ -13,6 +14,7 @@
 #include <fmt/ranges.h>
 #include <iterator>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace dss {
@@ -71,37 +73,47 @@ void RunHistory::add(long step, double time, std::span<const double> state, Rota
     numbers.push_back(von_mises(seen.stress));
   }
   if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); }))
-    throw UnstableError(fmt::format("{}: an energy or stress for {} is beyond the range of numbers "
-                                    "at t = {:g} s; take a smaller --dt",
-                                    problem_.name, path_, time));
+    throw UnstableError(fmt::format("{}: a number of the history is beyond the range of numbers at "
+                                    "t = {:g} s; take a smaller --dt",
+                                    problem_.name, time));
   std::string line = std::to_string(step);
   for (const double number : numbers) fmt::format_to(std::back_inserter(line), ",{:.17g}", number);
   while (!rows_.empty() && rows_.back().step >= step) rows_.pop_back();
   rows_.push_back({step, std::move(line)});
 }
 
-void RunHistory::go_on(std::span<const long> steps) {
+HistoryMark RunHistory::mark() const {
+  std::string text = header();
+  for (const Row& row : rows_) text += "\n" + row.line;
+  return {long(rows_.size()), text_digest(text)};
+}
+
+bool RunHistory::take_rows(const std::string& path, const HistoryMark& mark) {
   clear();
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("{}: {}; give --history, --every and --probe of the interrupted "
-                                 "run, or leave them out",
-                                 path_, what));
-  };
-  if (!std::filesystem::is_regular_file(path_)) refuse("the history before the checkpoint is gone");
-  const std::string text = read_text(path_);
-  std::string_view rest = text;
-  const auto line = [&] {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view first = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    return first;
-  };
-  if (line() != header()) refuse("its columns are not those of this run");
-  for (const long step : steps) {
-    const std::string_view next = line();
-    if (step_of(next) != step) refuse(fmt::format("it has no row of step {}", step));
-    rows_.push_back({step, std::string(next)});
+  if (!std::filesystem::is_regular_file(path)) return false;
+  const std::string text = read_text(path);
+  std::size_t from = text.find('\n');
+  for (long n = 0; n < mark.rows && from != std::string::npos; ++n) {
+    const std::size_t to = text.find('\n', from + 1);
+    if (to == std::string::npos) return false;
+    std::string line = text.substr(from + 1, to - from - 1);
+    rows_.push_back({step_of(line), std::move(line)});
+    from = to;
   }
+  const HistoryMark found = this->mark();
+  return found.rows == mark.rows && found.digest == mark.digest;
+}
+
+void RunHistory::go_on(const HistoryMark& mark) {
+  if (mark.digest.empty())
+    throw InputError(fmt::format("{}: the interrupted run had no history; leave --history, --every "
+                                 "and --probe out",
+                                 path_));
+  if (!take_rows(part(), mark) && !take_rows(path_, mark))
+    throw InputError(
+        fmt::format("{}: neither this file nor {} has the rows of the interrupted run; "
+                    "give its --history and --probe, or leave them out",
+                    path_, part()));
 }
 
 std::vector<std::string> RunHistory::probe_texts() const {
@@ -124,12 +136,19 @@ void RunHistory::write(FileSet& outputs) const {
   AtomicFile& file = outputs.open(path_);
   write(file);
   file.finish();
+  std::error_code ignored;
+  std::filesystem::remove(part(), ignored);
 }
 
-void RunHistory::save() const {
-  AtomicFile file(path_);
-  write(file);
-  file.commit();
+std::string RunHistory::save() const {
+  try {
+    AtomicFile file(part());
+    write(file);
+    file.commit();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
 }
 
 } // namespace dss

@@ -1,6 +1,7 @@
 #pragma once
 /// The history of a run: a table over time of its energies, the reactions of its clamps, and what
 /// its probes see.
+#include "experiments/run/checkpoint/checkpoint.hpp"
 #include "experiments/run/plan/probe.hpp"
 #include "solver/io/file_set.hpp"
 #include "solver/model/rotation.hpp"
@@ -13,7 +14,9 @@
 
 namespace dss {
 
-/// Rows are kept until the run ends or is saved, so the file is always whole.
+/// Rows are kept until the run ends, so the file is always whole. A run that is saved keeps its
+/// rows in a file beside it, F.csv.part, so that only a run that ends well replaces an earlier
+/// file.
 class RunHistory {
 public:
   /// @param path     of the CSV file
@@ -25,14 +28,20 @@ public:
   /// @param signals  a row at its time (solver/numerics/signal_rows.hpp)
   void add(long step, double time, std::span<const double> state, Rotation equations,
            std::span<const double> signals);
-  /// Goes on with the file of the run that was interrupted: keeps the rows of these steps.
-  /// @throws InputError if it is not there, or is that of another run
-  void go_on(std::span<const long> steps);
+  /// What a checkpoint has of the rows before it.
+  HistoryMark mark() const;
+  /// Goes on with the rows of the run that was interrupted, from the file of a saved or an ended
+  /// run.
+  /// @throws InputError if no file has them
+  void go_on(const HistoryMark& mark);
   void clear() { rows_.clear(); }
-  /// Adds the file to those of a run.
+  /// Lets go of what adding a row needs, about 400 bytes an element.
+  void release() { field_.reset(); }
+  /// Adds the file to those of a run that has ended.
   void write(FileSet& outputs) const;
-  /// Writes the file at once, when the run is saved. @throws InputError if it cannot be written
-  void save() const;
+  /// Writes the rows so far, when the run is saved.
+  /// @return one line if they cannot be written, else empty
+  std::string save() const;
 
   /// Where each probe is, and what it sees in the last row: one line each.
   std::vector<std::string> probe_texts() const;
@@ -49,6 +58,8 @@ private:
   };
   Sight sight(const Probe& probe, std::span<const double> state) const;
   std::string header() const;
+  std::string part() const { return path_ + ".part"; }
+  bool take_rows(const std::string& path, const HistoryMark& mark);
   void write(AtomicFile& file) const;
 
   std::string path_;

@@ -40,11 +40,11 @@ void require_finite(const Problem& problem, const StressField& field, Rotation e
 
 StressOutput stress_output(const Problem& problem, const std::vector<double>& state,
                            Rotation equations, std::span<const double> signals) {
-  const StressField field(problem, state, equations, signals);
+  StressField field(problem, state, equations, signals);
   require_finite(problem, field, equations);
   ElementNodes nodes(problem.lattice);
   std::vector<SymmetricTensor> at_nodes = field.at_nodes(nodes);
-  return {field.elements(), std::move(nodes), std::move(at_nodes)};
+  return {std::move(field).elements(), std::move(nodes), std::move(at_nodes)};
 }
 
 } // namespace

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <iterator>
 #include <utility>
 
 namespace dss {
@@ -105,10 +104,7 @@ void TimedRun::resume(SavedRun& saved) {
   for (const long frame : plan_.frame_steps)
     if (is_passed(frame)) times.push_back(double(frame) * plan_.dt);
   if (is_root_ && !request_.output.empty()) series_.go_on(times);
-  std::vector<long> rows;
-  std::ranges::copy_if(plan_.history_steps, std::back_inserter(rows),
-                       [&](long step) { return is_passed(step); });
-  if (history_) history_->go_on(rows);
+  if (history_) history_->go_on(standing.history);
 }
 
 bool TimedRun::is_passed(long stop) const {
@@ -139,17 +135,20 @@ void TimedRun::save_or_end() {
 }
 
 std::string TimedRun::save() {
-  Standing standing{steps_done(), model_, {}, watch_kept()};
+  Standing standing{steps_done(), model_, {}, watch_kept(), {}};
   PutNumbers put(standing.steps_kept);
   if (adaptive_) adaptive_->each_kept(put);
   saved_->take(steps_done());
-  try {
-    if (history_) history_->save(); // it has the rows up to the checkpoint at least
-  } catch (const InputError& error) {
-    return error.what();
+  std::string failure;
+  if (history_) {
+    const WorkAlone alone(*executor_, is_root_);
+    failure = history_->save();
+    standing.history = history_->mark();
   }
-  return write_checkpoint(request_.checkpoint, *identity_, standing, *executor_,
-                          problem_.lattice.element_count, is_root_);
+  const std::string of_state =
+      write_checkpoint(request_.checkpoint, *identity_, standing, *executor_,
+                       problem_.lattice.element_count, is_root_);
+  return of_state.empty() ? failure : of_state;
 }
 
 std::vector<double> TimedRun::watch_kept() {

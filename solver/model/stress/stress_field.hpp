@@ -5,6 +5,7 @@
 #include "solver/model/stress/tensor.hpp"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dss {
@@ -34,7 +35,8 @@ public:
   FaceSections& sections() { return sections_; }
 
   /// Of all elements; empty after take().
-  const std::vector<ElementStress>& elements() const { return elements_; }
+  const std::vector<ElementStress>& elements() const& { return elements_; }
+  std::vector<ElementStress> elements() && { return std::move(elements_); }
   /// In the middle of a face. The stress of an element varies linearly towards its neighbours. On a
   /// face without neighbour the components of its traction are that of its load, or 0. In an
   /// element without neighbours along the face's axis it varies with the moments of its links; the
