@@ -57,6 +57,8 @@ std::string why_other_topology(const Problem& one, const Problem& other) {
   if (!std::ranges::equal(one.lattice.rows, other.lattice.rows, is_same) ||
       one.lattice.present != other.lattice.present)
     return "its elements lie elsewhere";
+  if (one.has_rotating_frame() != other.has_rotating_frame())
+    return other.has_rotating_frame() ? "its frame rotates" : "its frame does not rotate";
   if (one.link_kinds != other.link_kinds) return "links of its bodies are of other kinds";
   if (one.pressure_kinds != other.pressure_kinds)
     return "elements of its bodies have other pressures, because nu is 0 in one of them";

@@ -45,7 +45,7 @@ Problem varied(Problem problem, std::size_t member) {
   if (member % 3 == 1 && !problem.loads.empty()) problem.loads.back().elements.front() ^= 1;
   if (member % 2 == 1 && !problem.clamps.empty()) problem.clamps.pop_back();
   for (Signal& signal : problem.frame_acceleration) signal.amplitude *= 1 + 0.1 * more;
-  for (Signal& signal : problem.frame_rotation) signal.amplitude *= 1 - 0.2 * more;
+  for (Signal& signal : problem.frame_rotation) signal.amplitude *= 1 - 0.03 * more;
   problem.stabilization.k *= 1 + 0.1 * more;
   return problem;
 }

@@ -29,6 +29,7 @@ struct Case {
   /// equations split into those of a bar, of bending and of the plane.
   bool has(Model model) const {
     if (!is_built(model)) return false;
+    if (problem.has_rotating_frame()) return model == Model::spatial;
     if (is_bar || model == Model::axial) return is_bar && model == Model::axial;
     return is_flat || degrees_of(model) == dof_all || (is_bent && model == Model::bending);
   }

@@ -93,6 +93,7 @@ bool RunHistory::take_rows(const std::string& path, const HistoryMark& mark) {
   if (!std::filesystem::is_regular_file(path)) return false;
   const std::string text = read_text(path);
   std::size_t from = text.find('\n');
+  if (text.substr(0, from) != header()) return false;
   for (long n = 0; n < mark.rows && from != std::string::npos; ++n) {
     const std::size_t to = text.find('\n', from + 1);
     if (to == std::string::npos) return false;

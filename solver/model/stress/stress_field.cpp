@@ -63,10 +63,10 @@ Eigen::Matrix3d own_stretch(const Eigen::Matrix3d& axes, const Faces& faces) {
   return rows;
 }
 
-/// Whether both faces across an axis say nothing of a component (Face::unknown).
+/// Whether a face across an axis says nothing of a component (Face::unknown).
 bool is_unknown(const Faces& faces, int axis, int component) {
   const auto lower = 2 * std::size_t(axis);
-  return (faces[lower].unknown & faces[lower + 1].unknown & 1 << component) != 0;
+  return ((faces[lower].unknown | faces[lower + 1].unknown) & 1 << component) != 0;
 }
 
 /// Change of the stress from the middle of an element to its faces across o, by the moments of its
@@ -124,13 +124,14 @@ ElementStress StressField::found(std::size_t element, const Faces& faces) const 
   Eigen::Matrix3d stress = by_forces + by_moments, stretch = own_stretch(axes, faces);
   for (const int a : {0, 1, 2})
     for (const int b : {(a + 1) % 3, (a + 2) % 3}) {
+      const double k = sections_.link(element, a).k_shear[std::size_t(b)] *
+                       sections_.body(element).edge[std::size_t(a)];
+      const double softness = k > 0 ? sections_.area(element, a) / k : 0;
       if (is_unknown(faces, b, a) && !is_unknown(faces, a, b)) {
         stress(a, b) = stress(b, a) = by_forces(a, b);
-        stretch(b, a) = stretch(a, b);
-      } else if (has_links(faces, a) && has_links(faces, b)) {
-        const double k = sections_.link(element, a).k_shear[std::size_t(b)] *
-                         sections_.body(element).edge[std::size_t(a)];
-        if (k > 0) stretch(a, b) += by_moments(a, b) * sections_.area(element, a) / k;
+        stretch(a, b) = stretch(b, a) = softness * by_forces(a, b);
+      } else if (!is_unknown(faces, a, b) && has_links(faces, a) && has_links(faces, b)) {
+        stretch(a, b) += softness * by_moments(a, b);
       }
     }
   return {symmetric_part(axes * stress * axes.transpose()),
