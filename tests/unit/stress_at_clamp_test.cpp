@@ -56,7 +56,8 @@ TEST(StressAtClamp, of_several_layers_is_that_behind_its_last_one) {
   for (std::size_t e = 1; e < 6; ++e) EXPECT_NEAR(field.of(e).stress[0], 1e3, 1e-7) << e;
 }
 
-/// Half of a bar by its plane of symmetry. With nu > 0 the held face counts as free in the pressure.
+/// Half of a bar by its plane of symmetry. With nu > 0 the pressure takes the held face for a free
+/// one.
 TEST(StressAtClamp, is_without_shear_at_a_plane_of_symmetry) {
   Problem pulled = bar(5, 3, 2, 0);
   pull_end(pulled, 5, 0, {1e3, 0, 0});
