@@ -24,7 +24,7 @@ from matplotlib.collections import PolyCollection  # noqa: E402
 from render.check import Unreadable  # noqa: E402
 from render.pictures import drawn_now, save  # noqa: E402
 
-TYPES = {"Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
+TYPES = {"Float64": "<f8", "Int64": "<i8", "Int32": "<i4", "UInt8": "u1"}
 # Corners of the faces of a VTK hexahedron, anticlockwise as seen from outside.
 FACES = numpy.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4],
                      [2, 3, 7, 6], [0, 4, 7, 3], [1, 2, 6, 5]])

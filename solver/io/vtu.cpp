@@ -124,7 +124,7 @@ void write_cells(AtomicFile& file, std::size_t count, const ElementNodes& nodes)
   file.write("</Cells>\n");
 }
 
-void write_cell_data(AtomicFile& file, std::span<const double> state,
+void write_cell_data(AtomicFile& file, const Problem& problem, std::span<const double> state,
                      std::span<const ElementStress> stress) {
   const auto of_cells = [&](std::string_view name, auto&& value_of) {
     vectors(file, name, stress.size(), value_of);
@@ -146,22 +146,52 @@ void write_cell_data(AtomicFile& file, std::span<const double> state,
   of_cells("principal_stress",
            [&](std::size_t cell) { return principal_values(stress[cell].stress); });
   of_cells("strain", [&](std::size_t cell) { return in_vtk_order(stress[cell].strain); });
+  data_array<std::int32_t>(file, "Int32", "body", 1, stress.size(), [&](Base64Writer& out) {
+    problem.lattice.for_each_element(
+        [&](std::size_t, const Row& row, int) { out.put(std::int32_t(row.body)); });
+  });
   file.write("</CellData>\n");
+}
+
+/// Texts are numbers of characters, each text with a 0 behind it.
+void write_texts(AtomicFile& file, std::string_view name, std::span<const std::string> texts) {
+  file.write(
+      fmt::format("<DataArray type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">",
+                  name, texts.size()));
+  for (const std::string& text : texts) {
+    for (const char c : text) file.write(fmt::format("{} ", static_cast<unsigned char>(c)));
+    file.write("0 ");
+  }
+  file.write("</DataArray>\n");
+}
+
+void write_field_data(AtomicFile& file, const Problem& problem, double time) {
+  file.write("<UnstructuredGrid>\n<FieldData>\n");
+  file.write(fmt::format("<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+                         "format=\"ascii\">{:.17g}</DataArray>\n",
+                         time));
+  std::vector<std::string> bodies;
+  for (const Body& body : problem.bodies) bodies.push_back(body.name);
+  write_texts(file, "scene", std::array{problem.name});
+  write_texts(file, "bodies", bodies);
+  write_texts(file, "units", std::array<std::string, 1>{"m, s, rad, Pa"});
+  file.write("</FieldData>\n");
 }
 
 } // namespace
 
-void write_vtu(AtomicFile& file, const Problem& problem, std::span<const double> state,
+void write_vtu(AtomicFile& file, const Problem& problem, double time, std::span<const double> state,
                const StressOutput& stress) {
   const std::size_t count = problem.lattice.element_count;
   file.write("<?xml version=\"1.0\"?>\n"
              "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
              "header_type=\"UInt64\">\n");
-  file.write(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+  write_field_data(file, problem, time);
+  file.write(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                          stress.nodes.count(), count));
   write_points(file, problem, state, stress);
   write_cells(file, count, stress.nodes);
-  write_cell_data(file, state, stress.elements);
+  write_cell_data(file, problem, state, stress.elements);
   file.write("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
 }
 

@@ -21,11 +21,13 @@ struct StressOutput {
 /// at rest. Point data, means of what the elements at a node have there: displacement [m], which
 /// moves them (ParaView: Warp By Vector), stress and von_mises [Pa]. Cell data, in the middle of
 /// elements: displacement [m], velocity [m/s], rotation_vector [rad], stress, von_mises and
-/// principal_stress [Pa], strain. Tensors have VTK's order: xx, yy, zz, xy, yz, xz.
+/// principal_stress [Pa], strain, and the number of its body. Field data: TimeValue [s], and the
+/// names of the scene, its bodies and the units. Tensors have VTK's order: xx, yy, zz, xy, yz, xz.
 /// @param file    its caller commits it
+/// @param time    [s]
 /// @param state   13 numbers an element
 /// @throws InputError if the file cannot be written
-void write_vtu(AtomicFile& file, const Problem& problem, std::span<const double> state,
+void write_vtu(AtomicFile& file, const Problem& problem, double time, std::span<const double> state,
                const StressOutput& stress);
 
 /// One file of a series: its name relative to the .pvd file, and its time [s].

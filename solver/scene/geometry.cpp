@@ -1,5 +1,6 @@
 #include "solver/scene/geometry.hpp"
 
+#include "solver/io/npy.hpp"
 #include "solver/memory.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dss {
@@ -152,11 +154,19 @@ VoxelGrid grid_of(const Node& node, const Layers& layers) {
   return grid;
 }
 
+/// An array of NumPy. The path is relative to the scene's file unless it is absolute.
+VoxelGrid read_array_file(const Node& node) {
+  const auto path = std::filesystem::path(node.file()).parent_path() / node.text();
+  NpyMask mask = node.placed([&] { return read_npy_mask(path.string(), max_elements); });
+  return {int(mask.shape[0]), int(mask.shape[1]), int(mask.shape[2]), std::move(mask.cells)};
+}
+
 VoxelGrid read_voxels(const Node& node) {
   ObjectNode voxels(node);
   const std::string key = voxels.require_one({"layers", "file"});
   const Node mask = voxels.require(key);
   voxels.finish();
+  if (key == "file" && mask.text().ends_with(".npy")) return read_array_file(mask);
   return grid_of(mask, key == "file" ? read_layer_file(mask) : read_layers(mask));
 }
 

@@ -67,11 +67,11 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
     const StressOutput stress = stress_output(problem, state, equations, signals);
     if (is_series_) {
       AtomicFile file(path.string());
-      write_vtu(file, problem, state, stress);
+      write_vtu(file, problem, time, state, stress);
       file.commit();
     } else {
       AtomicFile& file = outputs_->open(path.string());
-      write_vtu(file, problem, state, stress);
+      write_vtu(file, problem, time, state, stress);
       file.finish();
     }
     frames_.push_back({path.filename().string(), time});
