@@ -40,6 +40,8 @@ struct Heading {
   std::string name, unit;
 };
 Heading heading_of(std::string_view text) {
+  if (text.size() > 1 && text.starts_with('"') && text.ends_with('"'))
+    text = text.substr(1, text.size() - 2);
   const std::size_t bracket = text.find('[');
   if (bracket == std::string_view::npos || !text.ends_with(']')) return {std::string(text), ""};
   return {std::string(trimmed(text.substr(0, bracket))),
@@ -63,7 +65,9 @@ public:
   /// The next line that has fields; false at the end of the file.
   bool next(std::vector<std::string_view>& fields) {
     while (std::getline(file_, line_)) {
-      ++number_;
+      constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+      if (++number_ == 1 && line_.starts_with(byte_order_mark))
+        line_.erase(0, byte_order_mark.size());
       if (trimmed(line_).empty() || line_.front() == '#') continue;
       fields = fields_of(line_);
       return true;
@@ -72,6 +76,7 @@ public:
   }
   double number(std::string_view field, const std::string& column) const {
     double value = 0;
+    if (field.size() > 1 && field.front() == '+') field.remove_prefix(1);
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value))
       fail(field.empty() ? fmt::format("has no value of \"{}\"", column)
@@ -119,6 +124,8 @@ Series read_series(const std::string& path, const std::string& column) {
       reader.fail(fmt::format("the first column is \"{}\"; it must be the time, with its unit: "
                               "\"t [s]\"",
                               field));
+    if (std::ranges::find(names, heading.name) != names.end())
+      reader.fail(fmt::format("two columns are named \"{}\"; names differ", heading.name));
     if (heading.name == column) series.unit = heading.unit;
     names.push_back(heading.name);
   }
@@ -132,8 +139,7 @@ Series read_series(const std::string& path, const std::string& column) {
       reader.fail(fmt::format("has {} values; the header has {}", fields.size(), names.size()));
     const double time = reader.number(fields[0], names[0]);
     if (!series.times.empty() && time <= series.times.back())
-      reader.fail(
-          fmt::format("{:g} s is not after {:g} s; times ascend", time, series.times.back()));
+      reader.fail(fmt::format("{} s is not after {} s; times ascend", time, series.times.back()));
     series.times.push_back(time);
     series.values.push_back(reader.number(fields[place], column));
   }

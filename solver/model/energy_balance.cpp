@@ -58,13 +58,32 @@ std::vector<double> EnergyBalance::unseen_signals(double h) const {
     };
     for (const double part : {0.25, 0.75}) compare(time_ + part * h);
     if (signal.kind == Signal::Kind::ramp) compare(signal.duration);
-    if (signal.kind == Signal::Kind::table) std::ranges::for_each(signal.times, compare);
+    std::ranges::for_each(signal.times, compare);
     return largest;
   };
   std::vector<double> values;
   for (const Signal& signal : problem_.frame_acceleration) values.push_back(unseen(signal));
   for (const Load& load : problem_.loads) values.push_back(unseen(load.signal));
+  values.resize(signal_count(problem_)); // a frame that rotates: frame_turns_unseen
   return values;
+}
+
+bool EnergyBalance::frame_turns_unseen(double h) const {
+  if (!problem_.has_rotating_frame()) return false;
+  std::array<std::vector<double>, 5> rows; // at equal distances over h
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    rows[k] = signals_at(problem_, time_ + double(k) * h / 4);
+  double largest = 0, unseen = 0, turn = 0;
+  for (std::size_t n = 3 + problem_.loads.size(); n < rows[0].size(); ++n) {
+    for (const auto& row : rows) largest = std::max(largest, std::abs(row[n]));
+    // against the parabola through the ends and the middle
+    unseen =
+        std::max(unseen, std::abs(rows[1][n] - (3 * rows[0][n] + 6 * rows[2][n] - rows[4][n]) / 8));
+    unseen =
+        std::max(unseen, std::abs(rows[3][n] - (3 * rows[4][n] + 6 * rows[2][n] - rows[0][n]) / 8));
+    if (n < 6 + problem_.loads.size()) turn = std::max(turn, h * std::abs(rows[2][n]));
+  }
+  return unseen > resolved_share * largest || turn > period_part;
 }
 
 Vector EnergyBalance::turn_between(const Orientation<double>& q,
@@ -134,6 +153,9 @@ void EnergyBalance::look(std::span<const double> state, double time) {
   const double of_middle = dynamics_.supplied_power(half, signals_at(problem_, time_ + h / 2));
   const double work = simpson(supplied_power_, of_middle, supplied, h);
   work_ += work;
+  if (frame_turns_unseen(h))
+    unresolved_ +=
+        h * std::max({std::abs(supplied_power_), std::abs(of_middle), std::abs(supplied)});
   unresolved_ += h * std::abs(dynamics_.supplied_power(half, unseen_signals(h))) +
                  unseen_work_of_torques(next, time);
   if (is_damped_ && follows_dampers_) follow_dampers(half, next, h, work);

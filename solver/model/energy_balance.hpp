@@ -66,6 +66,9 @@ private:
   /// Largest difference of each signal over [time_, time_ + h] to the parabola through its values
   /// at both ends and in the middle.
   std::vector<double> unseen_signals(double h) const;
+  /// Whether the frame turns so far over [time_, time_ + h], or in such a way, that looks do not
+  /// tell its work.
+  bool frame_turns_unseen(double h) const;
 
   const Problem& problem_;
   reference::Dynamics<double> dynamics_;

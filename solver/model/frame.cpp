@@ -9,15 +9,27 @@ namespace {
 struct Shares {
   double a, b, da, db;
 };
+/// By the series a = sum of (-p^2)^k / (2k + 2)!, b = sum of (-p^2)^k / (2k + 3)!, where the closed
+/// forms would lose digits.
+Shares series(double p2) {
+  constexpr int terms = 10; // right to rounding up to p = 1
+  Shares sum{};
+  double power = 1, before = 0, factorial = 2; // (-p^2)^k, (-p^2)^(k - 1), (2k + 2)!
+  for (int k = 0; k < terms; ++k) {
+    const double of_b = factorial * (2 * k + 3);
+    sum.a += power / factorial;
+    sum.b += power / of_b;
+    sum.da -= k * before / factorial;
+    sum.db -= k * before / of_b;
+    before = power;
+    power *= -p2;
+    factorial = of_b * (2 * k + 4);
+  }
+  return sum;
+}
+
 Shares shares_of(double p2) {
-  constexpr double small = 0.04; // below, the series are right to rounding
-  if (p2 < small)
-    return {1. / 2 - p2 * (1. / 24 - p2 * (1. / 720 - p2 * (1. / 40320 - p2 / 3628800))),
-            1. / 6 - p2 * (1. / 120 - p2 * (1. / 5040 - p2 * (1. / 362880 - p2 / 39916800))),
-            -1. / 24 +
-                p2 * (2. / 720 - p2 * (3. / 40320 - p2 * (4. / 3628800 - p2 * 5 / 479001600))),
-            -1. / 120 +
-                p2 * (2. / 5040 - p2 * (3. / 362880 - p2 * (4. / 39916800 - p2 * 5 / 6227020800)))};
+  if (p2 < 1) return series(p2);
   const double p = std::sqrt(p2), a = (1 - std::cos(p)) / p2, b = (p - std::sin(p)) / (p2 * p);
   return {a, b, (std::sin(p) / p - 2 * a) / (2 * p2), (a - 3 * b) / (2 * p2)};
 }

@@ -123,28 +123,22 @@ std::vector<double> initial_state(const Problem& problem) {
 }
 
 std::string why_series_too_short(const Problem& problem, double end) {
-  const auto why = [&](const Signal& signal) {
-    if (signal.last >= end * (1 - 1e-12)) return std::string();
-    return fmt::format("the series {} ends at {:g} s, the run at {:g} s; give fewer steps or a "
-                       "longer series, or \"hold\": true to keep its last value",
-                       signal.source, signal.last, end);
-  };
-  for (const Signal& signal : problem.frame_acceleration)
-    if (std::string text = why(signal); !text.empty()) return text;
-  for (const Load& load : problem.loads)
-    if (std::string text = why(load.signal); !text.empty()) return text;
-  return {};
+  std::string why;
+  problem.each_signal([&](const Signal& signal) {
+    if (why.empty() && signal.last < end * (1 - 1e-12))
+      why = fmt::format("the series {} ends at {:g} s, the run at {:g} s; give fewer steps or a "
+                        "longer series, or \"hold\": true to keep its last value",
+                        signal.source, signal.last, end);
+  });
+  return why;
 }
 
 std::string series_digest(const Problem& problem) {
   Digest digest;
-  const auto add = [&](const Signal& signal) {
-    if (signal.kind != Signal::Kind::table) return;
+  problem.each_signal([&](const Signal& signal) {
     for (const std::vector<double>* numbers : {&signal.times, &signal.values})
       for (const double number : *numbers) digest.add(std::bit_cast<std::uint64_t>(number));
-  };
-  std::ranges::for_each(problem.frame_acceleration, add);
-  for (const Load& load : problem.loads) add(load.signal);
+  });
   return fmt::format("{:016x}", digest.value());
 }
 

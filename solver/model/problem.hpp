@@ -178,6 +178,13 @@ struct Problem {
   std::size_t link_kind(std::size_t element, int axis) const {
     return link_kinds.empty() ? 0 : link_kinds[element][std::size_t(axis)];
   }
+  /// Calls visit(signal) for every signal that drives the problem.
+  template <class Visit>
+  void each_signal(Visit&& visit) const {
+    for (const Load& load : loads) visit(load.signal);
+    for (const auto* of_frame : {&frame_acceleration, &frame_rotation})
+      for (const Signal& signal : *of_frame) visit(signal);
+  }
   bool has_pressure() const { return !pressure_kinds.empty(); }
   bool has_rotating_frame() const { return !std::ranges::all_of(frame_rotation, is_zero_always); }
   /// @param body  the element's own

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -81,27 +83,77 @@ Load read_point_load(ObjectNode& object, const Node& at, const Problem& problem,
   return load;
 }
 
-/// Part of a segment that lies in a box: from `first` to `last`, of 0 to 1.
+/// Part of a segment that lies in an element: from `first` to `last`, of 0 to 1.
 struct Part {
+  std::size_t element = 0;
+  Vec3 centre{};
   double first = 0, last = 1;
 };
-Part part_in_box(const Vec3& from, const Vec3& to, const Vec3& centre, const Vec3& edge) {
-  Part part;
+
+/// Cuts a part to the box of its element. Boxes are wider by a millionth of their edges, so that a
+/// segment on their surface is in them.
+void cut_to_box(const Vec3& from, const Vec3& to, const Vec3& edge, Part& part) {
+  constexpr double width = 1e-6;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double low = centre[a] - edge[a] / 2 - from[a], high = low + edge[a],
-                 along = to[a] - from[a];
-    if (along == 0) {
-      if (low > 0 || high < 0) return {1, 0};
+    const double low = part.centre[a] - (0.5 + width) * edge[a] - from[a],
+                 high = low + (1 + 2 * width) * edge[a], along = to[a] - from[a];
+    if (std::abs(along) <= width * edge[a]) {
+      if (low > 0 || high < 0) part.last = -1;
       continue;
     }
     part.first = std::max(part.first, std::min(low / along, high / along));
     part.last = std::min(part.last, std::max(low / along, high / along));
   }
-  return part;
 }
 
-/// "line": a force that is spread evenly over a segment. Each element that it passes takes its
-/// part, in the middle of this part.
+std::vector<Part> parts_of_line(const Vec3& from, const Vec3& to, const Problem& problem,
+                                int body) {
+  std::vector<Part> parts;
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
+    if (row.body != body) return;
+    Part part{e, rest_position(problem, row, x)};
+    cut_to_box(from, to, problem.bodies[std::size_t(body)].edge, part);
+    if (part.last > part.first) parts.push_back(part);
+  });
+  return parts;
+}
+
+/// Spreads a force evenly over a segment. Each element takes the force of its part, in the middle
+/// of it; elements that have a part together share it.
+/// @param covered  output: the part of the segment that is in some element
+std::vector<Load> loads_of_line(const Vec3& from, const Vec3& to, const Vec3& force,
+                                const std::vector<Part>& parts, double& covered) {
+  std::vector<double> ends;
+  std::map<std::size_t, Load> loads;
+  for (const Part& part : parts) {
+    ends.insert(ends.end(), {part.first, part.last});
+    loads[part.element].elements = {part.element};
+  }
+  std::ranges::sort(ends);
+  covered = 0;
+  for (std::size_t n = 1; n < ends.size(); ++n) {
+    const double length = ends[n] - ends[n - 1], middle = (ends[n] + ends[n - 1]) / 2;
+    const auto is_here = [&](const Part& p) { return p.first < middle && middle < p.last; };
+    const auto count = std::ranges::count_if(parts, is_here);
+    if (count == 0) continue;
+    covered += length;
+    for (const Part& part : parts) {
+      if (!is_here(part)) continue;
+      Vec3 arm{};
+      for (std::size_t a = 0; a < 3; ++a)
+        arm[a] = from[a] + middle * (to[a] - from[a]) - part.centre[a];
+      const Vec3 share = scaled(length / double(count), force);
+      Load& load = loads[part.element];
+      load.force = sum(load.force, share);
+      load.torque = sum(load.torque, cross(arm, share));
+    }
+  }
+  std::vector<Load> all;
+  for (auto& [element, load] : loads) all.push_back(std::move(load));
+  return all;
+}
+
+/// "line": a force that is spread evenly over a segment.
 std::vector<Load> read_line_load(ObjectNode& object, const Node& line, const Problem& problem,
                                  int body) {
   ObjectNode ends(line);
@@ -109,29 +161,12 @@ std::vector<Load> read_line_load(ObjectNode& object, const Node& line, const Pro
   ends.finish();
   const Vec3 force = object.require("force").vector();
   if (from == to) line.fail("has no length; give \"at\" for a force at a point");
-  std::vector<Load> loads;
-  double whole = 0;
-  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
-    if (row.body != body) return;
-    const Vec3 centre = rest_position(problem, row, x);
-    const Part part = part_in_box(from, to, centre, problem.bodies[std::size_t(body)].edge);
-    if (part.last <= part.first) return;
-    const double share = part.last - part.first, middle = (part.first + part.last) / 2;
-    Vec3 arm{};
-    for (std::size_t a = 0; a < 3; ++a) arm[a] = from[a] + middle * (to[a] - from[a]) - centre[a];
-    Load load;
-    load.elements = {e};
-    set_force_at(arm, scaled(share, force), load);
-    loads.push_back(load);
-    whole += share;
-  });
-  if (whole < 1 - 1e-6)
+  double covered = 0;
+  std::vector<Load> loads =
+      loads_of_line(from, to, force, parts_of_line(from, to, problem, body), covered);
+  if (covered < 1 - 1e-4)
     line.fail(fmt::format("is outside of body \"{}\" over {:.3g} % of its length",
-                          problem.bodies[std::size_t(body)].name, 100 * (1 - whole)));
-  for (Load& load : loads) { // a line between elements is in both
-    load.force = scaled(1 / whole, load.force);
-    load.torque = scaled(1 / whole, load.torque);
-  }
+                          problem.bodies[std::size_t(body)].name, 100 * (1 - covered)));
   return loads;
 }
 
@@ -166,7 +201,7 @@ std::vector<Load> read_load(const Node& node, const Solids& solids, const Proble
   else
     loads = {read_selected_load(object, problem, own)};
   if (const auto given = object.find("signal")) {
-    const Signal signal = read_signal(*given);
+    const Signal signal = read_signal(*given, "1"); // a factor
     require_memory(16.0 * double(loads.size()) * double(signal.times.size()),
                    fmt::format("{}: the signals of {} loads", given->where(), loads.size()),
                    "give a shorter series");

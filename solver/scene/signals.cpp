@@ -2,8 +2,12 @@
 
 #include "solver/io/series_csv.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
+#include <utility>
 
 namespace dss {
 namespace {
@@ -49,7 +53,8 @@ void read_series_file(const Node& node, std::string_view unit, Signal& signal) {
   object.finish();
   const auto path = std::filesystem::path(node.file()).parent_path() / file.text();
   Series series = file.placed([&] { return read_series(path.string(), column.text()); });
-  if (!unit.empty() && series.unit != unit)
+  const bool is_factor = unit == "1" && (series.unit.empty() || series.unit == "-");
+  if (!unit.empty() && series.unit != unit && !is_factor)
     column.fail(fmt::format("column \"{}\" of {} has the unit [{}]; it must be [{}]", column.text(),
                             path.string(), series.unit, unit));
   if (series.times.front() > 0)
@@ -95,7 +100,14 @@ Signal read_smooth_signal(const Node& node) {
   if (signal.kind == Signal::Kind::ramp)
     node.fail("a ramp has a kink, where a frame would turn in no time; give \"rate\", \"harmonic\" "
               "or a \"table\"");
-  if (signal.kind == Signal::Kind::table) make_spline(signal);
+  if (signal.kind != Signal::Kind::table) return signal;
+  if (node.json().contains("series") && signal.last == std::numeric_limits<double>::infinity())
+    node.fail("a frame that is held would stop in no time; leave \"hold\" out, and let the series "
+              "last as long as the run");
+  make_spline(signal);
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  if (!std::ranges::all_of(signal.bends, is_finite))
+    node.fail("its points are too close together, or its values too large, for a smooth motion");
   return signal;
 }
 

@@ -68,41 +68,33 @@ class Histories(RunTest):
         saving = ("--checkpoint", "c.ckpt", "--checkpoint-every", "130")
         self.run_here(*of_run, *saving)
         self.assertEqual(self.read("history.csv"), whole)
-        self.assertNotIn("history.csv.part", os.listdir(self.directory))
-        # rows of a run that was interrupted at step 281, and an earlier file of another run
-        self.write("history.csv.part", whole[:whole.index("\n280,")] + "\n281,later\n")
         self.write("history.csv", "of another run\n")
         again = (*of_run, "--restart", "c.ckpt.previous")
         places = [("--threads", "2")] + ([] if why_no_variant("mpi") else [("--ranks", "2")])
         for place in places:
             self.run_here(*again, *place)
             self.assertEqual(self.read("history.csv"), whole, place)
-        self.run_here(*again)  # from the file of the ended run
-        self.assertEqual(self.read("history.csv"), whole)
 
-    def test_rows_of_another_run_are_refused(self):
-        of_run = (*BRACKET, *PROBES, "--every", "7")
-        self.run_here(*of_run, "--checkpoint", "c.ckpt", "--checkpoint-every", "130")
+    def test_other_columns_are_refused(self):
+        self.run_here(*BRACKET, *PROBES, "--checkpoint", "c.ckpt", "--checkpoint-every", "130")
         whole = self.read("history.csv")
-        again = (*of_run, "--restart", "c.ckpt.previous")
-        for text in (whole.replace("tip.", "top."), whole[:whole.index("\n140,")] + "\n",
-                     whole.replace("\n70,", "\n70,1"), ""):
-            self.write("history.csv", text)
-            self.assert_refused(2, ["history.csv", "rows"], "run", *again, cwd=self.directory)
-            self.assertEqual(self.read("history.csv"), text)
-        os.remove(self.path("history.csv"))
-        self.assert_refused(2, ["history.csv", "rows"], "run", *again, cwd=self.directory)
+        longer = ("run", "l_bracket", "--steps", "390", "--model", "spatial", "--restart", "c.ckpt")
+        self.assert_refused(2, ["other columns", "--probe"], *longer, "--probe", CENTRE,
+                            cwd=self.directory)
+        self.assertEqual(self.read("history.csv"), whole)
+        self.run_here(*longer[1:])  # without a history
         self.run_here(*BRACKET, "--checkpoint", "c.ckpt")
-        self.assert_refused(2, ["had no history"], "run", "l_bracket", "--steps", "390", "--model",
-                            "spatial", *PROBES, "--restart", "c.ckpt", cwd=self.directory)
+        self.assert_refused(2, ["had no history"], *longer, *PROBES, cwd=self.directory)
+        self.assertEqual(self.read("history.csv"), whole)
 
     def test_a_longer_run_goes_on_where_a_shorter_one_ended(self):
         longer = ("l_bracket", "--steps", "390", "--model", "spatial", *PROBES)
-        self.run_here(*longer, "--every", "20")
-        whole = self.read("history.csv")
-        self.run_here(*BRACKET, *PROBES, "--every", "20", "--checkpoint", "c.ckpt")
-        self.run_here(*longer, "--every", "20", "--restart", "c.ckpt")
-        self.assertEqual(self.read("history.csv"), whole)
+        for every in ("20", "7"):
+            self.run_here(*longer, "--every", every)
+            whole = self.read("history.csv")
+            self.run_here(*BRACKET, *PROBES, "--every", every, "--checkpoint", "c.ckpt")
+            self.run_here(*longer, "--every", every, "--restart", "c.ckpt")
+            self.assertEqual(self.read("history.csv"), whole, every)
         self.run_here("l_bracket", "--steps", "900", "--model", "spatial", "--history", "h.csv",
                       "--checkpoint", "c.ckpt")  # each step has a row, later every second
         self.run_here("l_bracket", "--steps", "1500", "--model", "spatial", "--history", "h.csv",
@@ -116,6 +108,18 @@ class Histories(RunTest):
         self.assert_refused(3, ["l_bracket"], "run", *BRACKET, *PROBES, "--dt", "1e-3", "--force",
                             "--checkpoint", "c.ckpt", "--checkpoint-every", "1",
                             cwd=self.directory)
+        self.assertEqual(self.read("history.csv"), whole)
+
+    def test_rows_are_not_lost_if_the_end_cannot_be_written(self):
+        of_run = (*BRACKET, *PROBES, "--every", "7")
+        self.run_here(*of_run)
+        whole = self.read("history.csv")
+        os.remove(self.path("history.csv"))
+        self.assert_refused(2, ["/dev/full"], "run", *of_run, "--checkpoint", "c.ckpt",
+                            "--checkpoint-every", "130", "--state", "/dev/full",
+                            cwd=self.directory)
+        self.assertNotIn("history.csv", os.listdir(self.directory))
+        self.run_here(*of_run, "--restart", "c.ckpt.previous")
         self.assertEqual(self.read("history.csv"), whole)
 
     def test_adaptive_steps_end_at_rows(self):

@@ -2,7 +2,10 @@
 #include "solver/error.hpp"
 #include "solver/model/energy_balance.hpp"
 #include "solver/model/frame.hpp"
+#include "solver/model/reactions.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
+#include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/oracle.hpp"
 #include "solver/statics/static_system.hpp"
 #include "tests/fixtures/problems.hpp"
@@ -53,6 +56,16 @@ TEST(FrameTurn, has_the_rates_of_its_axes) {
     EXPECT_LE((now.acceleration - (after.rate - before.rate) / (2 * h)).norm(), 1e-5 * size)
         << size;
   }
+}
+
+TEST(FrameTurn, is_smooth_where_its_formulas_change) {
+  Problem problem;
+  problem.frame_rotation[0] = spin_up(0.6), problem.frame_rotation[1] = spin_up(-0.8);
+  problem.frame_rotation[2] = swing(1e-3, 0.5, 0);
+  const FrameTurn below = turn_of_frame(problem, 1 - 1e-9),
+                  above = turn_of_frame(problem, 1 + 1e-9);
+  EXPECT_LE((above.rate - below.rate).norm(), 1e-10);
+  EXPECT_LE((above.acceleration - below.acceleration).norm(), 1e-10);
 }
 
 TEST(FrameTurn, spins_about_one_axis_by_any_angle) {
@@ -180,10 +193,44 @@ TEST(RotatingFrame, does_the_work_that_its_energy_gains) {
   EXPECT_LE(std::abs(shares.error), 1e-4);
 }
 
+TEST(RotatingFrame, has_no_balance_if_it_turns_far_between_looks) {
+  Problem problem = tumbling_body(LinkLaw::material);
+  set_rotation(problem, 0.3, 40);
+  const std::vector<double> start = seen_from_frame(problem, fixture::rest(problem), 0);
+  Oracle<double> oracle(problem, *find_method("rk4"), 1e-4);
+  oracle.write(start);
+  EnergyBalance balance(problem, Rotation::quaternion, start, 0, false);
+  std::vector<double> state(start.size());
+  for (int look = 1; look <= 4; ++look) {
+    ASSERT_FALSE(oracle.advance(150));
+    oracle.read(state);
+    balance.look(state, look * 150 * 1e-4);
+  }
+  EXPECT_FALSE(balance.shares().is_resolved);
+}
+
+TEST(RotatingFrame, pulls_on_clamps_by_its_centrifugal_force) {
+  Problem problem = tumbling_body(LinkLaw::material);
+  problem.frame_acceleration[2] = no_signal();
+  problem.frame_rotation[2] = spin_up(9);
+  Vector3d expected = Vector3d::Zero();
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
+    const Vec3 rest = rest_position(problem, row, x);
+    expected -= problem.bodies[0].mass * 81 * Vector3d(rest[0], rest[1], 0);
+    problem.clamps.push_back({e, dof_all});
+  });
+  const auto found = energy_and_reactions(problem, fixture::rest(problem), Rotation::quaternion,
+                                          signals_at(problem, 0.4));
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(found.reactions->force[std::size_t(axis)], expected[axis], 1e-11);
+}
+
 TEST(RotatingFrame, has_no_state_of_rest_and_no_smaller_model) {
   Problem problem = tumbling_body(LinkLaw::material);
   problem.frame_rotation[1] = spin_up(1);
   EXPECT_THROW(StaticSystem{problem}, InputError);
+  for (const Model model : models)
+    EXPECT_EQ(why_not(model, problem).empty(), model == Model::spatial) << name(model);
 }
 
 } // namespace

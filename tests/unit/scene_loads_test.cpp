@@ -112,6 +112,31 @@ TEST_F(SceneLoads, a_line_between_elements_is_shared_by_them) {
   for (const Load& load : bar.loads) EXPECT_DOUBLE_EQ(load.force[0], 1);
 }
 
+TEST_F(SceneLoads, a_line_is_spread_evenly_where_some_of_it_is_between_elements) {
+  const std::string path = written("step.json", R"({"scene": "step", "title": "a step",
+      "run": {"dt": 1, "steps": 1},
+      "bodies": [{"name": "b", "element": 0.1, "origin": [0, -0.03, 0],
+                  "geometry": {"voxels": {"layers": [["####", "##.."]]}},
+                  "constants": {"law": "paper"}}],
+      "loads": [{"line": {"from": [0, 0.07, 0], "to": [0.4, 0.07, 0]}, "force": [0, 0, 8]}]})");
+  const Problem step = load_scene(path).problem;
+  double moment = 0, force = 0; // about y, of forces at the middles of elements and their arms
+  for (const Load& load : step.loads) {
+    const double x = 0.05 + 0.1 * double(load.elements[0] % 4);
+    force += load.force[2];
+    moment += x * load.force[2] - load.torque[1];
+  }
+  EXPECT_EQ(step.loads.size(), 6u);
+  EXPECT_NEAR(force, 8, 1e-12);
+  EXPECT_NEAR(moment, 8 * 0.2, 1e-5);
+}
+
+TEST_F(SceneLoads, a_line_beyond_the_body_is_refused_wherever_it_is) {
+  const std::string why = refused(
+      [&] { with_load(R"("line": {"from": [0, 3, 1], "to": [16, 3, 1]}, "force": [8, 0, 0])"); });
+  EXPECT_NE(why.find("over 50 % of its length"), std::string::npos) << why;
+}
+
 TEST_F(SceneLoads, a_series_is_a_column_of_a_file) {
   written("road.csv", "# a road\nt [s], ax [m/s^2], az [m/s^2]\n0,1,2\n\n0.5,3,4\r\n1,5,-6\n");
   const Problem bar = with(R"("base_acceleration": {"z": {"series":
@@ -126,7 +151,29 @@ TEST_F(SceneLoads, a_series_is_a_column_of_a_file) {
   const Problem held = with(R"("base_acceleration": {"z": {"series":
       {"file": "road.csv", "column": "az", "hold": true}}})");
   EXPECT_EQ(why_series_too_short(held, 1.5), "");
-  EXPECT_NE(series_digest(bar), series_digest(with_load(R"("at": [0, 0, 0], "force": [1, 0, 0])")));
+  const std::string before = series_digest(bar);
+  written("road.csv", "t [s],az [m/s^2]\n0,2\n0.5,4\n1,-6.5\n");
+  EXPECT_NE(series_digest(with(R"("base_acceleration": {"z": {"series":
+      {"file": "road.csv", "column": "az"}}})")),
+            before);
+}
+
+TEST_F(SceneLoads, a_series_of_angles_is_smooth_and_lasts_as_long_as_the_run) {
+  written("turn.csv", "t [s],az [rad]\n0,0\n0.1,0.02\n0.2,0.03\n0.3,0.01\n");
+  const auto turning = [&](const std::string& more) {
+    return with(R"("base_rotation": {"z": {"series": {"file": "turn.csv", "column": "az")" + more +
+                "}}}");
+  };
+  const Problem bar = turning("");
+  EXPECT_EQ(bar.frame_rotation[2].kind, Signal::Kind::spline);
+  EXPECT_DOUBLE_EQ(bar.frame_rotation[2](0.2), 0.03);
+  EXPECT_EQ(why_series_too_short(bar, 0.3), "");
+  EXPECT_NE(why_series_too_short(bar, 0.4), "");
+  const std::string why = refused([&] { turning(R"(, "hold": true)"); });
+  EXPECT_NE(why.find("would stop in no time"), std::string::npos) << why;
+  const std::string before = series_digest(bar);
+  written("turn.csv", "t [s],az [rad]\n0,0\n0.1,0.02\n0.2,0.031\n0.3,0.01\n");
+  EXPECT_NE(series_digest(turning("")), before);
 }
 
 TEST_F(SceneLoads, a_bad_series_is_refused_with_its_line) {
@@ -140,6 +187,7 @@ TEST_F(SceneLoads, a_bad_series_is_refused_with_its_line) {
   says("t [s],a [N]\n", "has no values");
   says("t,a\n0,1\n", "line 1: the first column is \"t\"; it must be the time, with its unit");
   says("t [ms],a\n0,1\n", "must be the time");
+  says("t [s],a [m],a [mm]\n0,1,2\n", "line 1: two columns are named \"a\"");
   says("t [s],b\n0,1\n", "line 1: there is no column \"a\"; did you mean \"b\"?");
   says("t [s],a\n0,1\n1\n", "line 3: has 1 values; the header has 2");
   says("t [s],a\n0,1\n1,\n", "line 3: has no value of \"a\"");
@@ -151,6 +199,14 @@ TEST_F(SceneLoads, a_bad_series_is_refused_with_its_line) {
             std::string::npos);
   EXPECT_NE(refused([&] { read_series(folder_.string(), "a"); }).find("be read"),
             std::string::npos);
+}
+
+TEST_F(SceneLoads, a_series_may_have_marks_of_other_programs) {
+  const std::string path =
+      written("excel.csv", "\xEF\xBB\xBF\"t [s]\",\"a [N]\"\r\n0,+1.5\r\n1,2\r\n");
+  const Series series = read_series(path, "a");
+  EXPECT_EQ(series.values, (std::vector<double>{1.5, 2}));
+  EXPECT_EQ(series.unit, "N");
 }
 
 TEST_F(SceneLoads, a_series_of_another_unit_or_a_late_start_is_refused) {

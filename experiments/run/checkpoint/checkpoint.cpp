@@ -114,19 +114,6 @@ std::string CheckpointFile::commit() {
   return failure_;
 }
 
-void put_mark(const HistoryMark& mark, nlohmann::ordered_json& head) {
-  if (!mark.digest.empty()) head["history"] = {{"rows", mark.rows}, {"digest", mark.digest}};
-}
-
-HistoryMark mark_of(const nlohmann::json& head) {
-  const auto found = head.find("history");
-  if (found == head.end() || !found->is_object()) return {};
-  const long rows = whole_number(found->value("rows", nlohmann::json()));
-  const nlohmann::json digest = found->value("digest", nlohmann::json());
-  if (rows < 0 || !digest.is_string()) return {};
-  return {rows, digest.get<std::string>()};
-}
-
 std::string write_checkpoint(const std::string& path, const RunIdentity& identity,
                              const Standing& standing, Executor& executor, std::size_t elements,
                              bool is_root) {
@@ -135,9 +122,9 @@ std::string write_checkpoint(const std::string& path, const RunIdentity& identit
   head["model"] = name(standing.model);
   head["steps_kept"] = standing.steps_kept.size();
   head["watch_kept"] = standing.watch_kept.size();
-  put_mark(standing.history, head);
+  head["history"] = standing.history.columns;
   CheckpointFile file(path, head, executor, is_root);
-  for (const auto* list : {&standing.steps_kept, &standing.watch_kept})
+  for (const auto* list : {&standing.steps_kept, &standing.watch_kept, &standing.history.numbers})
     if (!list->empty()) file.write(*list);
   const std::size_t width = std::size_t(kept_fields(executor));
   std::vector<double> kept(std::min(elements, piece) * width);
@@ -169,7 +156,8 @@ SavedRun::SavedRun(std::string path) : path_(std::move(path)), reader_(path_) {
   standing_.model = *found;
   if (whole("steps_kept") > 0) standing_.steps_kept = reader_.next();
   if (whole("watch_kept") > 0) standing_.watch_kept = reader_.next();
-  standing_.history = mark_of(head);
+  standing_.history.columns = head.value("history", "");
+  if (!standing_.history.columns.empty()) standing_.history.numbers = reader_.next();
 }
 
 void RunIdentity::require_same(const std::string& path, const nlohmann::json& head) const {

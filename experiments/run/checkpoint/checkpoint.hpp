@@ -18,10 +18,10 @@ std::string earlier_checkpoint(const std::string& path);
 /// A whole number of a head. @return -1 if it is none from 0 to 1e15
 long whole_number(const nlohmann::json& value);
 
-/// How many rows of the run's history there were, and a digest of them; empty without a history.
-struct HistoryMark {
-  long rows = 0;
-  std::string digest;
+/// The rows of a run's history.
+struct HistoryRows {
+  std::string columns;         ///< their names; empty without a history
+  std::vector<double> numbers; ///< row after row
 };
 
 /// What a checkpoint has beside the numbers of elements.
@@ -30,13 +30,8 @@ struct Standing {
   Model model = Model::spatial;   ///< that computes
   std::vector<double> steps_kept; ///< of adaptive steps (AdaptiveSteps::each_kept), else empty
   std::vector<double> watch_kept; ///< of the watch over a model, or empty
-  HistoryMark history;
+  HistoryRows history;
 };
-
-/// A mark in the head of a checkpoint, or of a member in it. Reading one that is not there, or is
-/// none, gives an empty one.
-void put_mark(const HistoryMark& mark, nlohmann::ordered_json& head);
-HistoryMark mark_of(const nlohmann::json& head);
 
 /// The run, or the ensemble, that a checkpoint belongs to: what must agree so that bits do.
 struct RunIdentity {

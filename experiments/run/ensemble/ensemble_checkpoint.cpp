@@ -3,7 +3,6 @@
 #include "experiments/base/progress.hpp"
 #include "experiments/run/checkpoint/saving.hpp"
 #include "experiments/run/state/state_access.hpp"
-#include "experiments/run/timed/timed_run.hpp"
 #include "solver/digest.hpp"
 #include "solver/error.hpp"
 
@@ -18,7 +17,7 @@ nlohmann::ordered_json head_of(std::size_t member, const MemberRun& run, const M
       {"member", member}, {"step", batch.step()}, {"is_done", batch.is_done()}};
   if (!run.is_ok())
     head["failure"] = {{"steps", run.result().steps}, {"reason", run.result().reason}};
-  put_mark(run.history_mark(), head);
+  head["history"] = run.history().columns;
   return head;
 }
 
@@ -38,9 +37,10 @@ void read_member(const nlohmann::json& head, BlockReader& file, std::size_t elem
     standing.failure = {whole_of(*failure, "steps"), failure->at("reason").get<std::string>()};
     return;
   }
-  standing.history = mark_of(head);
   standing.kept = file.next();
   if (head.at("is_done").get<bool>()) standing.end = file.next();
+  standing.history.columns = head.value("history", "");
+  if (!standing.history.columns.empty()) standing.history.numbers = file.next();
   if (standing.kept.size() != elements * width ||
       (!standing.end.empty() && standing.end.size() != elements * field_count))
     throw std::out_of_range("size");
@@ -91,6 +91,8 @@ std::string write_ensemble(const std::string& path, const RunIdentity& identity,
       is_whole &= all_finite(kept[n]);
       file.write(kept[n]);
       if (batches[b]->is_done()) file.write(batches[b]->state(n));
+      const HistoryRows history = members[members_of(b)[n]]->history();
+      if (!history.columns.empty()) file.write(history.numbers);
     }
   }
   if (!is_whole) return fmt::format("{}: a state is not finite, so it was not saved", path);
@@ -116,15 +118,8 @@ void EnsembleSaving::save_end(long step) { note(save(step)); }
 
 std::string EnsembleSaving::save(long step) {
   clock_.take(step);
-  std::string failure;
-  if (request_.is_root) {
-    const WorkAlone alone(batches_.front()->executor(), true);
-    for (const auto& member : members_)
-      if (const std::string own = member->save_history(); failure.empty()) failure = own;
-  }
-  const std::string of_states =
-      write_ensemble(request_.checkpoint, identity_, plan_, batches_, members_, request_.is_root);
-  return of_states.empty() ? failure : of_states;
+  return write_ensemble(request_.checkpoint, identity_, plan_, batches_, members_,
+                        request_.is_root);
 }
 
 void EnsembleSaving::note(const std::string& failure) const {

@@ -21,7 +21,7 @@ struct MemberStanding {
   };
   long step = 0;
   std::optional<Failure> failure;
-  HistoryMark history;
+  HistoryRows history;
   std::vector<double> kept; ///< numbers of its elements (kept_state.hpp); empty if it failed
   /// Of a member that has done all of its steps: the state, since a leapfrog cannot give its
   /// velocities at the end anew (StateTransfer::restore). Else empty

@@ -31,9 +31,7 @@ public:
   void look(std::span<const double> state, long step);
   /// Frames that are written stay if a later one cannot be written: the ensemble is saved.
   void keep_frames() { series_.keep_finished(); }
-  /// Writes the rows so far: the ensemble is saved. @return one line if they cannot be written
-  std::string save_history() const { return history_ && is_ok() ? history_->save() : ""; }
-  HistoryMark history_mark() const { return history_ ? history_->mark() : HistoryMark{}; }
+  HistoryRows history() const { return history_ ? history_->kept() : HistoryRows{}; }
   /// Goes on where an earlier run stood, in which the member may have failed.
   void resume(const MemberStanding& standing);
   /// The member became unstable; steps count from the start.

@@ -17,22 +17,15 @@ constexpr long most_looks = 1024;     ///< largest number of checks, near the bo
 
 constexpr double looks_of_a_period = 8;
 
-/// Calls visit(signal) for every signal that drives the problem.
-template <class Visit>
-void each_signal(const Problem& problem, Visit&& visit) {
-  for (const Load& load : problem.loads) visit(load.signal);
-  for (const Signal& signal : problem.frame_acceleration) visit(signal);
-}
-
 /// Steps at which a ramp ends or a table has a point.
 std::vector<long> breaks_of(const Problem& problem, double dt) {
   std::vector<long> steps;
   const auto add = [&](double t) {
     if (t > 0 && t / dt < 1e18) steps.push_back(long(std::ceil(t / dt)));
   };
-  each_signal(problem, [&](const Signal& signal) {
+  problem.each_signal([&](const Signal& signal) {
     if (signal.kind == Signal::Kind::ramp) add(signal.duration);
-    if (signal.kind == Signal::Kind::table) std::ranges::for_each(signal.times, add);
+    std::ranges::for_each(signal.times, add);
   });
   std::ranges::sort(steps);
   steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
@@ -51,7 +44,7 @@ ModelMonitor::ModelMonitor(const Problem& problem, Model model, double tolerance
       dt_(dt), longest_interval_(longest_look_interval(steps)),
       shortest_interval_(std::max(1L, steps / most_looks)), breaks_(breaks_of(problem, dt)),
       good_state_(initial_state(problem)) {
-  each_signal(problem, [&](const Signal& signal) {
+  problem.each_signal([&](const Signal& signal) {
     if (signal.kind != Signal::Kind::harmonic || signal.frequency == 0) return;
     const double period = 1 / std::abs(signal.frequency) / dt;
     if (period < looks_of_a_period * double(longest_interval_))

@@ -1,20 +1,16 @@
 #include "experiments/run/timed/history.hpp"
 
-#include "solver/digest.hpp"
 #include "solver/error.hpp"
 #include "solver/model/element_place.hpp"
 #include "solver/model/reactions.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace dss {
@@ -24,13 +20,6 @@ constexpr std::array<std::string_view, 6> reaction_columns{
     "reaction_fx", "reaction_fy", "reaction_fz", "reaction_mx", "reaction_my", "reaction_mz"};
 constexpr std::array<std::string_view, 13> probe_columns{
     "ux", "uy", "uz", "vx", "vy", "vz", "sxx", "syy", "szz", "syz", "sxz", "sxy", "von_mises"};
-
-/// The number before the first comma of a line, or -1.
-long step_of(std::string_view line) {
-  long step = -1;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), step);
-  return error == std::errc{} && end != line.data() + line.size() && *end == ',' ? step : -1;
-}
 
 } // namespace
 
@@ -53,6 +42,11 @@ RunHistory::Sight RunHistory::sight(const Probe& probe, std::span<const double> 
           field_->at(probe.element, probe.place)};
 }
 
+std::size_t RunHistory::width() const {
+  return 4 + (problem_.clamps.empty() ? 0 : reaction_columns.size()) +
+         probes_.size() * probe_columns.size();
+}
+
 void RunHistory::add(long step, double time, std::span<const double> state, Rotation equations,
                      std::span<const double> signals) {
   if (!field_ || equations != equations_) field_.emplace(problem_, equations);
@@ -61,7 +55,8 @@ void RunHistory::add(long step, double time, std::span<const double> state, Rota
   FaceSections& sections = field_->sections();
   const auto [energy_j, reactions] =
       energy_and_reactions(problem_, sections.terms(), sections.fields(), signals);
-  std::vector<double> numbers{time, sections.terms().kinetic_energy(sections.fields()), energy_j};
+  std::vector<double> numbers{double(step), time,
+                              sections.terms().kinetic_energy(sections.fields()), energy_j};
   const auto put = [&](const auto& more) {
     numbers.insert(numbers.end(), more.begin(), more.end());
   };
@@ -76,45 +71,23 @@ void RunHistory::add(long step, double time, std::span<const double> state, Rota
     throw UnstableError(fmt::format("{}: a number of the history is beyond the range of numbers at "
                                     "t = {:g} s; take a smaller --dt",
                                     problem_.name, time));
-  std::string line = std::to_string(step);
-  for (const double number : numbers) fmt::format_to(std::back_inserter(line), ",{:.17g}", number);
-  while (!rows_.empty() && rows_.back().step >= step) rows_.pop_back();
-  rows_.push_back({step, std::move(line)});
+  while (!numbers_.empty() && this->step(0) >= double(step))
+    numbers_.resize(numbers_.size() - width());
+  numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
 }
 
-HistoryMark RunHistory::mark() const {
-  std::string text = header();
-  for (const Row& row : rows_) text += "\n" + row.line;
-  return {long(rows_.size()), text_digest(text)};
-}
-
-bool RunHistory::take_rows(const std::string& path, const HistoryMark& mark) {
-  clear();
-  if (!std::filesystem::is_regular_file(path)) return false;
-  const std::string text = read_text(path);
-  std::size_t from = text.find('\n');
-  if (text.substr(0, from) != header()) return false;
-  for (long n = 0; n < mark.rows && from != std::string::npos; ++n) {
-    const std::size_t to = text.find('\n', from + 1);
-    if (to == std::string::npos) return false;
-    std::string line = text.substr(from + 1, to - from - 1);
-    rows_.push_back({step_of(line), std::move(line)});
-    from = to;
-  }
-  const HistoryMark found = this->mark();
-  return found.rows == mark.rows && found.digest == mark.digest;
-}
-
-void RunHistory::go_on(const HistoryMark& mark) {
-  if (mark.digest.empty())
+void RunHistory::go_on(const HistoryRows& rows) {
+  if (rows.columns.empty())
     throw InputError(fmt::format("{}: the interrupted run had no history; leave --history, --every "
                                  "and --probe out",
                                  path_));
-  if (!take_rows(part(), mark) && !take_rows(path_, mark))
-    throw InputError(
-        fmt::format("{}: neither this file nor {} has the rows of the interrupted run; "
-                    "give its --history and --probe, or leave them out",
-                    path_, part()));
+  if (rows.columns != header() || rows.numbers.size() % width() != 0)
+    throw InputError(fmt::format("{}: the interrupted run had other columns; give its --probe, or "
+                                 "leave --history, --every and --probe out",
+                                 path_));
+  numbers_ = rows.numbers;
+  if (numbers_.size() / width() > 2 && step(0) - step(1) != step(1) - step(2))
+    numbers_.resize(numbers_.size() - width());
 }
 
 std::vector<std::string> RunHistory::probe_texts() const {
@@ -128,28 +101,16 @@ std::vector<std::string> RunHistory::probe_texts() const {
   return texts;
 }
 
-void RunHistory::write(AtomicFile& file) const {
-  file.write(header() + "\n");
-  for (const Row& row : rows_) file.write(row.line + "\n");
-}
-
 void RunHistory::write(FileSet& outputs) const {
   AtomicFile& file = outputs.open(path_);
-  write(file);
-  file.finish();
-  std::error_code ignored;
-  std::filesystem::remove(part(), ignored);
-}
-
-std::string RunHistory::save() const {
-  try {
-    AtomicFile file(part());
-    write(file);
-    file.commit();
-  } catch (const InputError& error) {
-    return error.what();
+  file.write(header() + "\n");
+  for (std::size_t at = 0; at < numbers_.size(); at += width()) {
+    std::string line = fmt::format("{:.0f}", numbers_[at]);
+    for (const double number : std::span(numbers_).subspan(at + 1, width() - 1))
+      fmt::format_to(std::back_inserter(line), ",{:.17g}", number);
+    file.write(line + "\n");
   }
-  return {};
+  file.finish();
 }
 
 } // namespace dss

@@ -14,9 +14,8 @@
 
 namespace dss {
 
-/// Rows are kept until the run ends, so the file is always whole. A run that is saved keeps its
-/// rows in a file beside it, F.csv.part, so that only a run that ends well replaces an earlier
-/// file.
+/// Rows are kept until the run has ended well; checkpoints have them, too. So the file is always
+/// whole, and no other run's.
 class RunHistory {
 public:
   /// @param path     of the CSV file
@@ -28,29 +27,22 @@ public:
   /// @param signals  a row at its time (solver/numerics/signal_rows.hpp)
   void add(long step, double time, std::span<const double> state, Rotation equations,
            std::span<const double> signals);
-  /// What a checkpoint has of the rows before it.
-  HistoryMark mark() const;
-  /// Goes on with the rows of the run that was interrupted, from the file of a saved or an ended
-  /// run.
-  /// @throws InputError if no file has them
-  void go_on(const HistoryMark& mark);
-  void clear() { rows_.clear(); }
+  /// The rows so far, for a checkpoint.
+  HistoryRows kept() const { return {header(), numbers_}; }
+  /// Goes on with the rows of a checkpoint. The row of its run's end is left out if it does not fit
+  /// the interval of those before it.
+  /// @throws InputError if they have other columns
+  void go_on(const HistoryRows& rows);
+  void clear() { numbers_.clear(); }
   /// Lets go of what adding a row needs, about 400 bytes an element.
   void release() { field_.reset(); }
   /// Adds the file to those of a run that has ended.
   void write(FileSet& outputs) const;
-  /// Writes the rows so far, when the run is saved.
-  /// @return one line if they cannot be written, else empty
-  std::string save() const;
 
   /// Where each probe is, and what it sees in the last row: one line each.
   std::vector<std::string> probe_texts() const;
 
 private:
-  struct Row {
-    long step = 0;
-    std::string line;
-  };
   /// What a probe sees.
   struct Sight {
     Vec3 displacement{}, velocity{};
@@ -58,17 +50,17 @@ private:
   };
   Sight sight(const Probe& probe, std::span<const double> state) const;
   std::string header() const;
-  std::string part() const { return path_ + ".part"; }
-  bool take_rows(const std::string& path, const HistoryMark& mark);
-  void write(AtomicFile& file) const;
+  std::size_t width() const; ///< numbers of a row
+  /// Of the n-th row from the end.
+  double step(std::size_t n) const { return *(numbers_.end() - std::ptrdiff_t((n + 1) * width())); }
 
   std::string path_;
   const Problem& problem_;
   std::vector<Probe> probes_;
   std::optional<StressField> field_; ///< of the equations of the last row
   Rotation equations_ = Rotation::quaternion;
-  std::vector<Row> rows_;
-  std::vector<Sight> last_; ///< of each probe
+  std::vector<double> numbers_; ///< row after row; the first is the step
+  std::vector<Sight> last_;     ///< of each probe
 };
 
 } // namespace dss

@@ -139,16 +139,9 @@ std::string TimedRun::save() {
   PutNumbers put(standing.steps_kept);
   if (adaptive_) adaptive_->each_kept(put);
   saved_->take(steps_done());
-  std::string failure;
-  if (history_) {
-    const WorkAlone alone(*executor_, is_root_);
-    failure = history_->save();
-    standing.history = history_->mark();
-  }
-  const std::string of_state =
-      write_checkpoint(request_.checkpoint, *identity_, standing, *executor_,
-                       problem_.lattice.element_count, is_root_);
-  return of_state.empty() ? failure : of_state;
+  if (history_) standing.history = history_->kept();
+  return write_checkpoint(request_.checkpoint, *identity_, standing, *executor_,
+                          problem_.lattice.element_count, is_root_);
 }
 
 std::vector<double> TimedRun::watch_kept() {
