@@ -8,10 +8,11 @@ namespace {
 
 using fixture::stress_at_rest;
 
-constexpr double cell = 0.01, G = fixture::solid_mu;
+constexpr double clamp_edge = 0.01, clamp_modulus = fixture::solid_mu; // G
 
 Problem bar(int nx, int ny, int nz, double nu) {
-  return fixture::contracting_solid(fixture::whole_grid(nx, ny, nz), {cell, cell, cell}, nu);
+  return fixture::contracting_solid(fixture::whole_grid(nx, ny, nz),
+                                    {clamp_edge, clamp_edge, clamp_edge}, nu);
 }
 /// Calls act(element, x, y, z) for all elements.
 template <class Act>
@@ -25,9 +26,9 @@ void pull_end(Problem& problem, int nx, double nu, const Vec3& traction) {
   each_element(problem, [&](std::size_t e, int x, int, int) {
     if (x == nx - 1) load.elements.push_back(e);
   });
-  const double area = cell * cell;
+  const double area = clamp_edge * clamp_edge;
   load.force = {area * traction[0], area * traction[1], area * traction[2]};
-  load.torque = {0, -cell / 2 * load.force[2], cell / 2 * load.force[1]};
+  load.torque = {0, -clamp_edge / 2 * load.force[2], clamp_edge / 2 * load.force[1]};
   set_face_strain(fixture::contracting(nu), problem.bodies[0].edge, load);
   problem.loads.push_back(load);
 }
@@ -44,7 +45,7 @@ TEST(StressAtClamp, is_whole_under_clamps_that_select_no_face) {
   for (const SymmetricTensor& stress : field.at_nodes(nodes))
     EXPECT_LE((matrix_of(stress) - fixture::symmetric(1e3, 0, 0, 0, 0, 0)).norm(), 1e-6);
   for (const ElementStress& element : field.elements())
-    EXPECT_NEAR(element.strain[0], 1e3 / (2 * G), 1e-12);
+    EXPECT_NEAR(element.strain[0], 1e3 / (2 * clamp_modulus), 1e-12);
 }
 
 TEST(StressAtClamp, of_several_layers_is_that_behind_its_last_one) {
@@ -88,7 +89,8 @@ TEST(StressAtClamp, has_the_shear_of_a_cantilever_in_every_column) {
       });
       for (std::size_t x = 0; x < stress.size(); ++x) {
         EXPECT_NEAR(stress[x] / 2.5e3, 1, 1e-6) << nu << ' ' << layers << ' ' << x;
-        EXPECT_NEAR(2 * G * strain[x] / 2.5e3, 1, 0.03) << nu << ' ' << layers << ' ' << x;
+        EXPECT_NEAR(2 * clamp_modulus * strain[x] / 2.5e3, 1, 0.03)
+            << nu << ' ' << layers << ' ' << x;
       }
     }
 }
@@ -99,7 +101,7 @@ TEST(StressAtClamp, has_strains_by_the_links_of_its_own_elements) {
   for (int c = 0; c < 54; ++c)
     if (c % 6 >= 3 && c != 4 * 6 + c % 6) grid.occupied[std::size_t(c)] = 0;
   constexpr double nu = 0.3;
-  Problem stepped = fixture::contracting_solid(grid, {cell, cell, cell}, nu);
+  Problem stepped = fixture::contracting_solid(grid, {clamp_edge, clamp_edge, clamp_edge}, nu);
   pull_end(stepped, 6, nu, {1e3, 0, 0});
   each_element(stepped, [&](std::size_t e, int x, int, int) {
     if (x == 0) stepped.clamps.push_back({e, dof_all, {dof_all}});
@@ -108,7 +110,7 @@ TEST(StressAtClamp, has_strains_by_the_links_of_its_own_elements) {
   each_element(stepped, [&](std::size_t e, int x, int, int) {
     if (x < 4) return;
     EXPECT_NEAR(field.of(e).stress[0], 1e3, 1e-6) << x;
-    EXPECT_NEAR(2 * G * (1 + nu) * field.of(e).strain[0], 1e3, 1e-6) << x;
+    EXPECT_NEAR(2 * clamp_modulus * (1 + nu) * field.of(e).strain[0], 1e3, 1e-6) << x;
   });
 }
 
@@ -116,7 +118,7 @@ TEST(StressAtClamp, has_strains_by_the_links_of_its_own_elements) {
 TEST(StressAtClamp, has_no_strain_of_joints) {
   Problem joined = bar(4, 1, 1, 0);
   Body second = joined.bodies[0];
-  second.name = "second", second.origin = {4 * cell, 0, 0};
+  second.name = "second", second.origin = {4 * clamp_edge, 0, 0};
   append_body(joined.lattice, fixture::whole_grid(4, 1, 1), 1);
   joined.bodies.push_back(second);
   ExtraLink joint{3, 4, 0, LinkLaw::material, joined.bodies[0].axis[0]};
@@ -128,7 +130,7 @@ TEST(StressAtClamp, has_no_strain_of_joints) {
   const StressField field = stress_at_rest(joined);
   for (std::size_t e = 0; e < 8; ++e) {
     EXPECT_NEAR(field.of(e).stress[0], 1e3, 1e-6) << e;
-    EXPECT_NEAR(2 * G * field.of(e).strain[0], 1e3, 1e-6) << e;
+    EXPECT_NEAR(2 * clamp_modulus * field.of(e).strain[0], 1e3, 1e-6) << e;
   }
 }
 
