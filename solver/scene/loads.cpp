@@ -209,6 +209,11 @@ std::vector<Load> read_load(const Node& node, const Solids& solids, const Proble
   }
   object.finish();
   const auto& solid = solids.bodies[std::size_t(body)];
+  for (const Load& load : loads)
+    for (const double number : {load.force[0], load.force[1], load.force[2], load.torque[0],
+                                load.torque[1], load.torque[2]})
+      if (!std::isfinite(number))
+        object.fail("the force on an element is beyond the range of numbers");
   for (Load& load : loads)
     if (load.face >= 0 && solid && solid->nu > 0) set_face_strain(*solid, own.edge, load);
   return loads;

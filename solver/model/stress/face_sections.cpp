@@ -181,7 +181,7 @@ Face FaceSections::face(std::size_t element, std::size_t face) const {
 
 /// Degrees of freedom that clamps hold at a face: those of clamps that select it; at a free one,
 /// and between two held elements, also those of clamps that select no face.
-std::uint8_t FaceSections::held_at(std::size_t element, const Face& at, std::size_t face) const {
+std::uint8_t FaceSections::clamped_at(std::size_t element, const Face& at, std::size_t face) const {
   const Clamp& clamp = clamps_[element];
   if (at.kind == FaceKind::linked) return at.unknown != 0 ? clamp.dofs : 0;
   std::uint8_t at_some = 0;
@@ -192,10 +192,10 @@ std::uint8_t FaceSections::held_at(std::size_t element, const Face& at, std::siz
 
 /// @param found  the faces of the element as links and loads leave them
 /// @param held   one of them, which is changed
-void FaceSections::hold(std::size_t element, std::size_t face, const Faces& found,
-                        Face& held) const {
+void FaceSections::continue_over_clamp(std::size_t element, std::size_t face, const Faces& found,
+                                       Face& held) const {
   const Face &own = found[face], &opposite = found[face ^ 1];
-  const std::uint8_t dofs = held_at(element, own, face);
+  const std::uint8_t dofs = clamped_at(element, own, face);
   if (dofs == 0 || opposite.kind != FaceKind::linked) return;
   const std::size_t next = beyond(element, face ^ 1);
   const Face far = this->face(next, face ^ 1);
@@ -231,7 +231,7 @@ Faces FaceSections::of(std::size_t element) const {
   for (std::size_t f = 0; f < found.size(); ++f) found[f] = face(element, f);
   if (clamps_[element].dofs == 0) return found;
   Faces faces = found;
-  for (std::size_t f = 0; f < faces.size(); ++f) hold(element, f, found, faces[f]);
+  for (std::size_t f = 0; f < faces.size(); ++f) continue_over_clamp(element, f, found, faces[f]);
   return faces;
 }
 

@@ -98,8 +98,9 @@ private:
   Face face(std::size_t element, std::size_t face) const;
   Eigen::Vector3d open_stretch(std::size_t element, std::size_t face,
                                const Eigen::Vector3d& force) const;
-  std::uint8_t held_at(std::size_t element, const Face& at, std::size_t face) const;
-  void hold(std::size_t element, std::size_t face, const Faces& found, Face& held) const;
+  std::uint8_t clamped_at(std::size_t element, const Face& at, std::size_t face) const;
+  void continue_over_clamp(std::size_t element, std::size_t face, const Faces& found,
+                           Face& held) const;
 
   const Problem& problem_;
   bool is_linearised_;
