@@ -18,6 +18,15 @@ Eigen::Vector3d arm_of(const Body& body, std::size_t face) {
   return (face % 2 == 1 ? 0.5 : -0.5) * body.edge[face / 2] * Eigen::Vector3d::Unit(axis);
 }
 
+/// Calls visit(item) for the items of a face, in a list that ascends by faces.
+template <class List, class Visit>
+void each_at(const List& list, std::size_t face, Visit&& visit) {
+  const auto is_before = [](const auto& item, std::size_t wanted) { return item.face < wanted; };
+  for (auto item = std::lower_bound(list.begin(), list.end(), face, is_before);
+       item != list.end() && item->face == face; ++item)
+    visit(*item);
+}
+
 } // namespace
 
 FaceSections::FaceSections(const Problem& problem, Rotation equations)
@@ -151,9 +160,6 @@ Eigen::Vector3d FaceSections::open_stretch(std::size_t element, std::size_t face
 
 Face FaceSections::face(std::size_t element, std::size_t face) const {
   Face found;
-  const auto of_face = [&](const auto& list, auto face_of) {
-    return std::ranges::equal_range(list, 6 * element + face, {}, face_of);
-  };
   if (const std::uint32_t own = links_[element][face]; own != no_link) {
     found.kind = FaceKind::linked;
     found.section = section(own); // loads and joints behind it act on the volume
@@ -162,19 +168,19 @@ Face FaceSections::face(std::size_t element, std::size_t face) const {
         found.unknown |= std::uint8_t(1 << b);
     return found;
   }
-  for (const FaceLoad& load : of_face(loads_, &FaceLoad::face)) {
+  each_at(loads_, 6 * element + face, [&](const FaceLoad& load) {
     const double sign = face % 2 == 1 ? 1 : -1; // on a lower face it is what is below that loads
     const Eigen::Vector3d arm = axes(element) * arm_of(body(element), face);
     found.kind = FaceKind::loaded;
     found.section.force += sign * load.force;
     found.section.moment += sign * (load.moment - arm.cross(load.force));
-  }
-  for (const FaceLink& joint : of_face(extra_links_, &FaceLink::face)) {
+  });
+  each_at(extra_links_, 6 * element + face, [&](const FaceLink& joint) {
     found.kind = FaceKind::loaded;
     const Section of_joint = section(joint.link);
     found.section.force += of_joint.force;
     found.section.moment += of_joint.moment;
-  }
+  });
   found.section.stretch = open_stretch(element, face, found.section.force);
   return found;
 }
