@@ -146,7 +146,8 @@ std::vector<PressureTerm> StaticSystem::pressure_terms(const State& state) const
     for (std::size_t kind = 0; kind < kinds; ++kind) {
       const Real constant = kind == 0 ? unit.volume : unit.curvature[Eigen::Index(kind - 1)];
       if (constant == 0) continue;
-      PressureTerm& term = terms.emplace_back(double(constant * dynamics_.volume(e)));
+      PressureTerm& term = terms.emplace_back();
+      term.weight = double(constant * dynamics_.volume(e));
       for (const auto& [dof, slope] : slopes[e][kind]) term.parts.push_back({dof, slope});
     }
   }
