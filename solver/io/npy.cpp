@@ -68,7 +68,7 @@ std::array<long, 3> shape_of(const std::string& path, std::string_view text) {
 Header header_of(const std::string& path, const std::string& bytes) {
   constexpr std::string_view magic = "\x93NUMPY";
   if (!bytes.starts_with(magic) || bytes.size() < 12) refuse(path, "is no array of NumPy");
-  const int version = bytes[6];
+  const char version = bytes[6];
   const std::size_t width = version == 1 ? 2 : 4;
   std::size_t length = 0;
   std::memcpy(&length, &bytes[8], width);

@@ -71,7 +71,7 @@ void FaceSections::add_extra_links() {
     extra_links_.push_back({6 * link.i + lower + 1, l});
     extra_links_.push_back({6 * link.j + lower, l});
   }
-  std::ranges::sort(extra_links_);
+  std::ranges::stable_sort(extra_links_, {}, &FaceLink::face);
 }
 
 void FaceSections::add_loads(std::span<const double> signals) {

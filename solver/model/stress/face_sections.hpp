@@ -81,7 +81,6 @@ private:
   struct FaceLink {
     std::size_t face; ///< 6 element + number of the face
     std::size_t link;
-    auto operator<=>(const FaceLink&) const = default;
   };
   struct FaceLoad {
     std::size_t face;
@@ -110,7 +109,7 @@ private:
   std::vector<Section> found_;                            ///< of all links, or empty
   std::vector<int> body_of_;
   std::vector<std::array<std::uint32_t, 6>> links_; ///< of the grid, by faces
-  std::vector<FaceLink> extra_links_;               ///< ascending
+  std::vector<FaceLink> extra_links_;               ///< ascending by face
   std::vector<FaceLoad> loads_;                     ///< ascending by face
   std::vector<Clamp> clamps_;                       ///< of each element
 };
