@@ -176,8 +176,6 @@ int run_analysis(const std::string& analysis, const RunRequest& run,
   for (const std::string& path :
        {run.output, run.state_csv, run.history, run.json == "-" ? std::string() : run.json})
     if (!path.empty()) require_writable(path);
-  if (!run.probes.empty()) // before the solution
-    read_probes(run.probes, load_scene(run.scene, run.overrides).problem);
   AnalysisResult result =
       analysis == "static" ? solve_static(run, request) : solve_modal(run, request);
   const bool is_fine = result.status == "ok";

@@ -1,7 +1,7 @@
 #include "solver/io/npy.hpp"
 
 #include "solver/error.hpp"
-#include "solver/memory.hpp"
+#include "solver/io/input_file.hpp"
 
 #include <bit>
 #include <charconv>
@@ -9,7 +9,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -24,13 +23,11 @@ static_assert(std::endian::native == std::endian::little,
 }
 
 std::string bytes_of(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) refuse(path, "cannot be read");
-  const auto size = std::filesystem::file_size(path, error);
-  require_memory(2 * double(size), fmt::format("the array of {}", path), "give a smaller one");
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(size, '\0');
-  if (!file.read(bytes.data(), std::streamsize(size))) refuse(path, "cannot be read");
+  std::ifstream file =
+      open_whole(path, 2, fmt::format("the array of {}", path), "give a smaller one");
+  if (!file.is_open()) refuse(path, "cannot be read");
+  std::string bytes(std::filesystem::file_size(path), '\0');
+  if (!file.read(bytes.data(), std::streamsize(bytes.size()))) refuse(path, "cannot be read");
   return bytes;
 }
 

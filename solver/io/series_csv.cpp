@@ -1,13 +1,12 @@
 #include "solver/io/series_csv.hpp"
 
 #include "solver/error.hpp"
-#include "solver/memory.hpp"
+#include "solver/io/input_file.hpp"
 #include "solver/nearest_name.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <string_view>
@@ -51,14 +50,9 @@ Heading heading_of(std::string_view text) {
 /// Reads a file line by line. Every error says where.
 class SeriesReader {
 public:
-  explicit SeriesReader(const std::string& path) : path_(path) {
-    std::error_code error;
-    const bool is_file = std::filesystem::is_regular_file(path, error); // a device may have no end
-    if (is_file) {
-      require_memory(2 * double(std::filesystem::file_size(path, error)),
-                     fmt::format("the series of {}", path), "give a shorter one");
-      file_.open(path);
-    }
+  explicit SeriesReader(const std::string& path)
+      : path_(path),
+        file_(open_whole(path, 2, fmt::format("the series of {}", path), "give a shorter one")) {
     if (!file_.is_open()) throw InputError(fmt::format("series file {} cannot be read", path));
   }
 
@@ -88,8 +82,9 @@ public:
   }
 
 private:
-  std::string path_, line_;
+  std::string path_;
   std::ifstream file_;
+  std::string line_;
   long number_ = 0;
 };
 
@@ -97,17 +92,16 @@ void require_no_gap(const std::string& path, const std::vector<double>& times) {
   std::vector<double> intervals;
   for (std::size_t k = 1; k < times.size(); ++k) intervals.push_back(times[k] - times[k - 1]);
   if (intervals.empty()) return;
-  const auto middle = intervals.begin() + std::ptrdiff_t(intervals.size() / 2);
   std::vector<double> sorted = intervals;
-  std::nth_element(sorted.begin(), sorted.begin() + (middle - intervals.begin()), sorted.end());
-  const double median = sorted[intervals.size() / 2];
+  const auto median = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
+  std::nth_element(sorted.begin(), median, sorted.end());
   const auto wide =
-      std::ranges::find_if(intervals, [&](double interval) { return interval > gap * median; });
+      std::ranges::find_if(intervals, [&](double interval) { return interval > gap * *median; });
   if (wide == intervals.end()) return;
   const auto k = std::size_t(wide - intervals.begin());
   throw InputError(fmt::format("{}: there is a gap from {:g} to {:g} s, {:.3g} times the usual "
                                "interval; fill it in",
-                               path, times[k], times[k + 1], *wide / median));
+                               path, times[k], times[k + 1], *wide / *median));
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "solver/model/frame.hpp"
 
+#include "solver/reference/orientation.hpp"
+
 #include <cmath>
 
 namespace dss {
@@ -34,12 +36,6 @@ Shares shares_of(double p2) {
   return {a, b, (std::sin(p) / p - 2 * a) / (2 * p2), (a - 3 * b) / (2 * p2)};
 }
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& r) {
-  Eigen::Matrix3d m;
-  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return m;
-}
-
 } // namespace
 
 FrameTurn turn_of_frame(const Problem& problem, double t) {
@@ -50,7 +46,8 @@ FrameTurn turn_of_frame(const Problem& problem, double t) {
   }
   const double p2 = r.squaredNorm(), growth = 2 * r.dot(first); // of p^2
   const auto [a, b, da, db] = shares_of(p2);
-  const Eigen::Matrix3d x = cross_matrix(r), x1 = cross_matrix(first), xx = x * x,
+  const Eigen::Matrix3d x = reference::cross_matrix<double>(r),
+                        x1 = reference::cross_matrix<double>(first), xx = x * x,
                         identity = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d j = identity - a * x + b * xx;
   const Eigen::Matrix3d j1 = -a * x1 - da * growth * x + b * (x1 * x + x * x1) + db * growth * xx;

@@ -1,5 +1,6 @@
 #include "solver/scene/geometry.hpp"
 
+#include "solver/io/input_file.hpp"
 #include "solver/io/npy.hpp"
 #include "solver/memory.hpp"
 
@@ -97,15 +98,9 @@ Layers read_layers(const Node& node) {
 /// the scene's file unless it is absolute.
 Layers read_layer_file(const Node& node) {
   const auto path = std::filesystem::path(node.file()).parent_path() / node.text();
-  std::error_code error;
-  const bool is_file = std::filesystem::is_regular_file(path, error); // a device may have no end
-  std::ifstream file;
-  if (is_file) {
-    require_memory(double(std::filesystem::file_size(path, error)),
-                   fmt::format("{}: the text of {}", node.where(), path.string()),
-                   "give the scene fewer voxels");
-    file.open(path);
-  }
+  std::ifstream file =
+      open_whole(path, 1, fmt::format("{}: the text of {}", node.where(), path.string()),
+                 "give the scene fewer voxels");
   if (!file.is_open())
     node.fail(fmt::format("voxel file {} cannot be read; its path is relative to the scene's file",
                           path.string()));

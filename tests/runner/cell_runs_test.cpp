@@ -1,8 +1,8 @@
 /// Repetitions that other programs disturb are repeated, and the effort for that is limited.
 #include "experiments/measure/cell_runs.hpp"
 #include "experiments/measure/samples.hpp"
+#include "tests/fixtures/own_directory.hpp"
 #include "tests/runner/measured_cells.hpp"
-#include "tests/runner/own_directory.hpp"
 
 #include <fstream>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "experiments/run/timed/run_record.hpp"
 #include "experiments/studies/speedup/device_columns.hpp"
 #include "experiments/studies/speedup/speedup_table.hpp"
+#include "tests/fixtures/own_directory.hpp"
 #include "tests/runner/measured_cells.hpp"
-#include "tests/runner/own_directory.hpp"
 
 #include <algorithm>
 #include <cmath>

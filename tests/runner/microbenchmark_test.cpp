@@ -8,7 +8,7 @@
 #include "experiments/studies/kernels/micro_tables.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
-#include "tests/runner/own_directory.hpp"
+#include "tests/fixtures/own_directory.hpp"
 #include "variants/isa/instruction_set.hpp"
 #include "variants/loading/loader.hpp"
 

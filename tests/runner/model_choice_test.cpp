@@ -4,7 +4,7 @@
 #include "experiments/run/timed/run.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
-#include "tests/runner/own_directory.hpp"
+#include "tests/fixtures/own_directory.hpp"
 
 #include <filesystem>
 #include <fstream>

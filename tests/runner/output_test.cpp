@@ -3,8 +3,8 @@
 #include "solver/io/file_set.hpp"
 #include "solver/io/state_csv.hpp"
 #include "solver/io/vtu.hpp"
+#include "tests/fixtures/own_directory.hpp"
 #include "tests/fixtures/problems.hpp"
-#include "tests/runner/own_directory.hpp"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,7 +1,7 @@
 /// The paper's tables from the tables of other studies.
 #include "experiments/studies/paper/paper_study.hpp"
 #include "solver/error.hpp"
-#include "tests/runner/own_directory.hpp"
+#include "tests/fixtures/own_directory.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

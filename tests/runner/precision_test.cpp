@@ -7,9 +7,9 @@
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "solver/model/energy.hpp"
+#include "tests/fixtures/own_directory.hpp"
 #include "tests/fixtures/problems.hpp"
 #include "tests/runner/measured_cells.hpp"
-#include "tests/runner/own_directory.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -1,7 +1,7 @@
 #include "experiments/base/records.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
-#include "tests/runner/own_directory.hpp"
+#include "tests/fixtures/own_directory.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -2,7 +2,7 @@
 #include "experiments/studies/balance/balance_study.hpp"
 #include "experiments/studies/speedup/speedup_study.hpp"
 #include "solver/error.hpp"
-#include "tests/runner/own_directory.hpp"
+#include "tests/fixtures/own_directory.hpp"
 
 #include <cstdlib>
 #include <filesystem>

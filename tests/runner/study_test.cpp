@@ -1,7 +1,7 @@
 #include "experiments/measure/cell_record.hpp"
 #include "experiments/studies/speedup/speedup_study.hpp"
 #include "solver/error.hpp"
-#include "tests/runner/own_directory.hpp"
+#include "tests/fixtures/own_directory.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>

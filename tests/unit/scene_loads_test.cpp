@@ -2,31 +2,18 @@
 #include "solver/error.hpp"
 #include "solver/io/series_csv.hpp"
 #include "solver/scene/scene.hpp"
+#include "tests/fixtures/own_directory.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 
 namespace dss {
 namespace {
 
-namespace fs = std::filesystem;
-
-class SceneLoads : public testing::Test {
+class SceneLoads : public test::OwnDirectory {
 protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("dss_loads_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string written(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
-  }
   /// The problem of a bar of 4 x 2 x 1 elements of 2 x 3 x 5 m with these keys.
   Problem with(const std::string& keys) const {
     return load_scene(
@@ -38,7 +25,6 @@ protected:
         .problem;
   }
   Problem with_load(const std::string& load) const { return with(R"("loads": [{)" + load + "}]"); }
-  fs::path folder_;
 };
 
 std::string refused(const std::function<void()>& act) {
@@ -195,9 +181,9 @@ TEST_F(SceneLoads, a_bad_series_is_refused_with_its_line) {
   says("t [s],a\n0,1\n1,nan\n", "no number");
   says("t [s],a\n0,1\n0,2\n", "line 3: 0 s is not after 0 s; times ascend");
   says("t [s],a\n0,1\n1,1\n2,1\n3,1\n40,1\n", "gap from 3 to 40 s, 37 times the usual interval");
-  EXPECT_NE(refused([&] { read_series((folder_ / "none.csv").string(), "a"); }).find("be read"),
+  EXPECT_NE(refused([&] { read_series((directory / "none.csv").string(), "a"); }).find("be read"),
             std::string::npos);
-  EXPECT_NE(refused([&] { read_series(folder_.string(), "a"); }).find("be read"),
+  EXPECT_NE(refused([&] { read_series(directory.string(), "a"); }).find("be read"),
             std::string::npos);
 }
 

@@ -1,17 +1,13 @@
 #include "solver/error.hpp"
 #include "solver/scene/scene.hpp"
+#include "tests/fixtures/own_directory.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 namespace dss {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The error of load_scene. The test fails if there is none, or if it has more than one line.
 std::string refusal(const std::string& scene, const std::vector<Override>& overrides = {}) {
@@ -29,17 +25,8 @@ void expect_part(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << "in: " << text;
 }
 
-class scene_file : public testing::Test {
+class scene_file : public test::OwnDirectory {
 protected:
-  void SetUp() override {
-    folder = fs::temp_directory_path() / ("dss_scene_" + std::to_string(getpid()));
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-  std::string written(const std::string& name, const std::string& text) const {
-    std::ofstream(folder / name) << text;
-    return (folder / name).string();
-  }
   /// A scene of one body with this geometry.
   std::string scene_with(const std::string& geometry) const {
     return written("shape.json",
@@ -47,7 +34,6 @@ protected:
       "bodies": [{"name": "b", "element": 1, "constants": {"law": "paper"}, "geometry": )" +
                        geometry + "}]}");
   }
-  fs::path folder;
 };
 
 TEST(scene_solid, takes_one_isotropic_material_without_lateral_contraction) {
@@ -62,8 +48,8 @@ TEST_F(scene_file, that_is_missing_is_refused_with_the_nearest_name) {
   expect_part(refusal("plate_papr"), "did you mean \"plate_paper\"?");
   expect_part(refusal("quite_another"), "known: block, cantilever_beam");
   expect_part(refusal(""), "no such scene");
-  expect_part(refusal((folder / "absent.json").string()), "no such scene file");
-  expect_part(refusal(folder.string() + "/"), "is a directory");
+  expect_part(refusal((directory / "absent.json").string()), "no such scene file");
+  expect_part(refusal(directory.string() + "/"), "is a directory");
 }
 
 TEST_F(scene_file, that_is_broken_json_is_refused_with_line_and_column) {

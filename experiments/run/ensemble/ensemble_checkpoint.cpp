@@ -17,7 +17,7 @@ nlohmann::ordered_json head_of(std::size_t member, const MemberRun& run, const M
       {"member", member}, {"step", batch.step()}, {"is_done", batch.is_done()}};
   if (!run.is_ok())
     head["failure"] = {{"steps", run.result().steps}, {"reason", run.result().reason}};
-  head["history"] = run.history().columns;
+  head["history"] = run.history_columns();
   return head;
 }
 

@@ -31,6 +31,7 @@ public:
   void look(std::span<const double> state, long step);
   /// Frames that are written stay if a later one cannot be written: the ensemble is saved.
   void keep_frames() { series_.keep_finished(); }
+  std::string history_columns() const { return history_ ? history_->columns() : ""; }
   HistoryRows history() const { return history_ ? history_->kept() : HistoryRows{}; }
   /// Goes on where an earlier run stood, in which the member may have failed.
   void resume(const MemberStanding& standing);

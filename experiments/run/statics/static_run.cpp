@@ -1,5 +1,6 @@
 #include "experiments/base/clock.hpp"
 #include "experiments/run/plan/names.hpp"
+#include "experiments/run/plan/probe.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/statics/analysis.hpp"
 #include "experiments/run/statics/analysis_model.hpp"
@@ -166,6 +167,7 @@ AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& reques
   if (!(request.tolerance > 0))
     throw InputError(fmt::format("--tolerance {:g}: give a positive number", request.tolerance));
   const Scene scene = load_scene(run.scene, run.overrides);
+  read_probes(run.probes, scene.problem); // mistakes are found before the solution
   if (const std::string why =
           why_series_too_short(scene.problem, double(scene.problem.steps) * scene.problem.dt);
       !why.empty())

@@ -26,14 +26,14 @@ constexpr std::array<std::string_view, 13> probe_columns{
 RunHistory::RunHistory(std::string path, const Problem& problem, std::vector<Probe> probes)
     : path_(std::move(path)), problem_(problem), probes_(std::move(probes)) {}
 
-std::string RunHistory::header() const {
-  std::string header = "step,t,kinetic_energy,energy";
+std::string RunHistory::columns() const {
+  std::string names = "step,t,kinetic_energy,energy";
   if (!problem_.clamps.empty())
-    for (const std::string_view column : reaction_columns) header += fmt::format(",{}", column);
+    for (const std::string_view column : reaction_columns) names += fmt::format(",{}", column);
   for (const Probe& probe : probes_)
     for (const std::string_view column : probe_columns)
-      header += fmt::format(",{}.{}", probe.name, column);
-  return header;
+      names += fmt::format(",{}.{}", probe.name, column);
+  return names;
 }
 
 RunHistory::Sight RunHistory::sight(const Probe& probe, std::span<const double> state) const {
@@ -81,7 +81,7 @@ void RunHistory::go_on(const HistoryRows& rows) {
     throw InputError(fmt::format("{}: the interrupted run had no history; leave --history, --every "
                                  "and --probe out",
                                  path_));
-  if (rows.columns != header() || rows.numbers.size() % width() != 0)
+  if (rows.columns != columns() || rows.numbers.size() % width() != 0)
     throw InputError(fmt::format("{}: the interrupted run had other columns; give its --probe, or "
                                  "leave --history, --every and --probe out",
                                  path_));
@@ -103,7 +103,7 @@ std::vector<std::string> RunHistory::probe_texts() const {
 
 void RunHistory::write(FileSet& outputs) const {
   AtomicFile& file = outputs.open(path_);
-  file.write(header() + "\n");
+  file.write(columns() + "\n");
   for (std::size_t at = 0; at < numbers_.size(); at += width()) {
     std::string line = fmt::format("{:.0f}", numbers_[at]);
     for (const double number : std::span(numbers_).subspan(at + 1, width() - 1))

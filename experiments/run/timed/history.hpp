@@ -27,8 +27,10 @@ public:
   /// @param signals  a row at its time (solver/numerics/signal_rows.hpp)
   void add(long step, double time, std::span<const double> state, Rotation equations,
            std::span<const double> signals);
+  /// Names of the columns, with commas between them.
+  std::string columns() const;
   /// The rows so far, for a checkpoint.
-  HistoryRows kept() const { return {header(), numbers_}; }
+  HistoryRows kept() const { return {columns(), numbers_}; }
   /// Goes on with the rows of a checkpoint. The row of its run's end is left out if it does not fit
   /// the interval of those before it.
   /// @throws InputError if they have other columns
@@ -49,7 +51,6 @@ private:
     SymmetricTensor stress{};
   };
   Sight sight(const Probe& probe, std::span<const double> state) const;
-  std::string header() const;
   std::size_t width() const; ///< numbers of a row
   /// Of the n-th row from the end.
   double step(std::size_t n) const { return *(numbers_.end() - std::ptrdiff_t((n + 1) * width())); }

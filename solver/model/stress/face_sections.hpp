@@ -26,7 +26,7 @@ struct Section {
 enum class FaceKind {
   free,   ///< nothing acts
   linked, ///< by links
-  loaded, ///< by loads that select the face (Load::face)
+  loaded  ///< by loads that select the face (Load::face), or by extra links
 };
 
 struct Face {
