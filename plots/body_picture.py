@@ -7,13 +7,13 @@ other body from a slanted direction. The displacements are magnified. No solver 
 Example: plots/body_picture.py results/fields/l_bracket.pvd --output results/figures/l_bracket.png
 """
 import argparse
-import base64
 import dataclasses
 import functools
 import math
 import pathlib
 import sys
 import xml.etree.ElementTree
+import zlib
 
 import matplotlib
 
@@ -34,17 +34,27 @@ STRIP = 6  # largest number of frames
 STRIP_COLUMNS = 3
 
 
+def inflated(data, offset):
+    """An array of appended data: a header of 64-bit words, then blocks of zlib."""
+    blocks = int.from_bytes(data[offset:offset + 8], "little")
+    words = numpy.frombuffer(data, "<u8", 3 + blocks, offset)
+    ends = offset + words.nbytes + numpy.cumsum(words[3:], dtype=numpy.int64)
+    starts = ends - words[3:].astype(numpy.int64)
+    return b"".join(zlib.decompress(data[start:end]) for start, end in zip(starts, ends))
+
+
 def read_vtu(path):
-    """Arrays of a .vtu with inline base64 data, by (section, name)."""
-    root, arrays = xml.etree.ElementTree.parse(path).getroot(), {}
+    """Arrays of a .vtu with compressed appended data, by (section, name)."""
+    head, _, tail = pathlib.Path(path).read_bytes().partition(b"<AppendedData")
+    data = tail[tail.index(b"_") + 1:]
+    root, arrays = xml.etree.ElementTree.fromstring(head + b"</VTKFile>"), {}
     for section in ("Points", "Cells", "PointData", "CellData"):
         for node in root.iterfind(f".//Piece/{section}/DataArray"):
-            name, data = node.get("Name"), base64.b64decode(node.text)
-            values = numpy.frombuffer(data, TYPES[node.get("type")], offset=8)
-            length = int.from_bytes(data[:8], "little")
-            assert values.nbytes == length, f"{path}: {name} is cut off"
+            raw = inflated(data, int(node.get("offset")))
+            values = numpy.frombuffer(raw, TYPES[node.get("type")])
             components = int(node.get("NumberOfComponents"))
-            arrays[section, name] = values.reshape(-1, components) if components > 1 else values
+            arrays[section, node.get("Name")] = (
+                values.reshape(-1, components) if components > 1 else values)
     return arrays
 
 

@@ -14,8 +14,8 @@ namespace {
 /// Options of `run` that the analysis uses, other than SCENE, --analysis and --set.
 std::vector<std::string> options_of(const std::string& analysis, const std::string& solver) {
   if (analysis == "modal") return {"--modes", "--prestressed", "--model", "--output", "--json"};
-  std::vector<std::string> known = {"--solver", "--model",   "--output", "--state",
-                                    "--probe",  "--history", "--json"};
+  std::vector<std::string> known = {"--solver",  "--model", "--output",  "--state",
+                                    "--picture", "--probe", "--history", "--json"};
   if (solver == "relaxation")
     for (const char* more : {"--masses", "--tolerance", "--variant", "--device", "--hybrid",
                              "--threads", "--precision", "--integrator", "--steps"})

@@ -110,7 +110,7 @@ void write_shapes(const Problem& problem, const RunRequest& run, FileSet& output
 }
 
 void write_files(const RunRequest& run, FileSet& outputs, AnalysisResult& result) {
-  if (run.output.empty() && run.state_csv.empty() && run.history.empty()) return;
+  if (run.output.empty() && final_files(run).empty() && run.history.empty()) return;
   const Problem problem = load_scene(run.scene, run.overrides).problem;
   if (result.analysis == "modal") return write_shapes(problem, run, outputs, result);
   const Rotation equations = rotation_of(*find_model(result.model));
@@ -124,9 +124,8 @@ void write_files(const RunRequest& run, FileSet& outputs, AnalysisResult& result
     result.probes = history.probe_texts();
     result.files.push_back(run.history);
   }
-  if (run.state_csv.empty()) return;
-  write_state(outputs, run.state_csv, problem, result.state, equations, result.signals);
-  result.files.push_back(run.state_csv);
+  write_final_files(outputs, run, problem, result.state, equations, result.signals);
+  for (const std::string& file : final_files(run)) result.files.push_back(file);
 }
 
 } // namespace
@@ -173,8 +172,8 @@ Json analysis_json(const RunRequest& run, const AnalysisResult& result) {
 
 int run_analysis(const std::string& analysis, const RunRequest& run,
                  const AnalysisRequest& request) {
-  for (const std::string& path :
-       {run.output, run.state_csv, run.history, run.json == "-" ? std::string() : run.json})
+  for (const std::string& path : {run.output, run.state_csv, run.picture, run.history,
+                                  run.json == "-" ? std::string() : run.json})
     if (!path.empty()) require_writable(path);
   AnalysisResult result =
       analysis == "static" ? solve_static(run, request) : solve_modal(run, request);

@@ -37,12 +37,12 @@ std::string escaped(const std::string& text) {
   return pattern;
 }
 
-/// Adds the files that a scene names, of {"voxels": {"file": ...}} and {"series": {"file": ...}} at
+/// Adds the files that a scene names, of {"voxels": {"file": ...}}, "stl" and "series", at
 /// any depth.
 void add_named_files(const nlohmann::json& value, const fs::path& folder,
                      std::vector<std::string>& files) {
   if (!value.is_structured()) return;
-  for (const char* key : {"voxels", "series"}) {
+  for (const char* key : {"voxels", "stl", "series"}) {
     if (!value.is_object() || !value.contains(key)) continue;
     const nlohmann::json& named = value[key];
     if (named.is_object() && named.contains("file") && named["file"].is_string())

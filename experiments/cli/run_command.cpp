@@ -83,6 +83,7 @@ void require_distinct_files(const RunRequest& request, const std::string& analys
   }
   if (has_members) {
     files.write_members("--state", request.state_csv);
+    files.write_members("--picture", request.picture);
     files.write_members("--history", request.history);
     files.write_members("--output", request.output);
     if (request.frames > 0 && !request.output.empty())
@@ -90,6 +91,7 @@ void require_distinct_files(const RunRequest& request, const std::string& analys
                           std::filesystem::path(request.output).replace_extension(".pvd").string());
   } else {
     files.write("--state", request.state_csv);
+    files.write("--picture", request.picture);
     files.write("--history", request.history);
     if (request.frames > 0 || analysis == "modal")
       files.write_series("--output", request.output);

@@ -135,6 +135,8 @@ void add_output_options(CLI::App& command, RunRequest& request) {
       ->capture_default_str();
   command.add_option("--state", request.state_csv,
                      "F.csv: file for the final state, one row per element");
+  command.add_option("--picture", request.picture,
+                     "F.svg: picture of the final state: von Mises stress on the deformed body");
   command
       .add_option("--probe", request.probes,
                   "NAME=BODY,x,y,z: a place in a body, in m at rest. The history has its "

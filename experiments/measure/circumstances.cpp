@@ -4,7 +4,7 @@
 #include "solver/digest.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
-#include "solver/lattice/shape_digest.hpp"
+#include "solver/model/file_digest.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -45,8 +45,7 @@ void append(const std::string& path, const char* list, const std::string& text) 
 } // namespace
 
 std::string scene_digest(const Scene& scene) {
-  return text_digest(read_text(scene.path) + shape_digest(scene.problem.lattice) +
-                     series_digest(scene.problem));
+  return text_digest(read_text(scene.path) + file_digest(scene.problem));
 }
 
 std::string scene_key(const Cell& cell, const Scene& scene) {

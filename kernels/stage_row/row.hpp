@@ -126,6 +126,8 @@ struct RowTask {
   const RowPressure<T>* pressure = nullptr; ///< null if the elements have none
   /// Of each pack the places of its elements at rest, if the frame rotates; else null.
   const T* rest = nullptr;
+  /// Of each pack 1 over the mass ratios of its elements (Problem::mass_ratio); null if all are 1.
+  const T* inverse_ratios = nullptr;
   /// Frame acceleration x, y, z, then the loads' values, then the frame's angular velocity and its
   /// derivative if it rotates. Of an ensemble: each of all lanes.
   const T* signals = nullptr;

@@ -275,8 +275,17 @@ struct StageRow {
       each_component(sum.moment, add);
     }
   }
-  /// Rows with few terms have no code for a frame that rotates (needed_terms).
-  static constexpr bool may_rotate = P::of_model == Model::spatial && terms.is_full();
+  /// Rows with few terms have no code for a frame that rotates, and none for elements that differ
+  /// in mass (needed_terms).
+  static constexpr bool has_rare_terms = P::of_model == Model::spatial && terms.is_full();
+  /// An element of r times the mass and inertia of its body moves as if 1 / r of the wrench acted
+  /// on the body's own element.
+  void divide_by_ratio(int pack, wrench& sum) const {
+    const R inverse = simd::load(task.inverse_ratios + std::ptrdiff_t(pack) * W);
+    const auto divide = [&](R& c) { c = c * inverse; };
+    each_component(sum.force, divide);
+    each_component(sum.moment, divide);
+  }
   void turn_frame(int pack, const element& e, const spin& inertia, const spin& inverse_inertia,
                   wrench& sum, spin& turn) const {
     const auto part = [&](int first) {
@@ -408,10 +417,12 @@ struct StageRow {
                              from_z, pack, links, stride, sum);
       sum = P::wrench_finished(sum, i, laws[0], tie, flags);
       if (is_applied) apply_wrenches(pack, sum);
+      if constexpr (has_rare_terms)
+        if (task.inverse_ratios != nullptr) divide_by_ratio(pack, sum);
       if (!is_plain && is_accelerated) sum.force = P::vec_axpy(R(body.mass), frame, sum.force);
       read_again();
       spin turn = P::turn(sum.moment, i.e, inertia, inverse_inertia, terms.is_gyroscopic);
-      if constexpr (may_rotate)
+      if constexpr (has_rare_terms)
         if (!is_plain && body.frame_signal > 0)
           turn_frame(pack, i.e, inertia, inverse_inertia, sum, turn);
       if (is_applied) hold_clamped(pack, sum.force, turn);

@@ -128,6 +128,7 @@ Part make_part(const Problem& problem, const Decomposition& decomposition, int i
   copy_common(problem, part.problem);
   copy_kinds(problem.link_kinds, addresses, part.problem.link_kinds);
   copy_kinds(problem.pressure_kinds, addresses, part.problem.pressure_kinds);
+  copy_kinds(problem.materials, addresses, part.problem.materials);
   restrict_terms(problem, addresses, part.problem);
   part.own_elements = zones.own.cell_count();
   part.runs = addresses.runs_of(grid, zones.own);

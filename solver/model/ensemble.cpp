@@ -59,6 +59,9 @@ std::string why_other_topology(const Problem& one, const Problem& other) {
     return "its elements lie elsewhere";
   if (one.has_rotating_frame() != other.has_rotating_frame())
     return other.has_rotating_frame() ? "its frame rotates" : "its frame does not rotate";
+  if (one.materials != other.materials) return "its elements are of other materials";
+  if (one.has_mass_ratios() != other.has_mass_ratios())
+    return "the densities of its materials are equal in one of them";
   if (one.link_kinds != other.link_kinds) return "links of its bodies are of other kinds";
   if (one.pressure_kinds != other.pressure_kinds)
     return "elements of its bodies have other pressures, because nu is 0 in one of them";

@@ -17,8 +17,10 @@ static bool bends(const Body& body) {
 std::vector<Terms> needed_terms(const Problem& problem, Model model) {
   const int axes = descriptor(model).axes;
   Terms common;
-  common.is_tied = problem.stabilization.is_present() || problem.has_rotating_frame();
-  common.is_gyroscopic = problem.has_rotating_frame(); // full rows alone have its code
+  // Full rows alone have the code of a frame that rotates, and of elements that differ in mass.
+  const bool is_full = problem.has_rotating_frame() || problem.has_mass_ratios();
+  common.is_tied = problem.stabilization.is_present() || is_full;
+  common.is_gyroscopic = is_full;
   for (const Body& body : problem.bodies) {
     body.each_kind([&](const AxisConstants& a, int) {
       common.is_damped |= a.is_damped();

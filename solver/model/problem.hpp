@@ -64,6 +64,9 @@ struct Body {
   Vec3 edge{};                     ///< edge lengths of an element [m]
   Vec3 origin{};                   ///< rest position of the low corner of cell (0, 0, 0) [m]
   double mass = 0;                 ///< of one element [kg]
+  /// Of a body of several materials, by their numbers: mass of an element over `mass`, which holds
+  /// for its inertia as well. Else empty.
+  std::vector<double> mass_ratios;
   Vec3 inertia{}; ///< principal moments of one element about its body axes [kg m^2]
   std::array<AxisConstants, 3> axis{}; ///< constants of links along x, y, z: of the kind 0
   /// Of the kinds 1, 2, ... on each axis, if links differ (Problem::link_kinds).
@@ -141,6 +144,9 @@ struct Tolerance {
 
 /// Why a variant does not compute a problem in a rotating frame.
 inline constexpr const char* rotation_is_missing = "has no frame that rotates (\"base_rotation\")";
+/// Why a variant does not compute a problem whose elements differ in mass.
+inline constexpr const char* mass_ratios_are_missing =
+    "has no bodies of several materials with different densities";
 /// Why a variant does not compute a problem whose elements have a pressure.
 inline constexpr const char* pressure_is_missing =
     "has no law \"solid\" with nu > 0, whose elements have a pressure";
@@ -155,6 +161,8 @@ struct Problem {
   std::vector<std::array<std::uint8_t, 3>> link_kinds;
   /// For each element its kind in Body::pressures. Empty if no body has any.
   std::vector<std::uint8_t> pressure_kinds;
+  /// For each element the number of its material, 1 to 255. Empty if all are 1.
+  std::vector<std::uint8_t> materials;
   std::vector<Clamp> clamps; ///< ascending by element, at most one for each
   std::vector<Load> loads;
   std::vector<ExtraLink> extra_links;
@@ -184,6 +192,18 @@ struct Problem {
     for (const Load& load : loads) visit(load.signal);
     for (const auto* of_frame : {&frame_acceleration, &frame_rotation})
       for (const Signal& signal : *of_frame) visit(signal);
+  }
+  int material(std::size_t element) const { return materials.empty() ? 1 : materials[element]; }
+  /// Mass of an element over that of its body. @param body  the element's own
+  double mass_ratio(std::size_t element, const Body& body) const {
+    return body.mass_ratios.empty() ? 1 : body.mass_ratios[std::size_t(material(element))];
+  }
+  double mass(std::size_t element, const Body& body) const {
+    return body.mass * mass_ratio(element, body);
+  }
+  /// Whether elements of some body differ in mass.
+  bool has_mass_ratios() const {
+    return std::ranges::any_of(bodies, [](const Body& body) { return !body.mass_ratios.empty(); });
   }
   bool has_pressure() const { return !pressure_kinds.empty(); }
   bool has_rotating_frame() const { return !std::ranges::all_of(frame_rotation, is_zero_always); }

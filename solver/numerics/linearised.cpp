@@ -120,6 +120,8 @@ std::vector<PressureTerm> pressure_terms(const Problem& problem, const std::vect
 Linearised::Linearised(const Problem& problem)
     : body(problem.lattice.element_count), clamped(problem.lattice.element_count) {
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) { body[e] = row.body; });
+  for (std::size_t e = 0; e < body.size() && problem.has_mass_ratios(); ++e)
+    mass_ratio.push_back(problem.mass_ratio(e, problem.bodies[std::size_t(body[e])]));
   for (const Clamp& clamp : problem.clamps) clamped[clamp.element] |= clamp.dofs;
   std::vector<std::size_t> first_kind; // of each body
   for (const Body& b : problem.bodies) {
@@ -153,6 +155,7 @@ Linearised::Linearised(const Problem& problem)
 
 Vector6 Linearised::free_inverse_inertia(std::size_t element) const {
   Vector6 inverse = inverse_inertia[std::size_t(body[element])];
+  if (!mass_ratio.empty()) inverse /= mass_ratio[element];
   for (int dof = 0; dof < 6; ++dof)
     if (clamped[element] >> dof & 1) inverse[dof] = 0;
   return inverse;

@@ -49,6 +49,7 @@ struct Linearised {
   std::vector<int> body;                ///< of each element
   std::vector<std::uint8_t> clamped;    ///< bits of Dof of each element
   std::vector<Vector6> inverse_inertia; ///< of each body [1/kg, 1/(kg m^2)]
+  std::vector<double> mass_ratio;       ///< of each element (Problem::mass_ratio); empty: all 1
   Vector6 tie_stiffness, tie_damping;   ///< of the stabilization, for every element
 
   explicit Linearised(const Problem& problem);

@@ -149,7 +149,10 @@ double least_damping(const Linearised& system) {
 Spectrum spectrum_bound(const Problem& problem) {
   const Linearised system(problem);
   double tie_stiffness = 0, tie_damping = 0;
-  for (const Vector6& inverse : system.inverse_inertia) {
+  const double lightest =
+      system.mass_ratio.empty() ? 1 : std::min(1.0, std::ranges::min(system.mass_ratio));
+  for (const Vector6& of_body : system.inverse_inertia) {
+    const Vector6 inverse = of_body / lightest;
     tie_stiffness = std::max(tie_stiffness, inverse.cwiseProduct(system.tie_stiffness).maxCoeff());
     tie_damping = std::max(tie_damping, inverse.cwiseProduct(system.tie_damping).maxCoeff());
   }

@@ -56,6 +56,9 @@ Dynamics<T>::Dynamics(const Problem& problem, Rotation rotation)
                        T(body.edge[0]) * T(body.edge[1]) * T(body.edge[2])});
   problem.lattice.for_each_element(
       [&](std::size_t e, const Row& row, int) { elements_[e].body = row.body; });
+  for (std::size_t e = 0; e < elements_.size() && problem.has_mass_ratios(); ++e)
+    elements_[e].mass_ratio =
+        T(problem.mass_ratio(e, problem.bodies[std::size_t(elements_[e].body)]));
   for (const Clamp& clamp : problem.clamps) elements_[clamp.element].clamped |= clamp.dofs;
   for (std::size_t e = 0; e < elements_.size() && problem.has_pressure(); ++e) {
     const ElementPressure pressure =
@@ -256,7 +259,7 @@ void Dynamics<T>::add_frame_wrenches(std::span<const double> signals) {
   const Vector<T> rate = Eigen::Map<const Eigen::Vector3d>(of_frame).template cast<T>(),
                   change = Eigen::Map<const Eigen::Vector3d>(of_frame + 3).template cast<T>();
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
+    const BodyMass body = mass_of(e);
     const Motion<T>& m = motions_[e];
     const Vector<T> x = rest_[e] + m.u, whole = m.w + rate;
     wrenches_[e].force -=
@@ -308,8 +311,7 @@ void Dynamics<T>::wrenches(std::span<const T> state, std::span<const double> sig
   find_wrenches(state, signals);
   const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Vector<T> force =
-        wrenches_[e].force + bodies_[std::size_t(elements_[e].body)].mass * frame;
+    const Vector<T> force = wrenches_[e].force + mass_of(e).mass * frame;
     for (const int axis : {0, 1, 2}) {
       wrenches[6 * e + std::size_t(axis)] = force[axis];
       wrenches[6 * e + 3 + std::size_t(axis)] = wrenches_[e].moment[axis];
@@ -323,7 +325,7 @@ void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signal
   find_wrenches(state, signals);
   const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
+    const BodyMass body = mass_of(e);
     const Motion<T>& motion = motions_[e];
     Vector<T> dv = wrenches_[e].force / body.mass + frame;
     Vector<T> dw = angular_acceleration(body, motion, wrenches_[e].moment);
@@ -342,9 +344,18 @@ void Dynamics<T>::rates(std::span<const T> state, std::span<const double> signal
   }
 }
 
+/// Mass and inertia of an element.
+template <class T>
+typename Dynamics<T>::BodyMass Dynamics<T>::mass_of(std::size_t e) const {
+  BodyMass own = bodies_[std::size_t(elements_[e].body)];
+  own.mass *= elements_[e].mass_ratio;
+  own.inertia *= elements_[e].mass_ratio;
+  return own;
+}
+
 template <class T>
 T Dynamics<T>::kinetic_energy_of(std::size_t e) const {
-  const BodyMass& body = bodies_[std::size_t(elements_[e].body)];
+  const BodyMass body = mass_of(e);
   const Motion<T>& m = motions_[e];
   const Vector<T> body_spin = body_axes(m).transpose() * m.w;
   return body.mass * m.v.squaredNorm() / T(2) + body.inertia.dot(body_spin.cwiseAbs2()) / T(2);
@@ -397,8 +408,7 @@ T Dynamics<T>::supplied_power(std::span<const T> state, std::span<const double> 
   const Vector<T> frame{T(signals[0]), T(signals[1]), T(signals[2])};
   T power = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Vector<T> force =
-        wrenches_[e].force + bodies_[std::size_t(elements_[e].body)].mass * frame;
+    const Vector<T> force = wrenches_[e].force + mass_of(e).mass * frame;
     power += force.dot(motions_[e].v) + wrenches_[e].moment.dot(motions_[e].w);
   }
   return power;

@@ -103,6 +103,7 @@ private:
   struct Element {
     int body = 0;
     std::uint8_t clamped = 0; ///< bits of Dof
+    T mass_ratio = 1;         ///< Problem::mass_ratio
   };
   struct BodyMass {
     T mass;
@@ -135,6 +136,8 @@ private:
 
   Coordinates<T> coordinates_;
   std::vector<Element> elements_;
+  BodyMass mass_of(std::size_t e) const;
+
   std::vector<BodyMass> bodies_;
   std::vector<LinkProperties<T>> properties_;
   std::vector<Link> links_;

@@ -112,14 +112,41 @@ Material read_solid_material(ObjectNode& constants) {
   return read_material(constants, true);
 }
 
+/// {"1": {"E", "nu", "rho"}, "2": ...}: by the numbers of the voxels.
+BodyMaterials read_materials(const Node& node, const std::vector<int>& numbers, Body& body) {
+  ObjectNode object(node);
+  std::map<int, Material> materials;
+  std::map<int, double> masses;
+  for (const int number : numbers) {
+    ObjectNode constants(object.require(std::to_string(number)));
+    materials[number] = read_solid_material(constants);
+    read_density(constants, body);
+    masses[number] = body.mass;
+    constants.finish();
+  }
+  object.finish();
+  body.mass = masses.begin()->second;
+  body.inertia = box_inertia(body.mass, body.edge);
+  if (std::ranges::any_of(masses, [&](const auto& one) { return one.second != body.mass; })) {
+    body.mass_ratios.assign(std::size_t(numbers.back()) + 1, 1);
+    for (const auto& [number, mass] : masses)
+      body.mass_ratios[std::size_t(number)] = mass / body.mass;
+  }
+  return BodyMaterials(std::move(materials));
+}
+
 } // namespace
 
-PairOfElements pair_of_elements(const Body& from, const Body& to, int axis) {
+PairOfElements pair_of_elements(const Body& from, const Body& to, int axis, double ratio_from,
+                                double ratio_to) {
   const auto a = std::size_t(axis);
-  PairOfElements pair{from.edge, from.mass * to.mass / (from.mass + to.mass), {}};
+  const auto reduced = [&](double i, double j) {
+    i *= ratio_from, j *= ratio_to;
+    return i * j / (i + j);
+  };
+  PairOfElements pair{from.edge, reduced(from.mass, to.mass), {}};
   pair.edge[a] = (from.edge[a] + to.edge[a]) / 2;
-  for (std::size_t b = 0; b < 3; ++b)
-    pair.inertia[b] = from.inertia[b] * to.inertia[b] / (from.inertia[b] + to.inertia[b]);
+  for (std::size_t b = 0; b < 3; ++b) pair.inertia[b] = reduced(from.inertia[b], to.inertia[b]);
   return pair;
 }
 
@@ -164,14 +191,22 @@ void set_damping(double ratio, double mass, const Vec3& inertia, AxisConstants& 
   }
 }
 
-std::optional<Material> read_body_constants(const Node& node, Body& body) {
+BodyMaterials read_body_constants(const Node& node, const std::vector<int>& numbers, Body& body) {
   ObjectNode constants(node);
   const auto law = constants.require("law").choice("law", law_names);
   body.law = law == paper ? LinkLaw::paper : LinkLaw::material;
-  std::optional<Material> of_solid;
+  const auto materials = constants.find("materials");
+  if (materials && law != solid)
+    materials->fail("bodies of several materials have the law \"solid\"");
+  if (numbers.size() > 1 && !materials)
+    constants.fail(fmt::format("the voxels have {} materials, {} to {}; give the constants of each "
+                               "in \"materials\", with the law \"solid\"",
+                               numbers.size(), numbers.front(), numbers.back()));
+  BodyMaterials of_solid;
   if (law == paper) read_paper_body(constants, body);
   if (law == material) read_material_body(constants, body);
-  if (law == solid) {
+  if (law == solid && materials) of_solid = read_materials(*materials, numbers, body);
+  if (law == solid && !materials) {
     of_solid = read_solid_material(constants);
     read_density(constants, body);
   }

@@ -4,7 +4,11 @@
 #include "solver/json/object_node.hpp"
 #include "solver/model/problem.hpp"
 
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace dss {
 
@@ -15,6 +19,26 @@ struct Material {
   double damping_ratio = 0;
   /// Poisson's ratio of a solid: 0 if G is given, because a body then has no lateral contraction.
   double nu = 0;
+};
+
+/// The materials of a body of the law `solid`, by their numbers in its voxels.
+class BodyMaterials {
+public:
+  BodyMaterials() = default;                                     ///< none: the body has another law
+  BodyMaterials(const Material& only) : materials_{{1, only}} {} // of most bodies
+  explicit BodyMaterials(std::map<int, Material> materials) : materials_(std::move(materials)) {}
+
+  bool is_solid() const { return !materials_.empty(); }
+  std::size_t count() const { return materials_.size(); }
+  const Material& of(int number) const { return materials_.at(number); }
+  /// Whether an element of some material has a pressure.
+  bool is_contracting() const {
+    return std::ranges::any_of(materials_, [](const auto& one) { return one.second.nu > 0; });
+  }
+  const std::map<int, Material>& all() const { return materials_; }
+
+private:
+  std::map<int, Material> materials_;
 };
 
 /// Torsion constant [m^4] of a rectangle with sides b and c [m], to rounding. Source: Timoshenko
@@ -44,11 +68,14 @@ struct PairOfElements {
   double mass;
   Vec3 inertia;
 };
-PairOfElements pair_of_elements(const Body& from, const Body& to, int axis);
+/// @param ratio_from, ratio_to  of the elements' masses to those of their bodies
+PairOfElements pair_of_elements(const Body& from, const Body& to, int axis, double ratio_from = 1,
+                                double ratio_to = 1);
 
 /// Fills law, mass, inertia and axis of a body. Its edges must be set.
-/// @return the material of a solid, whose links are set later (solid.hpp)
-std::optional<Material> read_body_constants(const Node& node, Body& body);
+/// @param numbers  of the materials of its voxels, ascending
+/// @return the materials of a solid, whose links are set later (solid.hpp)
+BodyMaterials read_body_constants(const Node& node, const std::vector<int>& numbers, Body& body);
 
 /// Fills law and constants of a link between elements of two bodies. Its axis must be set.
 /// @return the material of a solid, whose constants are set later

@@ -1,15 +1,14 @@
 #include "solver/scene/geometry.hpp"
 
-#include "solver/io/input_file.hpp"
-#include "solver/io/npy.hpp"
 #include "solver/memory.hpp"
+#include "solver/scene/surface_body.hpp"
+#include "solver/scene/voxel_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <random>
 #include <string>
@@ -18,36 +17,6 @@
 
 namespace dss {
 namespace {
-
-using GridPoint = std::array<long, 3>;
-using Layers = std::vector<std::vector<std::string>>; ///< layers by z, lines by y, characters by x
-
-GridPoint read_point(const Node& node, long least) {
-  node.vector(); // checks the shape of the array
-  const std::vector<Node> parts = node.items();
-  return {parts[0].whole(least, max_elements), parts[1].whole(least, max_elements),
-          parts[2].whole(least, max_elements)};
-}
-
-/// Cells of a grid, at most max_elements. In double, because the product of three such sizes
-/// overflows 64 bits.
-double cells_of(const Node& node, const GridPoint& size) {
-  const double cells = double(size[0]) * double(size[1]) * double(size[2]);
-  if (cells > double(max_elements))
-    node.fail(fmt::format("{} x {} x {} cells are too many; at most {} are allowed", size[0],
-                          size[1], size[2], max_elements));
-  return cells;
-}
-
-VoxelGrid empty_grid(const Node& node, const GridPoint& size) {
-  // The grid and the lattice that is made from it take a byte each.
-  require_memory(2 * cells_of(node, size),
-                 fmt::format("{}: {} x {} x {} cells", node.where(), size[0], size[1], size[2]),
-                 "give the scene fewer");
-  VoxelGrid grid{int(size[0]), int(size[1]), int(size[2]), {}};
-  grid.occupied.assign(std::size_t(size[0] * size[1] * size[2]), 0);
-  return grid;
-}
 
 void fill(VoxelGrid& grid, const GridPoint& from, const GridPoint& size) {
   for (long z = from[2]; z < from[2] + size[2]; ++z)
@@ -85,88 +54,8 @@ VoxelGrid read_boxes(const Node& node) {
   return grid;
 }
 
-Layers read_layers(const Node& node) {
-  Layers layers;
-  for (const Node& layer : node.items()) {
-    layers.emplace_back();
-    for (const Node& line : layer.items()) layers.back().push_back(line.text());
-  }
-  return layers;
-}
-
-/// Layers of a text file. A blank line or the end of the file ends a layer. The path is relative to
-/// the scene's file unless it is absolute.
-Layers read_layer_file(const Node& node) {
-  const auto path = std::filesystem::path(node.file()).parent_path() / node.text();
-  std::ifstream file =
-      open_whole(path, 1, fmt::format("{}: the text of {}", node.where(), path.string()),
-                 "give the scene fewer voxels");
-  if (!file.is_open())
-    node.fail(fmt::format("voxel file {} cannot be read; its path is relative to the scene's file",
-                          path.string()));
-  Layers layers(1);
-  for (std::string line; std::getline(file, line);) {
-    if (line.ends_with('\r')) line.pop_back();
-    if (!line.empty())
-      layers.back().push_back(line);
-    else if (!layers.back().empty())
-      layers.emplace_back();
-  }
-  if (layers.back().empty()) layers.pop_back();
-  return layers;
-}
-
-/// Requires that all lines are of one length, and all layers of as many lines.
-void require_box(const Node& node, const Layers& layers) {
-  if (layers.empty() || layers[0].empty() || layers[0][0].empty())
-    node.fail("the voxel mask is empty; a body has at least one element");
-  const std::size_t nx = layers[0][0].size(), ny = layers[0].size();
-  for (std::size_t z = 0; z < layers.size(); ++z) {
-    if (layers[z].size() != ny)
-      node.fail(fmt::format("layer {} has {} lines; layer 0 has {}", z, layers[z].size(), ny));
-    for (std::size_t y = 0; y < ny; ++y) {
-      const std::string& line = layers[z][y];
-      if (line.size() != nx)
-        node.fail(fmt::format("layer {}, line {} has {} characters; the first line has {}", z, y,
-                              line.size(), nx));
-    }
-  }
-}
-
-VoxelGrid grid_of(const Node& node, const Layers& layers) {
-  require_box(node, layers); // before the grid takes memory
-  VoxelGrid grid =
-      empty_grid(node, {long(layers[0][0].size()), long(layers[0].size()), long(layers.size())});
-  std::size_t cell = 0;
-  for (std::size_t z = 0; z < layers.size(); ++z)
-    for (std::size_t y = 0; y < layers[z].size(); ++y)
-      for (const char mark : layers[z][y]) {
-        if (mark != '#' && mark != '.')
-          node.fail(fmt::format(
-              "layer {}, line {} has '{}'; write # for an element and . for a hole", z, y, mark));
-        grid.occupied[cell++] = mark == '#';
-      }
-  return grid;
-}
-
-/// An array of NumPy. The path is relative to the scene's file unless it is absolute.
-VoxelGrid read_array_file(const Node& node) {
-  const auto path = std::filesystem::path(node.file()).parent_path() / node.text();
-  NpyMask mask = node.placed([&] { return read_npy_mask(path.string(), max_elements); });
-  return {int(mask.shape[0]), int(mask.shape[1]), int(mask.shape[2]), std::move(mask.cells)};
-}
-
-VoxelGrid read_voxels(const Node& node) {
-  ObjectNode voxels(node);
-  const std::string key = voxels.require_one({"layers", "file"});
-  const Node mask = voxels.require(key);
-  voxels.finish();
-  if (key == "file" && mask.text().ends_with(".npy")) return read_array_file(mask);
-  return grid_of(mask, key == "file" ? read_layer_file(mask) : read_layers(mask));
-}
-
 void require_element(const Node& node, const VoxelGrid& grid, const char* what) {
-  if (std::find(grid.occupied.begin(), grid.occupied.end(), 1) == grid.occupied.end())
+  if (std::ranges::all_of(grid.occupied, [](std::uint8_t cell) { return cell == 0; }))
     node.fail(fmt::format("{} has no element; a body has at least one", what));
 }
 
@@ -205,40 +94,80 @@ VoxelGrid read_struts(const Node& node) {
   return grid;
 }
 
-} // namespace
+const std::vector<std::string> geometry_kinds = {"box", "boxes",  "voxels",
+                                                 "stl", "porous", "struts"};
 
-VoxelGrid read_geometry(const Node& node) {
-  ObjectNode shape(node);
-  const std::string key = shape.require_one({"box", "boxes", "voxels", "porous", "struts"});
+/// The only key of a geometry, and its value.
+std::pair<std::string, Node> kind_of(const Node& geometry) {
+  ObjectNode shape(geometry);
+  const std::string key = shape.require_one(geometry_kinds);
   const Node what = shape.require(key);
   shape.finish();
-  if (key == "boxes") return read_boxes(what);
-  if (key == "porous") return read_porous(what);
-  if (key == "struts") return read_struts(what);
-  if (key == "box") {
-    const GridPoint size = read_point(what, 1);
-    VoxelGrid grid = empty_grid(what, size);
-    fill(grid, {0, 0, 0}, size);
-    return grid;
-  }
-  VoxelGrid grid = read_voxels(what);
-  require_element(what, grid, "the voxel mask");
+  return {key, what};
+}
+
+VoxelGrid read_cells(const std::string& kind, const Node& what) {
+  if (kind == "boxes") return read_boxes(what);
+  if (kind == "porous") return read_porous(what);
+  if (kind == "struts") return read_struts(what);
+  const GridPoint size = read_point(what, 1);
+  VoxelGrid grid = empty_grid(what, size);
+  fill(grid, {0, 0, 0}, size);
   return grid;
 }
 
-ShapeSize shape_size(const Node& node) {
-  ObjectNode shape(node);
-  const std::string key = shape.require_one({"box", "boxes", "voxels", "porous", "struts"});
-  const Node what = shape.require(key);
-  if (key == "voxels") {
-    const VoxelGrid grid = read_voxels(what);
-    return {double(grid.occupied.size()), double(std::ranges::count(grid.occupied, 1))};
+BodyShape read_stl_shape(const Node& what, const Node& element) {
+  SurfaceBody body = read_surface_body(what, element);
+  BodyShape shape;
+  shape.grid = what.placed([&] { return filled(body.surface, body.grid, body.rule); });
+  for (std::size_t a = 0; a < 3; ++a) {
+    shape.edge[a] = body.grid.edge[Eigen::Index(a)];
+    shape.origin[a] = body.grid.low[Eigen::Index(a)];
   }
-  if (key == "box") {
+  shape.surface = std::move(body.surface);
+  return shape;
+}
+
+BodyShape read_voxel_shape(ObjectNode& body, const Node& what) {
+  VoxelFile voxels = read_voxels(what);
+  require_element(what, voxels.grid, "the voxel mask");
+  if (!voxels.edge) return {std::move(voxels.grid), read_element(body.require("element")), {}, {}};
+  if (const auto element = body.find("element"))
+    element->fail("the image has a unit, so its spacing is the size of an element; leave one out");
+  return {std::move(voxels.grid), *voxels.edge, *voxels.origin, {}};
+}
+
+} // namespace
+
+BodyShape read_shape(ObjectNode& body) {
+  const auto [kind, what] = kind_of(body.require("geometry"));
+  BodyShape shape =
+      kind == "stl" ? read_stl_shape(what, body.require("element"))
+      : kind == "voxels"
+          ? read_voxel_shape(body, what)
+          : BodyShape{read_cells(kind, what), read_element(body.require("element")), {}, {}};
+  const Vec3 origin = body.vector_or("origin", {});
+  for (std::size_t a = 0; a < 3; ++a) shape.origin[a] += origin[a];
+  if (shape.surface)
+    for (Eigen::Vector3d& corner : shape.surface->corners)
+      corner += Eigen::Vector3d(origin[0], origin[1], origin[2]);
+  return shape;
+}
+
+ShapeSize shape_size(ObjectNode& body) {
+  const auto [kind, what] = kind_of(body.require("geometry"));
+  if (kind == "stl")
+    return {double(read_surface_body(what, body.require("element")).grid.cells()), 0};
+  if (kind == "voxels") {
+    const VoxelGrid grid = read_voxels(what).grid;
+    const auto holes = std::ranges::count(grid.occupied, 0);
+    return {double(grid.occupied.size()), double(grid.occupied.size()) - double(holes)};
+  }
+  if (kind == "box") {
     const double cells = cells_of(what, read_point(what, 1));
     return {cells, cells};
   }
-  if (key != "boxes") return {cells_of(what, read_point(ObjectNode(what).require("size"), 1)), 0};
+  if (kind != "boxes") return {cells_of(what, read_point(ObjectNode(what).require("size"), 1)), 0};
   const Boxes boxes = read_box_list(what);
   ShapeSize size{cells_of(what, boxes.extent), 0};
   for (const auto& [from, extent] : boxes.all)

@@ -2,16 +2,24 @@
 /// The shapes of the bodies of a scene.
 #include "solver/json/object_node.hpp"
 #include "solver/lattice/lattice.hpp"
+#include "solver/scene/cells.hpp"
+#include "solver/surface/surface.hpp"
+
+#include <optional>
 
 namespace dss {
 
-/// Most elements of a scene, over all bodies.
-constexpr long max_elements = (1L << 31) - 1;
+/// The cells of a body, their size and their place.
+struct BodyShape {
+  VoxelGrid grid;
+  Vec3 edge{};                    ///< of a cell [m]
+  Vec3 origin{};                  ///< low corner of cell (0, 0, 0) [m]
+  std::optional<Surface> surface; ///< that it was made from; its places are those of the scene
+};
 
-/// Reads {"box": [nx, ny, nz]}, {"boxes": [{"from", "size"}, ...]} (their union) or {"voxels":
-/// {"layers" | "file"}}.
+/// Reads "geometry", "element" and "origin" of a body.
 /// @throws InputError for an empty shape, or for a grid of more than max_elements cells
-VoxelGrid read_geometry(const Node& node);
+BodyShape read_shape(ObjectNode& body);
 
 /// Bounds of the size of a shape, or of all shapes of a scene.
 struct ShapeSize {
@@ -19,7 +27,7 @@ struct ShapeSize {
   double least_elements = 0; ///< 0 where only its cells tell
 };
 
-/// Finds the size of a shape without building it. @throws InputError as read_geometry
-ShapeSize shape_size(const Node& node);
+/// Finds the size of a body's shape without building it. @throws InputError as read_shape
+ShapeSize shape_size(ObjectNode& body);
 
 } // namespace dss

@@ -53,9 +53,10 @@ void read_traction(ObjectNode& object, const Body& body, Load& load) {
 }
 
 /// A load on selected elements.
-Load read_selected_load(ObjectNode& object, const Problem& problem, const Body& body) {
+Load read_selected_load(ObjectNode& object, const Problem& problem, const BodySurfaces& surfaces,
+                        const Body& body) {
   Load load;
-  load.elements = read_selected(object, problem, false);
+  load.elements = read_selected(object, problem, surfaces, false);
   const auto face = selected_face(object);
   if (const auto density = object.find("body_force")) {
     load.force = scaled(body.edge[0] * body.edge[1] * body.edge[2], density->vector());
@@ -188,7 +189,31 @@ void require_kind(ObjectNode& object) {
                             kinds.front()));
 }
 
-std::vector<Load> read_load(const Node& node, const Solids& solids, const Problem& problem) {
+/// Sets what loads on free faces add to the strains of elements. It depends on their material, so a
+/// load becomes one for each.
+std::vector<Load> with_face_strains(const std::vector<Load>& loads, const BodyMaterials& solid,
+                                    const Vec3& edge, const Problem& problem) {
+  std::vector<Load> split;
+  for (const Load& load : loads) {
+    if (load.face < 0) {
+      split.push_back(load);
+      continue;
+    }
+    for (const auto& one : solid.all()) {
+      const int number = one.first;
+      const Material& material = one.second;
+      Load part = load;
+      std::erase_if(part.elements, [&](std::size_t e) { return problem.material(e) != number; });
+      if (part.elements.empty()) continue;
+      if (material.nu > 0) set_face_strain(material, edge, part);
+      split.push_back(std::move(part));
+    }
+  }
+  return split;
+}
+
+std::vector<Load> read_load(const Node& node, const Solids& solids, const BodySurfaces& surfaces,
+                            const Problem& problem) {
   ObjectNode object(node);
   const int body = read_body(object, problem);
   const Body& own = problem.bodies[std::size_t(body)];
@@ -199,7 +224,7 @@ std::vector<Load> read_load(const Node& node, const Solids& solids, const Proble
   else if (const auto line = object.find("line"))
     loads = read_line_load(object, *line, problem, body);
   else
-    loads = {read_selected_load(object, problem, own)};
+    loads = {read_selected_load(object, problem, surfaces, own)};
   if (const auto given = object.find("signal")) {
     const Signal signal = read_signal(*given, "1"); // a factor
     require_memory(16.0 * double(loads.size()) * double(signal.times.size()),
@@ -208,22 +233,23 @@ std::vector<Load> read_load(const Node& node, const Solids& solids, const Proble
     for (Load& load : loads) load.signal = signal;
   }
   object.finish();
-  const auto& solid = solids.bodies[std::size_t(body)];
   for (const Load& load : loads)
     for (const double number : {load.force[0], load.force[1], load.force[2], load.torque[0],
                                 load.torque[1], load.torque[2]})
       if (!std::isfinite(number))
         object.fail("the force on an element is beyond the range of numbers");
-  for (Load& load : loads)
-    if (load.face >= 0 && solid && solid->nu > 0) set_face_strain(*solid, own.edge, load);
+  if (const BodyMaterials& solid = solids.bodies[std::size_t(body)]; solid.is_contracting())
+    loads = with_face_strains(loads, solid, own.edge, problem);
   return loads;
 }
 
 } // namespace
 
-void read_loads(const Node& node, const Solids& solids, Problem& problem) {
+void read_loads(const Node& node, const Solids& solids, const BodySurfaces& surfaces,
+                Problem& problem) {
   for (const Node& item : node.items())
-    for (Load& load : read_load(item, solids, problem)) problem.loads.push_back(std::move(load));
+    for (Load& load : read_load(item, solids, surfaces, problem))
+      problem.loads.push_back(std::move(load));
 }
 
 } // namespace dss

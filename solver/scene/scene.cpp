@@ -5,12 +5,14 @@
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/numerics/method.hpp"
 #include "solver/scene/constants.hpp"
+#include "solver/scene/geometry.hpp"
 #include "solver/scene/loads.hpp"
 #include "solver/scene/terms.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -20,44 +22,71 @@ namespace {
 
 const std::vector<std::string> analyses = {"dynamic", "static", "modal"};
 
-Body read_body_properties(ObjectNode& object, Solids& solids) {
+/// Numbers of the materials of voxels, ascending.
+std::vector<int> material_numbers(const VoxelGrid& grid) {
+  std::array<bool, 256> is_present{};
+  for (const std::uint8_t cell : grid.occupied) is_present[cell] = true;
+  std::vector<int> numbers;
+  for (int number = 1; number < 256; ++number)
+    if (is_present[std::size_t(number)]) numbers.push_back(number);
+  return numbers;
+}
+
+/// Adds a body's materials to those of the elements. Bodies of one material have the number 1.
+void append_materials(const VoxelGrid& grid, const BodyMaterials& materials, Problem& problem) {
+  const std::size_t count = problem.lattice.element_count;
+  if (materials.all().empty() || (materials.count() == 1 && materials.all().contains(1))) {
+    if (!problem.materials.empty()) problem.materials.resize(count, 1);
+    return;
+  }
+  problem.materials.reserve(count);
+  problem.materials.resize(count - std::size_t(std::ranges::count_if(
+                                       grid.occupied, [](auto cell) { return cell != 0; })),
+                           1);
+  for (const std::uint8_t cell : grid.occupied)
+    if (cell != 0) problem.materials.push_back(cell);
+}
+
+Body read_body_properties(ObjectNode& object, const BodyShape& shape, Solids& solids) {
   Body body;
-  const Node element = object.require("element");
   body.name = object.require("name").name();
-  body.edge = element.is_array() ? element.positive_vector() : Vec3{};
-  if (!element.is_array()) body.edge.fill(element.positive());
-  body.origin = object.vector_or("origin", {});
-  solids.bodies.push_back(read_body_constants(object.require("constants"), body));
+  body.edge = shape.edge;
+  body.origin = shape.origin;
+  solids.bodies.push_back(
+      read_body_constants(object.require("constants"), material_numbers(shape.grid), body));
   return body;
 }
 
-void read_bodies(const Node& node, Problem& problem, Solids& solids) {
+void read_bodies(const Node& node, Problem& problem, Solids& solids, BodySurfaces& surfaces) {
   for (const Node& item : node.items()) {
     ObjectNode object(item);
-    const Node geometry = object.require("geometry");
-    const VoxelGrid grid = read_geometry(geometry);
-    const Body body = read_body_properties(object, solids);
+    BodyShape shape = read_shape(object);
+    const Body body = read_body_properties(object, shape, solids);
     object.finish();
     for (const Body& other : problem.bodies)
       if (other.name == body.name)
         object.require("name").fail(fmt::format("a second body \"{}\"; names differ", body.name));
-    append_body(problem.lattice, grid, int(problem.bodies.size()));
+    append_body(problem.lattice, shape.grid, int(problem.bodies.size()));
+    append_materials(shape.grid, solids.bodies.back(), problem);
     problem.bodies.push_back(body);
+    surfaces.push_back(std::move(shape.surface));
     if (problem.lattice.element_count > std::size_t(max_elements))
-      geometry.fail(fmt::format("{} elements so far are too many; a scene has at most {}",
-                                problem.lattice.element_count, max_elements));
+      object.require("geometry")
+          .fail(fmt::format("{} elements so far are too many; a scene has at most {}",
+                            problem.lattice.element_count, max_elements));
   }
   if (problem.bodies.empty()) node.fail("no bodies; a scene has at least one");
 }
 
-void read_terms(ObjectNode& root, Problem& problem, Solids& solids) {
-  if (const auto links = root.find("extra_links")) read_extra_links(*links, problem, solids);
+void read_terms(ObjectNode& root, const BodySurfaces& surfaces, Problem& problem, Solids& solids) {
+  if (const auto links = root.find("extra_links"))
+    read_extra_links(*links, surfaces, problem, solids);
   set_solid_links(solids, problem);
-  if (const auto clamps = root.find("clamps")) read_clamps(*clamps, problem);
-  if (const auto loads = root.find("loads")) read_loads(*loads, solids, problem);
+  if (const auto clamps = root.find("clamps")) read_clamps(*clamps, surfaces, problem);
+  if (const auto loads = root.find("loads")) read_loads(*loads, solids, surfaces, problem);
   if (const auto ties = root.find("stabilization"))
     problem.stabilization = read_stabilization(*ties);
-  if (const auto initial = root.find("initial")) read_initial_motions(*initial, problem);
+  if (const auto initial = root.find("initial")) read_initial_motions(*initial, surfaces, problem);
   if (const auto rotation = root.find("base_rotation"))
     problem.frame_rotation = read_frame_rotation(*rotation);
   problem.frame_acceleration =
@@ -143,8 +172,9 @@ Scene read_scene(const SceneText& text) {
   scene.parameters = head.parameters;
   const Node run = root.require("run");
   Solids solids;
-  read_bodies(root.require("bodies"), scene.problem, solids);
-  read_terms(root, scene.problem, solids);
+  BodySurfaces surfaces;
+  read_bodies(root.require("bodies"), scene.problem, solids, surfaces);
+  read_terms(root, surfaces, scene.problem, solids);
   read_run(run, scene);
   read_tolerances(root, scene.problem);
   scene.verify = read_verify(root.find("verify"), scene.problem);
@@ -172,8 +202,9 @@ ShapeSize scene_size(const std::string& name_or_path, const std::vector<Override
   const SceneText text = read_scene_text(scene_path(name_or_path), overrides);
   const Node whole(text);
   ShapeSize size;
-  for (const Node& body : ObjectNode(whole).require("bodies").items()) {
-    const ShapeSize own = shape_size(ObjectNode(body).require("geometry"));
+  for (const Node& item : ObjectNode(whole).require("bodies").items()) {
+    ObjectNode body(item);
+    const ShapeSize own = shape_size(body);
     size.cells += own.cells, size.least_elements += own.least_elements;
   }
   return size;

@@ -114,6 +114,15 @@ std::vector<std::size_t> read_list(const Node& node, const Problem& problem, int
   return elements;
 }
 
+std::vector<std::size_t> read_material(const Node& node, const Problem& problem, int body) {
+  const auto material = node.whole(1, 255);
+  std::vector<std::size_t> elements;
+  problem.lattice.for_each_element([&](std::size_t element, const Row& row, int) {
+    if (row.body == body && problem.material(element) == material) elements.push_back(element);
+  });
+  return elements;
+}
+
 } // namespace
 
 int read_body(ObjectNode& object, const Problem& problem) {
@@ -126,13 +135,20 @@ int read_body(ObjectNode& object, const Problem& problem) {
   return int(node->choice("body", names));
 }
 
-std::vector<std::size_t> read_selection(ObjectNode& select, const Problem& problem, int body) {
-  const std::string key = select.require_one({"face", "box", "elements", "all"});
+std::vector<std::size_t> read_selection(ObjectNode& select, const Problem& problem, int body,
+                                        const BodySurfaces& surfaces) {
+  std::vector<std::string> keys = {"face", "box", "elements", "all", "material"};
+  keys.insert(keys.end(), place_keys.begin(), place_keys.end());
+  const std::string key = select.require_one(keys);
   const Node what = select.require(key);
   const std::string& name = problem.bodies[std::size_t(body)].name;
   std::vector<std::size_t> elements;
   if (key == "elements") {
     elements = read_list(what, problem, body);
+  } else if (key == "material") {
+    elements = read_material(what, problem, body);
+  } else if (std::ranges::find(place_keys, key) != place_keys.end()) {
+    elements = read_place(key, what, problem, body, surfaces[std::size_t(body)]);
   } else {
     Range range = extent_of(problem.lattice, body);
     if (key == "face") range = read_face(what, name, range);
@@ -155,12 +171,12 @@ std::optional<std::size_t> selected_face(ObjectNode& object) {
 }
 
 std::vector<std::size_t> read_selected(ObjectNode& object, const Problem& problem,
-                                       bool is_all_by_default) {
+                                       const BodySurfaces& surfaces, bool is_all_by_default) {
   const int body = read_body(object, problem);
   if (is_all_by_default && !object.find("select"))
     return elements_in(problem.lattice, body, extent_of(problem.lattice, body));
   ObjectNode select(object.require("select"));
-  std::vector<std::size_t> elements = read_selection(select, problem, body);
+  std::vector<std::size_t> elements = read_selection(select, problem, body, surfaces);
   select.finish();
   std::sort(elements.begin(), elements.end());
   return elements;

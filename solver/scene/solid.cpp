@@ -1,5 +1,9 @@
 #include "solver/scene/solid.hpp"
 
+#include "solver/error.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -29,38 +33,85 @@ double modulus(const Material& material, ThinAxes thin) {
   return material.nu == 0 || is_of_chain(thin) ? material.E[0] : 2 * material.G[0];
 }
 
-/// Links of a body are alike if their elements are thin along the same axes, in either order.
-using LinkKind = std::pair<ThinAxes, ThinAxes>;
-LinkKind kind_of(ThinAxes i, ThinAxes j) { return std::minmax({i, j}); }
+/// What tells the elements of a body apart: 8 times the place of their material among those of the
+/// body, plus ThinAxes.
+using ElementKind = std::uint16_t;
+/// Links of a body are alike if their elements are of the same kinds, in either order.
+using LinkKind = std::pair<ElementKind, ElementKind>;
+LinkKind kind_of(ElementKind i, ElementKind j) { return std::minmax({i, j}); }
 
 /// The kinds of a body's links along one axis, numbered.
 class KindNumbers {
 public:
   static constexpr std::uint8_t none = 0xff;
-  KindNumbers() { numbers_.fill(none); }
-  void add(const LinkKind& kind) {
+  /// @param materials  of the body
+  explicit KindNumbers(std::size_t materials)
+      : kinds_of_elements_(8 * materials), numbers_(kinds_of_elements_ * kinds_of_elements_, none) {
+  }
+  /// @return false if there are too many
+  bool add(const LinkKind& kind) {
     std::uint8_t& number = numbers_[place(kind)];
-    if (number != none) return;
+    if (number != none) return true;
     number = std::uint8_t(kinds_.size());
     kinds_.push_back(kind);
+    return kinds_.size() <= none;
   }
   std::uint8_t of(const LinkKind& kind) const { return numbers_[place(kind)]; }
   const std::vector<LinkKind>& kinds() const { return kinds_; }
 
 private:
-  static std::size_t place(const LinkKind& kind) { return 8U * kind.first + kind.second; }
-  std::array<std::uint8_t, 64> numbers_;
+  std::size_t place(const LinkKind& kind) const {
+    return kinds_of_elements_ * kind.first + kind.second;
+  }
+  std::size_t kinds_of_elements_;
+  std::vector<std::uint8_t> numbers_;
   std::vector<LinkKind> kinds_;
 };
 
-AxisConstants link_of(const Material& material, const Body& body, int axis, const LinkKind& kind) {
-  const Vec3 reduced = {body.inertia[0] / 2, body.inertia[1] / 2, body.inertia[2] / 2};
-  return solid_link(material, axis, body.edge, kind.first, kind.second, body.mass / 2, reduced);
+/// The materials of a body, and the masses of their elements over that of the body.
+struct MaterialSide {
+  const Material* material;
+  double mass_ratio;
+};
+std::vector<MaterialSide> sides_of(const BodyMaterials& materials, const Body& body) {
+  std::vector<MaterialSide> sides;
+  for (const auto& [number, material] : materials.all())
+    sides.push_back(
+        {&material, body.mass_ratios.empty() ? 1 : body.mass_ratios[std::size_t(number)]});
+  return sides;
+}
+
+/// Two halves of a link in series, each half of a link.
+void join_halves(const AxisConstants& other, AxisConstants& link) {
+  const auto join = [](double& k, double j) { k = k + j > 0 ? 2 * k * j / (k + j) : 0; };
+  join(link.k_normal, other.k_normal);
+  for (std::size_t a = 0; a < 3; ++a) {
+    join(link.k_shear[a], other.k_shear[a]);
+    join(link.k_rot[a], other.k_rot[a]);
+  }
+}
+
+AxisConstants link_of(std::span<const MaterialSide> sides, const Body& body, int axis,
+                      const LinkKind& kind) {
+  const MaterialSide &i = sides[kind.first / 8U], &j = sides[kind.second / 8U];
+  const auto thin = [](ElementKind element) { return ThinAxes(element % 8U); };
+  const PairOfElements pair = pair_of_elements(body, body, axis, i.mass_ratio, j.mass_ratio);
+  const auto link_in = [&](const Material& material) {
+    return solid_link(material, axis, body.edge, thin(kind.first), thin(kind.second), pair.mass,
+                      pair.inertia);
+  };
+  AxisConstants link = link_in(*i.material);
+  if (i.material == j.material) return link;
+  join_halves(link_in(*j.material), link);
+  set_damping((i.material->damping_ratio + j.material->damping_ratio) / 2, pair.mass, pair.inertia,
+              link);
+  return link;
 }
 
 using BodyKinds = std::array<KindNumbers, 3>; // on each axis
 
-void set_body_links(const Material& material, const BodyKinds& kinds, Body& body) {
+void set_body_links(const BodyMaterials& materials, const BodyKinds& kinds, Body& body) {
+  const std::vector<MaterialSide> sides = sides_of(materials, body);
   std::size_t count = 1;
   for (const KindNumbers& of_axis : kinds) count = std::max(count, of_axis.kinds().size());
   body.more_kinds.resize(count - 1);
@@ -68,18 +119,11 @@ void set_body_links(const Material& material, const BodyKinds& kinds, Body& body
     const auto a = std::size_t(axis);
     const std::vector<LinkKind>& of_axis = kinds[a].kinds();
     // No link has the constants of an axis without links, but analyses read them.
-    body.axis[a] = link_of(material, body, axis, of_axis.empty() ? LinkKind{} : of_axis.front());
+    body.axis[a] = link_of(sides, body, axis, of_axis.empty() ? LinkKind{} : of_axis.front());
     for (std::size_t n = 1; n < count; ++n)
       body.more_kinds[n - 1][a] =
-          n < of_axis.size() ? link_of(material, body, axis, of_axis[n]) : body.axis[a];
+          n < of_axis.size() ? link_of(sides, body, axis, of_axis[n]) : body.axis[a];
   }
-}
-
-void set_extra_link(const Material& material, ThinAxes thin_i, ThinAxes thin_j, const Body& from,
-                    const Body& to, ExtraLink& link) {
-  const PairOfElements pair = pair_of_elements(from, to, link.axis);
-  link.constants =
-      solid_link(material, link.axis, pair.edge, thin_i, thin_j, pair.mass, pair.inertia);
 }
 
 using FreeFaces = std::array<int, 3>; // across x, y, z
@@ -93,15 +137,29 @@ std::vector<FreeFaces> free_faces(const Lattice& lattice) {
   return free;
 }
 
+void set_extra_link(const Material& material, ThinAxes thin_i, ThinAxes thin_j,
+                    const PairOfElements& pair, ExtraLink& link) {
+  link.constants =
+      solid_link(material, link.axis, pair.edge, thin_i, thin_j, pair.mass, pair.inertia);
+}
+
+[[noreturn]] void refuse_kinds(const Body& body, const char* what) {
+  throw InputError(fmt::format("body \"{}\": its materials make more than {} kinds of {}; give it "
+                               "fewer materials",
+                               body.name, KindNumbers::none, what));
+}
+
 void set_pressures(const Solids& solids, std::span<const ThinAxes> thin, Problem& problem) {
   const std::vector<FreeFaces> free = free_faces(problem.lattice);
   problem.pressure_kinds.resize(problem.lattice.element_count);
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
-    const std::optional<Material>& material = solids.bodies[std::size_t(row.body)];
-    if (!material || material->nu == 0) return;
+    const BodyMaterials& materials = solids.bodies[std::size_t(row.body)];
+    if (!materials.is_contracting()) return;
     Body& body = problem.bodies[std::size_t(row.body)];
-    const ElementPressure own = element_pressure(*material, body.edge, free[e], thin[e]);
+    const ElementPressure own =
+        element_pressure(materials.of(problem.material(e)), body.edge, free[e], thin[e]);
     const auto alike = std::ranges::find(body.pressures, own);
+    if (alike - body.pressures.begin() > KindNumbers::none) refuse_kinds(body, "pressures");
     problem.pressure_kinds[e] = std::uint8_t(alike - body.pressures.begin());
     if (alike == body.pressures.end()) body.pressures.push_back(own);
   });
@@ -114,6 +172,20 @@ void set_pressures(const Solids& solids, std::span<const ThinAxes> thin, Problem
   for (Body& body : problem.bodies)
     if (is_nothing(body)) body.pressures.clear();
   if (std::ranges::all_of(problem.bodies, is_nothing)) problem.pressure_kinds.clear();
+}
+
+/// Of each element. @param body_of  of each element
+std::vector<ElementKind> element_kinds(const Solids& solids, std::span<const ThinAxes> thin,
+                                       std::span<const int> body_of, const Problem& problem) {
+  std::vector<ElementKind> kinds(thin.begin(), thin.end());
+  if (problem.materials.empty()) return kinds;
+  std::vector<std::array<ElementKind, 256>> first(solids.bodies.size()); // by material
+  for (std::size_t b = 0; b < first.size(); ++b)
+    for (ElementKind place = 0; const auto& [number, material] : solids.bodies[b].all())
+      first[b][std::size_t(number)] = ElementKind(8U * place++);
+  for (std::size_t e = 0; e < kinds.size(); ++e)
+    kinds[e] = ElementKind(kinds[e] + first[std::size_t(body_of[e])][problem.materials[e]]);
+  return kinds;
 }
 
 } // namespace
@@ -157,9 +229,7 @@ AxisConstants solid_link(const Material& material, int axis, const Vec3& edge, T
 }
 
 void set_solid_links(const Solids& solids, Problem& problem) {
-  const auto is_solid = [&](int body) { return solids.bodies[std::size_t(body)].has_value(); };
-  if (std::ranges::none_of(solids.bodies, [](const auto& solid) { return solid.has_value(); }) &&
-      solids.extra_links.empty())
+  if (std::ranges::none_of(solids.bodies, &BodyMaterials::is_solid) && solids.extra_links.empty())
     return;
   std::vector<std::size_t> joints;
   for (const auto& [n, material] : solids.extra_links) joints.push_back(n);
@@ -167,28 +237,37 @@ void set_solid_links(const Solids& solids, Problem& problem) {
   std::vector<int> body_of(thin.size());
   problem.lattice.for_each_element(
       [&](std::size_t e, const Row& row, int) { body_of[e] = row.body; });
-  std::vector<BodyKinds> kinds(problem.bodies.size());
+  const std::vector<ElementKind> elements = element_kinds(solids, thin, body_of, problem);
+  std::vector<BodyKinds> kinds;
+  for (const BodyMaterials& body : solids.bodies) {
+    const KindNumbers none(std::max<std::size_t>(1, body.count()));
+    kinds.push_back({none, none, none});
+  }
   problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
-    kinds[std::size_t(body_of[i])][std::size_t(axis)].add(kind_of(thin[i], thin[j]));
+    const auto b = std::size_t(body_of[i]);
+    if (!kinds[b][std::size_t(axis)].add(kind_of(elements[i], elements[j])))
+      refuse_kinds(problem.bodies[b], "links");
   });
   for (std::size_t b = 0; b < problem.bodies.size(); ++b)
-    if (is_solid(int(b))) set_body_links(*solids.bodies[b], kinds[b], problem.bodies[b]);
+    if (solids.bodies[b].is_solid()) set_body_links(solids.bodies[b], kinds[b], problem.bodies[b]);
   for (const auto& [n, material] : solids.extra_links) {
     ExtraLink& link = problem.extra_links[n];
-    const auto body = [&](std::size_t e) -> const Body& {
-      return problem.bodies[std::size_t(body_of[e])];
-    };
-    set_extra_link(material, thin[link.i], thin[link.j], body(link.i), body(link.j), link);
+    const Body &from = problem.bodies[std::size_t(body_of[link.i])],
+               &to = problem.bodies[std::size_t(body_of[link.j])];
+    set_extra_link(material, thin[link.i], thin[link.j],
+                   pair_of_elements(from, to, link.axis, problem.mass_ratio(link.i, from),
+                                    problem.mass_ratio(link.j, to)),
+                   link);
   }
-  const auto is_contracting = [](const std::optional<Material>& m) { return m && m->nu > 0; };
-  if (std::ranges::any_of(solids.bodies, is_contracting)) set_pressures(solids, thin, problem);
+  if (std::ranges::any_of(solids.bodies, &BodyMaterials::is_contracting))
+    set_pressures(solids, thin, problem);
   if (std::ranges::all_of(problem.bodies, [](const Body& body) { return body.kinds() == 1; }))
     return;
   problem.link_kinds.resize(thin.size());
   problem.lattice.for_each_link([&](std::size_t i, std::size_t j, int axis) {
-    const auto a = std::size_t(axis);
-    if (is_solid(body_of[i]))
-      problem.link_kinds[i][a] = kinds[std::size_t(body_of[i])][a].of(kind_of(thin[i], thin[j]));
+    const auto a = std::size_t(axis), b = std::size_t(body_of[i]);
+    if (solids.bodies[b].is_solid())
+      problem.link_kinds[i][a] = kinds[b][a].of(kind_of(elements[i], elements[j]));
   });
 }
 

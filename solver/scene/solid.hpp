@@ -5,14 +5,13 @@
 
 #include <array>
 #include <map>
-#include <optional>
 #include <vector>
 
 namespace dss {
 
 /// What of a scene has the law `solid`.
 struct Solids {
-  std::vector<std::optional<Material>> bodies; ///< of each body
+  std::vector<BodyMaterials> bodies;           ///< of each body
   std::map<std::size_t, Material> extra_links; ///< by their numbers
 };
 
@@ -22,6 +21,8 @@ struct Solids {
 /// the axis of the gap:
 ///   k_normal = (M_i + M_j) / 2 A / L,  k_shear[d] = 4 G A / L / (c_i + c_j),
 ///   bending (M_i + M_j) / 2 I / L,  twist G (J_i + J_j) / 2 / L
+/// Across two materials the halves of the link are in series, each as stiff as half of a link of
+/// its own material.
 /// M is 2G, because the pressure of elements has the rest of the stiffness (element_pressure); it
 /// is E if nu is 0, or if the element is thin along two axes, as in a chain.
 /// c is 1, or 2.4 if the element is thin along d: then the stiffness is that of a beam's or plate's
@@ -43,11 +44,14 @@ ElementPressure element_pressure(const Material& material, const Vec3& edge,
                                  const std::array<int, 3>& free, ThinAxes thin);
 
 /// Sets Load::face_strain of a load that acts on free faces of a solid (Load::face).
-/// @param edge  of an element of its body [m]
+/// @param material  of its elements
+/// @param edge      of an element of its body [m]
 void set_face_strain(const Material& material, const Vec3& edge, Load& load);
 
 /// Sets the links of all solids and the pressures of their elements. The lattice and the extra
 /// links must be complete: an element with an extra link of a solid has a neighbour there.
+/// @throws InputError if the materials of a body make more kinds of links or pressures than a byte
+///     counts
 void set_solid_links(const Solids& solids, Problem& problem);
 
 } // namespace dss

@@ -20,11 +20,11 @@ struct JointSide {
   std::optional<std::size_t> face; ///< index of face_names
 };
 
-JointSide read_joint_side(const Node& node, const Problem& problem) {
+JointSide read_joint_side(const Node& node, const Problem& problem, const BodySurfaces& surfaces) {
   ObjectNode object(node);
   JointSide side;
   side.body = read_body(object, problem);
-  side.elements = read_selection(object, problem, side.body);
+  side.elements = read_selection(object, problem, side.body, surfaces);
   if (const auto face = object.find("face")) side.face = face->choice("face", face_names);
   object.finish();
   return side;
@@ -68,10 +68,11 @@ Vec3 mean_position(const Problem& problem, const std::vector<std::size_t>& eleme
   return mean;
 }
 
-InitialMotion read_initial_motion(const Node& node, const Problem& problem) {
+InitialMotion read_initial_motion(const Node& node, const Problem& problem,
+                                  const BodySurfaces& surfaces) {
   ObjectNode object(node);
   InitialMotion motion;
-  motion.elements = read_selected(object, problem, true);
+  motion.elements = read_selected(object, problem, surfaces, true);
   motion.displacement = object.vector_or("displacement", {});
   motion.rotation = object.vector_or("rotation", {});
   motion.velocity = object.vector_or("velocity", {});
@@ -115,11 +116,12 @@ std::string clamp_conflict(const Clamp& clamp, const Body& body, const double* f
 
 } // namespace
 
-void read_extra_links(const Node& node, Problem& problem, Solids& solids) {
+void read_extra_links(const Node& node, const BodySurfaces& surfaces, Problem& problem,
+                      Solids& solids) {
   for (const Node& item : node.items()) {
     ObjectNode joint(item);
-    const JointSide from = read_joint_side(joint.require("from"), problem);
-    const JointSide to = read_joint_side(joint.require("to"), problem);
+    const JointSide from = read_joint_side(joint.require("from"), problem, surfaces);
+    const JointSide to = read_joint_side(joint.require("to"), problem, surfaces);
     if (from.elements.size() != to.elements.size())
       joint.fail(fmt::format(
           "joins {} elements to {}; the two sides are paired in order and need equal numbers",
@@ -129,30 +131,32 @@ void read_extra_links(const Node& node, Problem& problem, Solids& solids) {
     const Body &body_from = problem.bodies[std::size_t(from.body)],
                &body_to = problem.bodies[std::size_t(to.body)];
     std::optional<Material> solid;
+    const BodyMaterials& own = solids.bodies[std::size_t(from.body)];
+    const bool has_own = !joint.has("constants") && own.is_solid();
     if (const auto constants = joint.find("constants")) {
       solid = read_link_constants(*constants, body_from, body_to, link);
     } else {
-      solid = solids.bodies[std::size_t(from.body)];
       link.law = body_from.law;
       link.constants = body_from.axis[std::size_t(link.axis)];
     }
     joint.finish();
-    if (solid) solid->nu = 0; // pressure does not pass a joint
     for (std::size_t k = 0; k < from.elements.size(); ++k) {
       link.i = from.elements[k];
       link.j = to.elements[k];
       if (link.i == link.j) joint.fail(fmt::format("joins element {} to itself", link.i));
+      if (has_own) solid = own.of(problem.material(link.i));
+      if (solid) solid->nu = 0; // pressure does not pass a joint
       if (solid) solids.extra_links.emplace(problem.extra_links.size(), *solid);
       problem.extra_links.push_back(link);
     }
   }
 }
 
-void read_clamps(const Node& node, Problem& problem) {
+void read_clamps(const Node& node, const BodySurfaces& surfaces, Problem& problem) {
   std::vector<Clamp> held(problem.lattice.element_count);
   for (const Node& item : node.items()) {
     ObjectNode object(item);
-    const std::vector<std::size_t> elements = read_selected(object, problem, false);
+    const std::vector<std::size_t> elements = read_selected(object, problem, surfaces, false);
     const auto dofs_node = object.find("dofs");
     const std::uint8_t dofs = dofs_node ? read_dofs(*dofs_node) : std::uint8_t(dof_all);
     object.finish();
@@ -167,9 +171,9 @@ void read_clamps(const Node& node, Problem& problem) {
       problem.clamps.push_back({element, clamp.dofs, clamp.at_faces});
 }
 
-void read_initial_motions(const Node& node, Problem& problem) {
+void read_initial_motions(const Node& node, const BodySurfaces& surfaces, Problem& problem) {
   for (const Node& item : node.items())
-    problem.initial_motions.push_back(read_initial_motion(item, problem));
+    problem.initial_motions.push_back(read_initial_motion(item, problem, surfaces));
 }
 
 Stabilization read_stabilization(const Node& node) {

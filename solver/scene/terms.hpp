@@ -3,6 +3,7 @@
 /// problem.
 #include "solver/json/object_node.hpp"
 #include "solver/model/problem.hpp"
+#include "solver/scene/place_selection.hpp"
 #include "solver/scene/solid.hpp"
 
 namespace dss {
@@ -10,9 +11,10 @@ namespace dss {
 /// Each function appends the terms of one list of the scene to the problem.
 /// @throws InputError with file, JSON pointer and what is wrong (all functions of this file)
 /// @param solids  gets the extra links of the law `solid`
-void read_extra_links(const Node& node, Problem& problem, Solids& solids);
-void read_clamps(const Node& node, Problem& problem);
-void read_initial_motions(const Node& node, Problem& problem);
+void read_extra_links(const Node& node, const BodySurfaces& surfaces, Problem& problem,
+                      Solids& solids);
+void read_clamps(const Node& node, const BodySurfaces& surfaces, Problem& problem);
+void read_initial_motions(const Node& node, const BodySurfaces& surfaces, Problem& problem);
 Stabilization read_stabilization(const Node& node);
 
 /// Gravity [m/s^2] minus the acceleration of the frame (an object of signals by axis). Either may

@@ -185,9 +185,11 @@ SparseMatrix StaticSystem::mass(const State& state) const {
   Triplets entries;
   for (std::size_t e = 0; e < body_.size(); ++e) {
     const Body& body = problem_.bodies[std::size_t(body_[e])];
-    const Eigen::Vector3d own(body.inertia[0], body.inertia[1], body.inertia[2]);
+    const double ratio = problem_.mass_ratio(e, body);
+    const Eigen::Vector3d own =
+        ratio * Eigen::Vector3d(body.inertia[0], body.inertia[1], body.inertia[2]);
     add_block(dofs_, dofs_of_element<0, 3>(e),
-              Eigen::Matrix3d(Eigen::Matrix3d::Identity() * body.mass), entries);
+              Eigen::Matrix3d(Eigen::Matrix3d::Identity() * (ratio * body.mass)), entries);
     Eigen::Matrix3d inertia = own.asDiagonal();
     if (body.has_tensor_inertia() && !dynamics_.coordinates().has_vectors()) {
       const Eigen::Matrix3d axes =

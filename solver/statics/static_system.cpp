@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 namespace dss {
@@ -141,7 +142,7 @@ double StaticSystem::load_norm() const {
   std::vector<Real> all(6 * body_.size(), 0);
   for (std::size_t e = 0; e < body_.size(); ++e)
     for (std::size_t a = 0; a < 3; ++a)
-      all[6 * e + a] = problem_.bodies[std::size_t(body_[e])].mass * signals_[a];
+      all[6 * e + a] = problem_.mass(e, problem_.bodies[std::size_t(body_[e])]) * signals_[a];
   for (std::size_t l = 0; l < problem_.loads.size(); ++l)
     for (const std::size_t e : problem_.loads[l].elements)
       for (std::size_t a = 0; a < 3; ++a) {
@@ -163,13 +164,13 @@ Problem held_still(const Problem& problem, double loads) {
     still.loads[l].signal = constant(signals[3 + l]);
   for (Signal& signal : still.frame_acceleration) signal = constant(0);
   if (signals[0] == 0 && signals[1] == 0 && signals[2] == 0) return still;
-  std::vector<Load> weights(problem.bodies.size());
+  std::map<double, Load> weights; // by mass
   problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
-    weights[std::size_t(row.body)].elements.push_back(e);
+    weights[problem.mass(e, problem.bodies[std::size_t(row.body)])].elements.push_back(e);
   });
-  for (std::size_t b = 0; b < weights.size(); ++b) {
-    for (std::size_t a = 0; a < 3; ++a) weights[b].force[a] = problem.bodies[b].mass * signals[a];
-    still.loads.push_back(weights[b]);
+  for (auto& [mass, weight] : weights) {
+    for (std::size_t a = 0; a < 3; ++a) weight.force[a] = mass * signals[a];
+    still.loads.push_back(weight);
   }
   return still;
 }

@@ -46,7 +46,7 @@ class ProgramTest(unittest.TestCase):
         return self.path(name)
 
     def read(self, name):
-        with open(self.path(name), encoding="utf-8") as file:
+        with open(self.path(name), encoding="utf-8", errors="surrogateescape") as file:
             return file.read()
 
     def assert_refused(self, exit_code, words, *arguments, **options):

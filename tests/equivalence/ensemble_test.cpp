@@ -151,6 +151,8 @@ TEST_P(EveryEnsemble, has_the_bits_of_single_runs_in_every_method) {
                                Model::spatial);
     expect_bits_of_single_runs(fixture::make_pressed_sponge(5, 4, 3), scheme, Model::spatial);
     expect_bits_of_single_runs(fixture::make_pressed_pair(5, 4), scheme, Model::spatial);
+    expect_bits_of_single_runs(fixture::of_masses(fixture::make_everything()), scheme,
+                               Model::spatial);
     expect_bits_of_single_runs(fixture::rotating(fixture::make_everything()), scheme,
                                Model::spatial);
   }

@@ -18,6 +18,7 @@ std::vector<Case> cases() {
           {"flat_sponge", fixture::make_sponge(37, 13, 1, LinkLaw::material, 3)},
           {"undamped_block", fixture::make_block(6, 11, 13, LinkLaw::material, 0)},
           {"pressed_plate", fixture::make_pressed_plate(9, 60)},
+          {"masses", fixture::of_masses(fixture::make_block(9, 8, 7, LinkLaw::material))},
           {"rotating_block", fixture::rotating(fixture::make_block(9, 8, 7, LinkLaw::material))}};
 }
 

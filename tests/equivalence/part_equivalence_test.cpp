@@ -30,6 +30,7 @@ std::vector<Case> cases() {
           {"pressed_sponge", fixture::make_pressed_sponge(21, 9, 7)},
           {"pressed_plate", fixture::make_pressed_plate(9, 40)},
           {"pressed_pair", fixture::make_pressed_pair(9, 20)},
+          {"masses", fixture::of_masses(fixture::make_block(9, 8, 7, LinkLaw::material))},
           {"rotating_block", fixture::rotating(fixture::make_block(9, 8, 7, LinkLaw::material))}};
 }
 

@@ -54,7 +54,8 @@ TEST_P(EverySchedule, has_bitwise_equal_states_for_tiles_of_any_size_and_threads
   const std::vector<Problem> problems{
       fixture::make_sponge(13, 7, 8, LinkLaw::paper, 1),
       fixture::make_sponge(21, 4, 11, LinkLaw::material, 2), fixture::make_pressed_sponge(21, 5, 8),
-      fixture::rotating(fixture::make_block(9, 8, 5, LinkLaw::material))};
+      fixture::rotating(fixture::make_block(9, 8, 5, LinkLaw::material)),
+      fixture::of_masses(fixture::make_block(9, 8, 5, LinkLaw::material))};
   for (const Problem& problem : std::span(problems).first(is_brief ? 1 : problems.size()))
     for (const auto& [method, precision] : brief_schemes()) {
       if (is_brief && (method.name != std::string("rk4") || precision != Precision::f64)) continue;

@@ -29,7 +29,7 @@ struct Case {
   /// equations split into those of a bar, of bending and of the plane.
   bool has(Model model) const {
     if (!is_built(model)) return false;
-    if (problem.has_rotating_frame()) return model == Model::spatial;
+    if (problem.has_rotating_frame() || problem.has_mass_ratios()) return model == Model::spatial;
     if (is_bar || model == Model::axial) return is_bar && model == Model::axial;
     return is_flat || degrees_of(model) == dof_all || (is_bent && model == Model::bending);
   }
@@ -57,6 +57,9 @@ std::vector<Case> cases() {
       {"pressed_flat_everything", fixture::pressed(fixture::make_flat_everything()), true},
       {"pressed_comb", fixture::pressed(fixture::make_comb(47, 3, 2, LinkLaw::material))},
       {"rotating_pressed", fixture::rotating(fixture::pressed(fixture::make_everything()))},
+      {"masses", fixture::of_masses(fixture::pressed(fixture::make_everything()))},
+      {"rotating_masses",
+       fixture::of_masses(fixture::rotating(fixture::make_sponge(7, 6, 5, LinkLaw::paper, 4)))},
       {"rotating_sponge", fixture::rotating(fixture::make_sponge(21, 6, 5, LinkLaw::material, 4))},
       {"bar", fixture::make_block(37, 1, 1, LinkLaw::paper), false, 0.02, true},
       {"undamped_bar", fixture::make_block(21, 1, 1, LinkLaw::material, 0), false, 0.02, true}};
@@ -103,7 +106,7 @@ struct TestedVariant {
   bool is_for_joined(const Case& c) const {
     return plugin.devices != nullptr || c.name == "plate" || c.name == "everything" ||
            c.name == "sponge" || c.name == "lean_sheet_paper" || c.name == "pressed_plate" ||
-           c.name == "rotating_paper" || c.name == "rotating_pressed";
+           c.name == "rotating_paper" || c.name == "rotating_pressed" || c.name == "masses";
   }
   /// What devices compile: every pairing for the problem with all terms and for the paper's plate.
   /// Other problems take the first pairing. If forces do not depend on velocities, they also take

@@ -166,11 +166,11 @@ class Campaign:
         options = ("--state", files[0], "--json", files[1], "--output", files[2])
         result = subprocess.run([self.program, *SCENE, *options], capture_output=True, text=True,
                                 env=self.failing(number, fault))
-        texts = [file.read_text() for file in files]
-        is_new = [text != "earlier\n" for text in texts]
-        is_whole = ((not is_new[0] or texts[0].endswith("\n"))
-                    and (not is_new[1] or texts[1].rstrip().endswith("}"))
-                    and (not is_new[2] or texts[2].rstrip().endswith("</VTKFile>")))
+        texts = [file.read_bytes() for file in files]
+        is_new = [text != b"earlier\n" for text in texts]
+        is_whole = ((not is_new[0] or texts[0].endswith(b"\n"))
+                    and (not is_new[1] or texts[1].rstrip().endswith(b"}"))
+                    and (not is_new[2] or texts[2].rstrip().endswith(b"</VTKFile>")))
         parts = [path for path in self.folder.iterdir() if path.name.endswith(".part")]
         is_wrong = (not is_whole or result.returncode in CRASHES or bool(parts)
                     or len(set(is_new)) > 1 or (result.returncode == 0) != all(is_new)

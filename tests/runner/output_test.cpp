@@ -1,8 +1,7 @@
 #include "solver/error.hpp"
-#include "solver/io/base64.hpp"
 #include "solver/io/file_set.hpp"
 #include "solver/io/state_csv.hpp"
-#include "solver/io/vtu.hpp"
+#include "solver/io/vtk/vtu.hpp"
 #include "tests/fixtures/own_directory.hpp"
 #include "tests/fixtures/problems.hpp"
 
@@ -16,20 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Output = test::OwnDirectory;
-
-/// Test vectors of RFC 4648, section 10.
-TEST_F(Output, Base64AgreesWithTheStandardsExamples) {
-  const std::pair<const char*, const char*> examples[] = {
-      {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
-  for (const auto& [plain, encoded] : examples) {
-    AtomicFile target(file("a"));
-    Base64Writer writer(target);
-    for (const char* c = plain; *c != '\0'; ++c) writer.put(*c);
-    writer.finish();
-    target.commit();
-    EXPECT_EQ(read_text(file("a")), encoded);
-  }
-}
 
 TEST_F(Output, StateCsvHasOneRowAnElementAndTheWholeQuaternion) {
   const Problem problem = fixture::make_plate(4);

@@ -95,6 +95,7 @@ struct Plugin {
   bool has_all = false;
   bool has_pressure = false;       ///< computes elements with a pressure (Problem::has_pressure)
   bool has_rotating_frame = false; ///< computes in one (Problem::has_rotating_frame)
+  bool has_mass_ratios = false;    ///< elements may differ in mass (Problem::has_mass_ratios)
   bool has_tiles = false;          ///< takes Setup::tile
   /// Members of an ensemble that one executor computes: a member a lane of each rank. Null: none.
   /// @param distribution  for distributed variants
@@ -106,7 +107,7 @@ struct Plugin {
 
 /// Raise this with every change of Plugin, Executor or a type that they receive (Method, Problem,
 /// Model).
-constexpr int plugin_abi = 17;
+constexpr int plugin_abi = 18;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

@@ -100,6 +100,23 @@ void PackedRows<T, W>::place_at_rest() {
 }
 
 template <class T, int W>
+void PackedRows<T, W>::set_mass_ratios() {
+  if (!members_.front()->has_mass_ratios()) return;
+  for (PackedRow<T>& row : rows) {
+    inverse_ratios_.emplace_back(std::size_t(row.packs) * W, memory);
+    row.inverse_ratios = inverse_ratios_.back().data();
+  }
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    const Problem& member = *members_[m];
+    member.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
+      const Place place = place_of(*this, element_of(m, e));
+      inverse_ratios_[place.row].data()[std::size_t(place.pack) * W + std::size_t(place.lane)] =
+          T(1 / member.mass_ratio(e, member.bodies[std::size_t(row.body)]));
+    });
+  }
+}
+
+template <class T, int W>
 void PackedRows<T, W>::AppliedRow::cover_patterns() {
   applied.patterns = patterns.data();
   applied.pattern_count = int(patterns.size());
@@ -165,6 +182,7 @@ void PackedRows<T, W>::hand_out_applied() {
   template void PackedRows<T, W>::apply_loads();                                                   \
   template void PackedRows<T, W>::apply_face_strains();                                            \
   template void PackedRows<T, W>::place_at_rest();                                                 \
+  template void PackedRows<T, W>::set_mass_ratios();                                               \
   template void PackedRows<T, W>::apply_extra_links(const Problem&);                               \
   template void PackedRows<T, W>::apply_clamps();                                                  \
   template void PackedRows<T, W>::hand_out_applied();

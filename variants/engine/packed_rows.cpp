@@ -96,6 +96,7 @@ PackedRows<T, W>::PackedRows(const Problem& problem, Model model, const Part* pa
   apply_loads();
   apply_face_strains();
   place_at_rest();
+  set_mass_ratios();
   apply_extra_links(problem);
   apply_clamps();
   hand_out_applied();
@@ -245,6 +246,7 @@ std::size_t PackedRows<T, W>::bytes() const {
   }
   for (const Buffer<T>& wrench : extra_) sum += wrench.bytes();
   for (const Buffer<T>& places : rest_) sum += places.bytes();
+  for (const Buffer<T>& ratios : inverse_ratios_) sum += ratios.bytes();
   sum += pressures_.bytes() + row_pressures_.size() * sizeof(row_pressures_[0]);
   for (const auto& row : face_strains_)
     for (std::size_t n = 0; row != nullptr && n < row->values.size(); ++n)

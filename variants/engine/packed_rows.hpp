@@ -38,6 +38,7 @@ struct PackedRow {
   const Applied<T>* applied = nullptr;
   const RowPressure<T>* pressure = nullptr; ///< null if its elements have none
   const T* rest = nullptr;                  ///< as in RowTask
+  const T* inverse_ratios = nullptr;        ///< as in RowTask
   const PackMaps<T>* maps = nullptr;        ///< null if neighbours have the same lanes
 };
 
@@ -171,6 +172,7 @@ private:
   void set_pressures();
   void apply_face_strains();
   void place_at_rest();
+  void set_mass_ratios();
   void apply_loads();
   void apply_load(std::size_t n);
   /// Adds a pattern of load n to each row with loaded elements.
@@ -194,7 +196,8 @@ private:
   PressureTable<T, W> pressures_{members_};
   /// Of each row, if any has pressures.
   std::vector<RowPressure<T>> row_pressures_;
-  std::vector<Buffer<T>> rest_;                              ///< of each row, if the frame rotates
+  std::vector<Buffer<T>> rest_;           ///< of each row, if the frame rotates
+  std::vector<Buffer<T>> inverse_ratios_; ///< of each row, if elements differ in mass
   std::vector<std::unique_ptr<AppliedRow>> face_strains_;    ///< of each row; may be null
   std::vector<BodyConstants<T>> bodies_;                     ///< unless it is an ensemble
   std::vector<BodyConstants<LaneNumbers<T>>> member_bodies_; ///< of an ensemble

@@ -20,6 +20,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .kernels = dss::compiled_kernels,
                                       .has_pressure = true,
                                       .has_rotating_frame = true,
+                                      .has_mass_ratios = true,
                                       .has_tiles = true,
                                       .ensemble_lanes = ensemble_lanes};
   return &plugin;

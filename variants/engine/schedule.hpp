@@ -67,6 +67,7 @@ void set_row(RowTask<T>& task, const PackedRows<T, W>& packed, int row, int fiel
   task.applied = p.applied;
   task.pressure = p.pressure;
   task.rest = p.rest;
+  task.inverse_ratios = p.inverse_ratios;
   task.in = input(row);
   task.ahead = r.upper_x >= 0 ? input(r.upper_x) : task.in + p.packs * pack_size;
   if (r.upper_x >= 0) task.carry_x = carry.x(row);

@@ -29,6 +29,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                   .kernels = nullptr,
                                   .has_pressure = true,
                                   .has_rotating_frame = true,
+                                  .has_mass_ratios = true,
                                   .has_tiles = true};
   return &plugin;
 }

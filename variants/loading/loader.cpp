@@ -151,6 +151,7 @@ void end_variants(int exit_code, bool is_in_order) {
 
 const char* missing_term(const Plugin& plugin, const Problem& problem) {
   if (problem.has_pressure() && !plugin.has_pressure) return pressure_is_missing;
+  if (problem.has_mass_ratios() && !plugin.has_mass_ratios) return mass_ratios_are_missing;
   if (problem.has_rotating_frame() && !plugin.has_rotating_frame) return rotation_is_missing;
   return nullptr;
 }

@@ -30,6 +30,7 @@ extern "C" const dss::Plugin* dss_plugin() {
                                       .end = dss::end,
                                       .has_pressure = true,
                                       .has_rotating_frame = true,
+                                      .has_mass_ratios = true,
                                       .has_tiles = true,
                                       .ensemble_lanes = dss::members_of_ranks};
   return &plugin;

@@ -78,6 +78,7 @@ int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, i
   row.face_strains =
       packed_row.pressure == nullptr || packed_row.pressure->loads == nullptr ? -1 : r;
   row.rest = offset(packed_row.rest);
+  row.inverse_ratios = offset(packed_row.inverse_ratios);
   row.packs = packed_row.packs, row.first_pack = packed_row.first_pack;
   row.masks = int(packed_row.pack_offset);
   row.fields = fields, row.state_fields = fields - packed.pressure_fields;

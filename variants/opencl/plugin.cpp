@@ -37,6 +37,7 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .ceilings = opencl::measure_ceilings,
                            .has_pressure = true,
                            .has_rotating_frame = true,
+                           .has_mass_ratios = true,
                            .has_tiles = true};
 
 } // namespace

@@ -72,6 +72,7 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .has_all = true,
                            .has_pressure = true,
                            .has_rotating_frame = true,
+                           .has_mass_ratios = true,
                            .rotation = own_rotation};
 
 } // namespace

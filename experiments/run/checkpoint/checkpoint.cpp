@@ -4,7 +4,7 @@
 #include "experiments/run/state/state_access.hpp"
 #include "solver/digest.hpp"
 #include "solver/error.hpp"
-#include "solver/lattice/shape_digest.hpp"
+#include "solver/model/file_digest.hpp"
 
 #include <algorithm>
 #include <array>
@@ -52,7 +52,7 @@ std::string problem_digest(const RunRequest& request, const RunPlan& plan) {
   for (const char* key : {"$schema", "scene", "title", "description", "run", "verify", "tolerance"})
     text.erase(key);
   const Problem& problem = plan.scene.problem;
-  return text_digest(text.dump() + shape_digest(problem.lattice) + series_digest(problem));
+  return text_digest(text.dump() + file_digest(problem));
 }
 
 } // namespace

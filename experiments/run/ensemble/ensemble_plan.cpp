@@ -46,6 +46,7 @@ RunRequest request_of(const RunRequest& request, const MemberSet& member) {
   own.overrides.insert(own.overrides.end(), member.set.begin(), member.set.end());
   own.output = file_of(request.output, member.name);
   own.state_csv = file_of(request.state_csv, member.name);
+  own.picture = file_of(request.picture, member.name);
   own.history = file_of(request.history, member.name);
   own.json.clear();
   return own;

@@ -83,12 +83,10 @@ void MemberRun::end(std::span<const double> state) {
       describe_state(plan_, equations(), copy, result_);
     judge_range(plan_, equations(), result_);
     if (!is_ok()) return;
-    if (!request_.state_csv.empty()) {
-      if (request_.is_root)
-        write_state(outputs_, request_.state_csv, plan_.scene.problem, copy, equations(),
-                    signals_at(plan_.scene.problem, result_.end_s));
-      result_.files.push_back(request_.state_csv);
-    }
+    if (request_.is_root)
+      write_final_files(outputs_, request_, plan_.scene.problem, copy, equations(),
+                        signals_at(plan_.scene.problem, result_.end_s));
+    for (const std::string& file : final_files(request_)) result_.files.push_back(file);
     if (const std::string written = series_.finish(); !written.empty())
       result_.files.push_back(written);
     if (!request_.history.empty()) result_.files.push_back(request_.history);

@@ -235,7 +235,7 @@ ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
 
 void require_outputs_writable(const RunRequest& request) {
   for (const std::string& path :
-       {request.output, request.state_csv, request.history, request.checkpoint,
+       {request.output, request.state_csv, request.picture, request.history, request.checkpoint,
         request.json == "-" ? std::string() : request.json})
     if (!path.empty()) require_writable(path);
 }

@@ -38,6 +38,7 @@ struct RunRequest {
   std::string output;                    ///< .vtu file, or empty
   int frames = 0;                        ///< files of a series besides the final one
   std::string state_csv;                 ///< file, or empty
+  std::string picture;                   ///< file, or empty
   std::string history;                   ///< CSV file of the history, or empty
   std::vector<std::string> probes;       ///< of the history, see read_probe
   long every = 0;                        ///< steps between its rows; 0: by their cost

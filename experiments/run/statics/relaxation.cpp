@@ -42,6 +42,7 @@ std::vector<Vector6> largest_stiffness(const Problem& problem) {
 }
 
 void scale_masses(Problem& problem) {
+  for (Body& body : problem.bodies) body.mass_ratios.clear(); // masses are chosen, not given
   const std::vector<Vector6> stiffness = largest_stiffness(problem);
   // squared time: mass = stiffness * square
   double square = std::numeric_limits<double>::infinity();

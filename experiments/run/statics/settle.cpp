@@ -27,8 +27,9 @@ constexpr long batch_steps = 256;
 void damp(Problem& problem, double omega) {
   double mass = 0, inertia = 0;
   for (const Body& body : problem.bodies) {
-    mass = std::max(mass, body.mass);
-    inertia = std::max(inertia, std::ranges::min(body.inertia));
+    const double ratio = body.mass_ratios.empty() ? 1 : std::ranges::max(body.mass_ratios);
+    mass = std::max(mass, ratio * body.mass);
+    inertia = std::max(inertia, ratio * std::ranges::min(body.inertia));
   }
   problem.stabilization.d += 2 * omega * mass;
   problem.stabilization.d_rot += 2 * omega * inertia;

@@ -114,7 +114,7 @@ void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& re
   asked.integrator = run.integrator.value_or("velocity_verlet");
   asked.is_forced = true; // the scene's step is not used
   asked.steps = 1;
-  asked.output.clear(), asked.state_csv.clear();
+  asked.output.clear(), asked.state_csv.clear(), asked.picture.clear();
   const RunPlan plan = plan_run(asked);
   if (plan.method->is_implicit() || plan.plugin->is_distributed)
     throw InputError(fmt::format("--solver relaxation: runs an explicit method on one process; {}",

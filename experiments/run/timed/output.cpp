@@ -1,6 +1,8 @@
 #include "experiments/run/timed/output.hpp"
 #include "experiments/base/interrupt.hpp"
 #include "solver/error.hpp"
+#include "solver/io/picture/picture.hpp"
+#include "solver/io/vtk/node_motion.hpp"
 #include "solver/model/stress/stress_field.hpp"
 #include "solver/numerics/signal_rows.hpp"
 
@@ -47,7 +49,56 @@ StressOutput stress_output(const Problem& problem, const std::vector<double>& st
   return {std::move(field).elements(), std::move(nodes), std::move(at_nodes)};
 }
 
-} // namespace
+/// A unit [Pa] of which a stress has some to some thousand, and its prefix.
+std::pair<double, const char*> stress_unit(double stress) {
+  if (stress >= 1e9) return {1e9, "G"};
+  if (stress >= 1e6) return {1e6, "M"};
+  if (stress >= 1e3) return {1e3, "k"};
+  return {1, ""};
+}
+
+struct StressPicture {
+  std::vector<PictureFace> faces;
+  double magnification = 1;
+  double most_stress = 0; ///< at a node [Pa]
+};
+
+/// Largest extent of the nodes, and their largest displacement [m].
+std::pair<double, double> extent_and_motion(const NodeMotion& motion) {
+  Vec3 low = motion.rest.front(), high = low;
+  double most = 0;
+  for (std::size_t n = 0; n < motion.rest.size(); ++n) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], motion.rest[n][a]);
+      high[a] = std::max(high[a], motion.rest[n][a]);
+    }
+    const Vec3& u = motion.displacement[n];
+    most = std::max(most, std::hypot(u[0], u[1], u[2]));
+  }
+  return {std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}), most};
+}
+
+StressPicture stress_picture(const Problem& problem, const std::vector<double>& state,
+                             const StressOutput& stress) {
+  constexpr double shown = 0.05; // of the extent
+  const NodeMotion motion = node_motion(problem, state, stress.nodes);
+  const auto [extent, most] = extent_and_motion(motion);
+  StressPicture picture;
+  if (most > 0 && shown * extent > most) picture.magnification = shown * extent / most;
+  for (const SymmetricTensor& at_node : stress.at_nodes)
+    picture.most_stress = std::max(picture.most_stress, von_mises(at_node));
+  for (const OuterFace& face : outer_faces(problem.lattice)) {
+    PictureFace& drawn = picture.faces.emplace_back();
+    for (std::size_t n = 0; n < 4; ++n) {
+      const std::size_t node = stress.nodes.of(face.element)[face.corners[n]];
+      for (std::size_t a = 0; a < 3; ++a)
+        drawn.corners[n][Eigen::Index(a)] =
+            float(motion.rest[node][a] + picture.magnification * motion.displacement[node][a]);
+      drawn.values[n] = float(von_mises(stress.at_nodes[node]));
+    }
+  }
+  return picture;
+}
 
 void write_state(FileSet& outputs, const std::string& path, const Problem& problem,
                  const std::vector<double>& state, Rotation equations,
@@ -57,6 +108,41 @@ void write_state(FileSet& outputs, const std::string& path, const Problem& probl
   AtomicFile& file = outputs.open(path);
   write_state_csv(file, problem, state, field.elements());
   file.finish();
+}
+
+void write_picture(FileSet& outputs, const std::string& path, const Problem& problem,
+                   const std::vector<double>& state, Rotation equations,
+                   std::span<const double> signals) {
+  StressPicture picture =
+      stress_picture(problem, state, stress_output(problem, state, equations, signals));
+  const auto [unit, prefix] = stress_unit(picture.most_stress);
+  for (PictureFace& face : picture.faces)
+    for (float& value : face.values) value /= float(unit);
+  const PictureWords words{
+      picture.magnification == 1
+          ? problem.name
+          : fmt::format("{}, displacements x {:.3g}", problem.name, picture.magnification),
+      ColourScale{fmt::format("von Mises stress [{}Pa]", prefix), 0, picture.most_stress / unit}};
+  AtomicFile& file = outputs.open(path);
+  file.write(picture_svg(picture.faces, words));
+  file.finish();
+}
+
+} // namespace
+
+std::vector<std::string> final_files(const RunRequest& request) {
+  std::vector<std::string> files = {request.state_csv, request.picture};
+  std::erase(files, "");
+  return files;
+}
+
+void write_final_files(FileSet& outputs, const RunRequest& request, const Problem& problem,
+                       const std::vector<double>& state, Rotation equations,
+                       std::span<const double> signals) {
+  if (!request.state_csv.empty())
+    write_state(outputs, request.state_csv, problem, state, equations, signals);
+  if (!request.picture.empty())
+    write_picture(outputs, request.picture, problem, state, equations, signals);
 }
 
 void FrameSeries::add(const Problem& problem, const std::vector<double>& state, Rotation equations,

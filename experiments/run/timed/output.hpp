@@ -1,8 +1,9 @@
 #pragma once
 /// Output files of a run. They include the stress of each element, recovered from the state.
 #include "experiments/base/clock.hpp"
+#include "experiments/run/plan/run_request.hpp"
 #include "solver/io/file_set.hpp"
-#include "solver/io/vtu.hpp"
+#include "solver/io/vtk/vtu.hpp"
 
 #include <span>
 #include <string>
@@ -10,11 +11,17 @@
 
 namespace dss {
 
-/// Adds a state as CSV to the files of a run (solver/io/state_csv.hpp).
+/// Names of the files of a run's final state: a CSV (solver/io/state_csv.hpp) and a picture
+/// (solver/io/picture), as far as they are asked for.
+std::vector<std::string> final_files(const RunRequest& request);
+
+/// Adds them to the files of the run. The picture has the von Mises stress at the nodes, on the
+/// deformed body. Displacements are magnified so that the largest is a twentieth of the body's
+/// extent, unless they are larger.
 /// @param signals  a row at its time (solver/numerics/signal_rows.hpp)
-void write_state(FileSet& outputs, const std::string& path, const Problem& problem,
-                 const std::vector<double>& state, Rotation equations,
-                 std::span<const double> signals);
+void write_final_files(FileSet& outputs, const RunRequest& request, const Problem& problem,
+                       const std::vector<double>& state, Rotation equations,
+                       std::span<const double> signals);
 
 /// The .vtu file of a run, one of its set of files. A series has several files and a .pvd index:
 /// F.vtu becomes F_0000.vtu, F_0001.vtu, ... and F.pvd, each of which appears at once.
@@ -23,8 +30,8 @@ public:
   /// @param outputs  files of the run; lives longer
   FrameSeries(std::string output, bool is_series, FileSet& outputs)
       : output_(std::move(output)), is_series_(is_series), outputs_(&outputs) {}
-  /// Writes the state at a time [s]; signals as in write_state, empty: without loads. The index of
-  /// a series so far is at most a second older. Does nothing without an output.
+  /// Writes the state at a time [s]; signals as in write_final_files, empty: without loads. The
+  /// index of a series so far is at most a second older. Does nothing without an output.
   void add(const Problem& problem, const std::vector<double>& state, Rotation equations,
            std::span<const double> signals, double time);
   /// Goes on with a series whose frames at these times [s] were written before.

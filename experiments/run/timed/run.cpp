@@ -45,13 +45,13 @@ RunResult run_scene(const RunRequest& request, FileSet& outputs) {
   describe_end(timed, plan, result);
   judge_range(plan, rotation, result);
   if (result.status != "ok") return result;
-  if (!request.state_csv.empty()) {
+  if (const std::vector<std::string> files = final_files(request); !files.empty()) {
     const std::vector<double> state = whole_state(timed.executor(), problem.lattice.element_count);
     const WorkAlone alone(timed.executor(), request.is_root);
     if (request.is_root)
-      write_state(outputs, request.state_csv, problem, state, rotation,
-                  signals_at(problem, result.end_s));
-    result.files.push_back(request.state_csv);
+      write_final_files(outputs, request, problem, state, rotation,
+                        signals_at(problem, result.end_s));
+    result.files.insert(result.files.end(), files.begin(), files.end());
   }
   result.wall_s += result.model_report.look_s;
   result.balance = timed.energy_balance();

@@ -136,8 +136,9 @@ BoundStructure bound_structure(const Problem& problem) {
   structure.shortest_edge = shortest_edge(problem);
   for (const Body& body : problem.bodies) {
     structure.edge = std::max(structure.edge, *std::ranges::max_element(body.edge));
-    structure.mass = std::min(structure.mass, body.mass);
-    structure.inertia = std::min(structure.inertia, *std::ranges::min_element(body.inertia));
+    const double ratio = body.mass_ratios.empty() ? 1 : std::ranges::min(body.mass_ratios);
+    structure.mass = std::min(structure.mass, ratio * body.mass);
+    structure.inertia = std::min(structure.inertia, ratio * std::ranges::min(body.inertia));
   }
   // Inverse of the least buckling load [1/N].
   double yielding = 0;

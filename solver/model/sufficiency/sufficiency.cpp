@@ -75,8 +75,10 @@ std::string why_not_in_translation(const Problem& problem) {
     if (load.elements.size() != count)
       return fmt::format("load {} pulls some elements and not others", l);
   }
-  const bool has_one_mass = std::ranges::all_of(
-      problem.bodies, [&](const Body& body) { return body.mass == problem.bodies.front().mass; });
+  const bool has_one_mass =
+      !problem.has_mass_ratios() && std::ranges::all_of(problem.bodies, [&](const Body& body) {
+        return body.mass == problem.bodies.front().mass;
+      });
   const bool is_pulled =
       std::ranges::any_of(problem.loads, [](const Load& load) { return load.force != Vec3{}; });
   if (!has_one_mass && (is_pulled || problem.stabilization.is_present()))
@@ -91,6 +93,8 @@ std::string why_not_in_translation(const Problem& problem) {
 
 std::string why_not(Model model, const Problem& problem) {
   if (model != Model::spatial && problem.has_rotating_frame()) return "its frame rotates";
+  if (model != Model::spatial && problem.has_mass_ratios())
+    return "its elements differ in mass, because its materials have different densities";
   switch (degrees_of(model)) {
   case dof_all:
     return {};

@@ -132,6 +132,14 @@ static inline REAL NAME(update)(device d, global const row_stage* task,
                        SPLAT(body->tie_d_rot)};
   sum = wrench_finished(sum, i, NAME(paper_law_of)(body, 0), tie, FLAGS);
   if (is_applied) sum = NAME(apply)(d, task, signals, pack, sum);
+#ifdef HAS_FRAME
+  if (FLAGS.is_gyroscopic && FLAGS.is_tied && task->inverse_ratios >= 0) {
+    global const NUMBER* p = d.arena + task->inverse_ratios + (long)pack * W + LANE;
+    const REAL inverse = LOAD(p);
+    sum.force = vec_scale(inverse, sum.force);
+    sum.moment = spin_scale(inverse, sum.moment);
+  }
+#endif
   if (body->is_accelerated) sum.force = vec_axpy(SPLAT(body->mass), vec_splat(signals), sum.force);
   spin angular = turn(sum.moment, i.e, spin_splat(body->inertia), spin_splat(body->inverse_inertia),
                       FLAGS.is_gyroscopic);

@@ -11,8 +11,9 @@ typedef struct {
   long carry_y, carry_z, from_y, from_z; /* for vectors: carry buffers */
   long lower_y, lower_z;                 /* for items: input of the lower rows */
   long base, out, increment[6];
-  long published; /* where the new state is also stored */
-  long rest;      /* as in RowTask */
+  long published;      /* where the new state is also stored */
+  long rest;           /* as in RowTask */
+  long inverse_ratios; /* as in RowTask; -1: none */
   /* action: of enum row_action; shape: of the compiled terms; applied: row, -1 for most rows */
   int action, shape, body, applied;
   int face_strains; /* as applied: loads' shares in pressures */

@@ -17,12 +17,13 @@ struct StressOutput {
   std::vector<SymmetricTensor> at_nodes; ///< stress of each node [Pa]
 };
 
-/// Writes one state as an unstructured grid (.vtu, inline base64, 64-bit floats). Points are nodes
-/// at rest. Point data, means of what the elements at a node have there: displacement [m], which
-/// moves them (ParaView: Warp By Vector), stress and von_mises [Pa]. Cell data, in the middle of
-/// elements: displacement [m], velocity [m/s], rotation_vector [rad], stress, von_mises and
-/// principal_stress [Pa], strain, and the number of its body. Field data: TimeValue [s], and the
-/// names of the scene, its bodies and the units. Tensors have VTK's order: xx, yy, zz, xy, yz, xz.
+/// Writes one state as an unstructured grid (.vtu, compressed appended data, 64-bit floats). Points
+/// are nodes at rest. Point data, means of what the elements at a node have there: displacement
+/// [m], which moves them (ParaView: Warp By Vector), stress and von_mises [Pa]. Cell data, in the
+/// middle of elements: displacement [m], velocity [m/s], rotation_vector [rad], stress, von_mises
+/// and principal_stress [Pa], strain, the number of its body and, of bodies of several materials,
+/// that of its material. Field data: TimeValue [s], and the names of the scene, its bodies and the
+/// units. Tensors have VTK's order: xx, yy, zz, xy, yz, xz.
 /// @param file    its caller commits it
 /// @param time    [s]
 /// @param state   13 numbers an element
