@@ -116,7 +116,7 @@ coverage:
 
 # These come first, because work_precision reads what error_budget found. They time nothing and use
 # one core each, so two run side by side.
-UNTIMED_STUDIES := error_budget failures continuum
+UNTIMED_STUDIES := error_budget failures continuum verification
 # Speed-ups are measured in three parts, with other studies in between: a busy neighbour
 # of the machine stays for minutes, and so disturbs only some of their rounds.
 ROUNDS := 4
@@ -147,6 +147,8 @@ reproduce: build
 	@$(BUILD)/dssbench run plate_paper --set n=60 --steps 2000 \
 	  --output $(OUT)/fields/plate_paper.vtu >/dev/null
 	@$(BUILD)/dssbench run l_bracket --output $(OUT)/fields/l_bracket.vtu --frames 6 >/dev/null
+	@$(BUILD)/dssbench run arm/arm --set duration=0.0035 --threads 2 \
+	  --output $(OUT)/fields/arm.vtu >/dev/null
 	@/usr/bin/python3 plots/make_plots.py --results $(OUT)
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
 

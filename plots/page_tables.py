@@ -193,8 +193,42 @@ def statics_table(results):
     return ["scene", "elements", "unknowns", "factors", *solvers[1:]], lines
 
 
-TABLES = {"chain": chain_table, "continuum": continuum_table,
+def verification_table(results):
+    """Published problems: their figures, and the parts of the error."""
+    frame = results.table("verification", "problem", "figure", "unit", "reference", "extrapolated",
+                          "extrapolated_uncertainty", "grid_error", "model_error", "status",
+                          optional=["time_error"])
+    frame = frame[frame["reference"].notna()]
+
+    def part(value):
+        return "" if value != value else f"{value:+.2%}"
+
+    lines = [[f"`{row['problem']}`", f"{row['figure']} [{row['unit']}]", f"{row['reference']:.6g}",
+              f"{row['extrapolated']:.6g} ± {row['extrapolated_uncertainty']:.1g}",
+              part(row["grid_error"]), part(row["model_error"]), part(row["time_error"]),
+              row["status"]] for _, row in frame.iterrows()]
+    return ["problem", "figure", "published", "extrapolated", "grid", "model", "time", ""], lines
+
+
+def arm_table(results):
+    """Figures of the suspension arm by grid."""
+    grids = results.table("verification_grids", "problem", "figure", "value", "elements", "result",
+                          "unit")
+    whole = results.table("verification", "problem", "figure", "extrapolated",
+                          "extrapolated_uncertainty")
+    grids, whole = (frame[frame["problem"] == "arm"] for frame in (grids, whole))
+    names = list(dict.fromkeys(f"{row['figure']} [{row['unit']}]" for _, row in grids.iterrows()))
+    lines = [[f"{value:g}", f"{rows['elements'].iloc[0]}",
+              *(f"{result:.4g}" for result in rows["result"])]
+             for value, rows in grids.groupby("value")]
+    lines.append(["extrapolated", "",
+                  *(f"{row['extrapolated']:.4g} ± {row['extrapolated_uncertainty']:.1g}"
+                    for _, row in whole.iterrows())])
+    return ["layers of a leg", "elements", *names], lines
+
+
+TABLES = {"arm": arm_table, "chain": chain_table, "continuum": continuum_table,
           "first": first_table, "geometry": geometry_table, "goals": goals_table, "gpu": gpu_table,
           "machine": machine_table, "mix": mix_table, "models": models_table,
           "networks": network_table, "schedules": schedules_table, "sizes": sizes_table,
-          "statics": statics_table}
+          "statics": statics_table, "verification": verification_table}

@@ -4,7 +4,7 @@
 #define DSS_EACH_KIND(kind)                                                                        \
   kind(work_precision) kind(speedup) kind(cluster) kind(advise) kind(balance) kind(chain)          \
       kind(continuum) kind(error_budget) kind(failures) kind(kernels) kind(model_ladder)           \
-          kind(mixed_nodes) kind(paper) kind(stability) kind(statics)
+          kind(mixed_nodes) kind(paper) kind(stability) kind(statics) kind(verification)
 
 namespace dss {
 

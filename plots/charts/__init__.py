@@ -6,7 +6,8 @@ import dataclasses
 from collections.abc import Callable
 
 from . import (advice, balance, cells, chain, cluster, continuum, error_budget, failures, kernels,
-               ladder, mixed_nodes, paper, stability, statics, sweep, work_precision)
+               ladder, mixed_nodes, paper, stability, statics, sweep, verification,
+               work_precision)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,10 +71,12 @@ CHARTS = [Entry(*words) for words in (
     ("advice", "Advice", "advise", advice.advice, "advise"),
     ("error-budget", "Error budget", "error_budget", error_budget.error_budget, "error_budget"),
     ("continuum", "Lattices and continuum theory", "continuum", continuum.continuum, "continuum"),
+    ("verification", "Published problems", "verification", verification.verification,
+     "verification"),
     ("statics", "States of rest", "statics", statics.statics, "statics"),
 )]
 # Tables that are drawn in a chart of another table, or have no chart.
-BESIDE = ["geometry", "bodies", "table3_gpu", "stability_map", "ceilings", "table1_simulated",
+BESIDE = ["geometry", "bodies", "verification_grids", "table3_gpu", "stability_map", "ceilings", "table1_simulated",
           "table2_simulated", "mixed_nodes_held", "work_precision_cheapest",
           "work_precision_comparisons"]
 # The charts of any other table, which is a study of cells that a user wrote.

@@ -11,12 +11,14 @@ from .elements import (OLD, age_text, code, command, details, element, elements,
                        link_table, missing, plain_table, scrolling, source_line, table)
 
 PICTURES = {
+    "arm.png": "The suspension arm of the scene arm/arm while its wheel runs over a bump",
     "plate_paper.png": "The paper's plate, deformed, coloured by von Mises stress",
     "l_bracket.png": "The bracket of the scene l_bracket, deformed, coloured by von Mises stress",
     "l_bracket_frames.png": "The bracket over time"}
 PICTURES_MADE_BY = (
     "Made by `dssbench run plate_paper --set n=60 --steps 2000 --output plate_paper.vtu`, "
-    "`dssbench run l_bracket --output l_bracket.vtu --frames 6` and `plots/body_picture.py`.")
+    "`dssbench run l_bracket --output l_bracket.vtu --frames 6`, `dssbench run arm/arm --set "
+    "duration=0.0035 --threads 2 --output arm.vtu` and `plots/body_picture.py`.")
 TALL = 15  # a table with more rows has a limited height
 
 

@@ -18,17 +18,21 @@
 namespace dss {
 namespace {
 
-void fill(VoxelGrid& grid, const GridPoint& from, const GridPoint& size) {
+void fill(VoxelGrid& grid, const GridPoint& from, const GridPoint& size,
+          std::uint8_t material = 1) {
   for (long z = from[2]; z < from[2] + size[2]; ++z)
     for (long y = from[1]; y < from[1] + size[1]; ++y) {
       const auto row = grid.occupied.begin() + ((z * grid.ny + y) * grid.nx + from[0]);
-      std::fill(row, row + size[0], std::uint8_t(1));
+      std::fill(row, row + size[0], material);
     }
 }
 
-/// Boxes: where each begins, and its size.
+struct CellBox {
+  GridPoint from{}, size{};
+  std::uint8_t material = 1;
+};
 struct Boxes {
-  std::vector<std::pair<GridPoint, GridPoint>> all;
+  std::vector<CellBox> all; ///< a later one covers those before it
   GridPoint extent{};
 };
 
@@ -38,10 +42,11 @@ Boxes read_box_list(const Node& node) {
     ObjectNode box(item);
     const GridPoint from = read_point(box.require("from"), 0),
                     size = read_point(box.require("size"), 1);
+    const auto material = box.find("material");
+    boxes.all.push_back({from, size, std::uint8_t(material ? material->whole(1, 255) : 1)});
     box.finish();
     for (std::size_t a = 0; a < 3; ++a)
       boxes.extent[a] = std::max(boxes.extent[a], from[a] + size[a]);
-    boxes.all.emplace_back(from, size);
   }
   if (boxes.all.empty()) node.fail("no boxes; a body has at least one element");
   return boxes;
@@ -50,7 +55,7 @@ Boxes read_box_list(const Node& node) {
 VoxelGrid read_boxes(const Node& node) {
   const Boxes boxes = read_box_list(node);
   VoxelGrid grid = empty_grid(node, boxes.extent);
-  for (const auto& [from, size] : boxes.all) fill(grid, from, size);
+  for (const CellBox& box : boxes.all) fill(grid, box.from, box.size, box.material);
   return grid;
 }
 
@@ -170,8 +175,8 @@ ShapeSize shape_size(ObjectNode& body) {
   if (kind != "boxes") return {cells_of(what, read_point(ObjectNode(what).require("size"), 1)), 0};
   const Boxes boxes = read_box_list(what);
   ShapeSize size{cells_of(what, boxes.extent), 0};
-  for (const auto& [from, extent] : boxes.all)
-    size.least_elements = std::max(size.least_elements, cells_of(what, extent));
+  for (const CellBox& box : boxes.all)
+    size.least_elements = std::max(size.least_elements, cells_of(what, box.size));
   return size;
 }
 

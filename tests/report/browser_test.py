@@ -49,7 +49,7 @@ SECTIONS = ["paper-1", "paper-2", "paper-3", "figure-9", "speedups-1",
             "work-precision-time", "work-precision-evaluations", "pareto", "scaling-1",
             "scaling-2", "cluster", "cluster-nodes", "mixed-nodes", "balance", "stability",
             "energy", "ladder", "ladder-errors", "atlas", "advice", "error-budget", "continuum",
-            "statics"]
+            "verification", "statics"]
 FOCUS = """
 const at = document.activeElement, section = at.closest("section");
 return [at.tagName, at.id || at.name || at.className, section ? section.id : ""];

@@ -11,10 +11,10 @@ import math
 import pathlib
 import struct
 
-BUSHING = {"outer": 26, "bore": 14, "length": 50, "x": 130}
-BALL = {"outer": 32, "bore": 16, "length": 40, "x": 20, "y": 340}
+BUSHING = {"outer": 24, "bore": 14, "length": 50, "x": 130}
+BALL = {"outer": 32, "bore": 16, "length": 48, "x": 20, "y": 340}
 LEG = {"inner": 20, "outer": 24, "height": 24}  # radii of its rounded ends
-BRACE = {"radius": 13, "height": 16, "y": 130}
+BRACE = {"radius": 13, "height": 24, "y": 130}
 SIDES = 96
 
 

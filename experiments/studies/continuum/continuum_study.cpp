@@ -203,21 +203,6 @@ void add_rows(const ContinuumStudy& study, const ContinuumCheck& check, Table& t
 
 } // namespace
 
-Richardson richardson(const std::vector<double>& h, const std::vector<double>& f) {
-  const double wanted = (f[0] - f[1]) / (f[1] - f[2]);
-  const auto ratio = [&](double p) {
-    return (std::pow(h[0], p) - std::pow(h[1], p)) / (std::pow(h[1], p) - std::pow(h[2], p));
-  };
-  double low = 0.1, high = 10; // the ratio grows with p
-  if (!(wanted >= ratio(low) && wanted <= ratio(high))) return {none, none};
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = (low + high) / 2;
-    (ratio(middle) < wanted ? low : high) = middle;
-  }
-  const double c = (f[1] - f[2]) / (std::pow(h[1], low) - std::pow(h[2], low));
-  return {low, f[2] - c * std::pow(h[2], low)};
-}
-
 Table continuum_table(const ContinuumStudy& study) {
   Table table{continuum_columns, {}};
   for (const ContinuumCheck& check : study.checks) add_rows(study, check, table);

@@ -5,6 +5,7 @@
 /// experiments/README.md describes the JSON.
 #include "experiments/base/records.hpp"
 #include "experiments/measure/formula.hpp"
+#include "experiments/measure/richardson.hpp"
 #include "experiments/measure/study_file.hpp"
 
 #include <optional>
@@ -54,12 +55,5 @@ ContinuumStudy read_continuum(const StudyFile& file);
 Table continuum_table(const ContinuumStudy& study);
 /// The table as text.
 std::string continuum_text(const ContinuumStudy& study, const Table& table);
-
-/// Order p and limit f of figures of the form f + c h^p at three spacings h, the finest last. NaN
-/// if no p from 0.1 to 10 fits.
-struct Richardson {
-  double order = 0, limit = 0;
-};
-Richardson richardson(const std::vector<double>& spacing, const std::vector<double>& figure);
 
 } // namespace dss
