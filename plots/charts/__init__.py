@@ -76,8 +76,8 @@ CHARTS = [Entry(*words) for words in (
     ("statics", "States of rest", "statics", statics.statics, "statics"),
 )]
 # Tables that are drawn in a chart of another table, or have no chart.
-BESIDE = ["geometry", "bodies", "verification_grids", "table3_gpu", "stability_map", "ceilings", "table1_simulated",
-          "table2_simulated", "mixed_nodes_held", "work_precision_cheapest",
+BESIDE = ["geometry", "bodies", "verification_grids", "table3_gpu", "stability_map", "ceilings",
+          "table1_simulated", "table2_simulated", "mixed_nodes_held", "work_precision_cheapest",
           "work_precision_comparisons"]
 # The charts of any other table, which is a study of cells that a user wrote.
 CELLS = {"": cells.speedups, "_rates": sweep.rates, "_scaling": cells.scaling,

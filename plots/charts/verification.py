@@ -33,8 +33,8 @@ def verification(results):
     zero = guide("as published", [(0, places[0]), (0, places[-1])], Look("ink", line="dash"))
     agree = int((frame["status"] == "agrees").sum())
     largest = held["model_error"].abs().max()
-    heading = ("Published problems: relative difference of the extrapolated figure to the published "
-               "one, with its uncertainty, and of the finest grid.")
+    heading = ("Published problems: relative difference of the extrapolated figure to the "
+               "published one, with its uncertainty, and of the finest grid.")
     words = (f"{agree} of {len(held)} figures agree with the published ones; the largest "
              f"difference is {100 * largest:.2g} %.")
     panel = Panel(Axis("difference to the published figure [%]"),

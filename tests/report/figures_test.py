@@ -23,7 +23,8 @@ from description import Axis, Chart, Look, Panel, Series  # noqa: E402
 from render import check, page, pictures, png  # noqa: E402
 from tables.results import Results  # noqa: E402
 
-FIELDS = {"arm", "l_bracket", "l_bracket_frames", "plate_paper"}  # pictures of bodies, not of tables
+# Pictures of bodies, not of tables.
+FIELDS = {"arm", "l_bracket", "l_bracket_frames", "plate_paper"}
 
 
 def chart_of(series, heading="A chart"):
