@@ -127,7 +127,9 @@ void add_step_options(CLI::App& command, RunRequest& request) {
 
 /// Options of files.
 void add_output_options(CLI::App& command, RunRequest& request) {
-  command.add_option("--output", request.output, "F.vtu: file for the final state, for ParaView");
+  command.add_option("--output", request.output,
+                     "F.vtu: file for the final state, for ParaView. F.vtkhdf: the same as VTKHDF, "
+                     "with all states of --frames in it");
   command
       .add_option("--frames", request.frames,
                   "Write a series instead of F.vtu: F_0000.vtu (the start) to F_<frames>.vtu, "

@@ -106,6 +106,23 @@ class Outputs(ProgramTest):
             self.assertIn(f'timestep="{step * 1e-6:.17g}" part="0" file="{name}.vtu"',
                           self.read("p.pvd"))
 
+    def test_a_series_in_one_file_is_whole_or_not_there(self):
+        self.run_json("--output", self.path("p.vtkhdf"), "--frames", "2")
+        self.assertEqual(os.listdir(self.directory), ["p.vtkhdf"])
+        with open(self.path("p.vtkhdf"), "rb") as file:
+            before = file.read()
+        self.assertEqual(before[:8], b"\x89HDF\r\n\x1a\n")
+        failing = dssbench("run", "plate_paper", "--set", "n=12", "--steps", "2000", "--dt", "1",
+                           "--force", "--frames", "4", "--output", self.path("p.vtkhdf"))
+        self.assertEqual(failing.returncode, 3, failing.stderr)
+        self.assertEqual(os.listdir(self.directory), ["p.vtkhdf"])
+        with open(self.path("p.vtkhdf"), "rb") as file:
+            self.assertEqual(file.read(), before)
+        self.assert_refused(2, ["a checkpoint cannot go on"], "run", "plate_paper", "--output",
+                            self.path("p.vtkhdf"), "--checkpoint", self.path("c.ckpt"))
+        self.assert_refused(2, ["ends in .vtu or .vtkhdf"], "run", "plate_paper", "--output",
+                            self.path("p.vtk"))
+
     def test_the_vtu_has_the_displacements_of_the_state(self):
         sys.path.insert(0, str(ROOT / "plots"))
         try:

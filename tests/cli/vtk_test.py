@@ -1,14 +1,18 @@
 """VTK reads the files of `--output` as ParaView does. Skipped without VTK (pip install vtk)."""
+import pathlib
 import unittest
 
 from program import dssbench
 from runs import RunTest
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
 try:
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkFiltersGeneral import vtkWarpVector
     from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+    from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLUnstructuredGridReader
     WHY_NOT = None
 except ImportError as missing:
     WHY_NOT = f"this python has no {missing.name}"
@@ -42,6 +46,46 @@ class Readers(RunTest):
         self.assertGreater(largest, 0)
         self.assertLessEqual(abs(principal.sum(axis=1) - stress[:, :3].sum(axis=1)).max(),
                              1e-12 * largest)
+
+    def test_a_series_in_one_file_has_the_states_of_the_files(self):
+        run = ("two_bodies", "--steps", "40", "--frames", "4")
+        self.run_json(*run, "--output", "b.vtu")
+        self.run_json(*run, "--output", "b.vtkhdf")
+        reader = vtkHDFReader()
+        reader.SetFileName(self.path("b.vtkhdf"))
+        reader.UpdateInformation()
+        self.assertEqual(reader.GetNumberOfSteps(), 5)
+        for step in range(5):
+            reader.SetStep(step)
+            reader.Update()
+            whole, (single, _) = reader.GetOutput(), self.grid(f"b_{step:04}.vtu")
+            time = single.GetFieldData().GetArray("TimeValue").GetValue(0)
+            self.assertEqual(reader.GetTimeValue(), time)
+            points = [vtk_to_numpy(grid.GetPoints().GetData()) for grid in (whole, single)]
+            self.assertTrue((points[0] == points[1]).all())
+            self.assertEqual(whole.GetNumberOfCells(), single.GetNumberOfCells())
+            for cell in (0, whole.GetNumberOfCells() - 1):
+                self.assertEqual([whole.GetCell(cell).GetPointId(n) for n in range(8)],
+                                 [single.GetCell(cell).GetPointId(n) for n in range(8)])
+            for of in ("GetPointData", "GetCellData"):
+                ours, theirs = getattr(whole, of)(), getattr(single, of)()
+                for n in range(theirs.GetNumberOfArrays()):
+                    name = theirs.GetArrayName(n)
+                    values = [vtk_to_numpy(data.GetArray(name)) for data in (ours, theirs)]
+                    self.assertTrue((values[0] == values[1]).all(), (step, name))
+
+    def test_voxels_that_are_written_are_an_image(self):
+        arm = ROOT / "experiments" / "scenes" / "arm" / "arm.stl"
+        result = dssbench("voxelize", arm, "--unit", "mm", "--cell", "8e-3", "--surface", "winding",
+                          "--output", self.path("arm.vti"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        reader = vtkXMLImageDataReader()
+        reader.SetFileName(self.path("arm.vti"))
+        reader.Update()
+        image = reader.GetOutput()
+        material = vtk_to_numpy(image.GetCellData().GetArray("material"))
+        self.assertIn(f"{material.sum()} elements", result.stdout)
+        self.assertEqual(image.GetSpacing(), (8e-3, 8e-3, 8e-3))
 
     def test_its_field_data_tell_scene_time_and_units(self):
         record = self.run_json("two_bodies", "--steps", "40", "--output", "b.vtu")

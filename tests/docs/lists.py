@@ -30,7 +30,8 @@ ELSEWHERE = (
     (r"^cmake --preset (\w+)", r"cmake -S $SOURCE -N --preset \1", "would configure the tree"),
     (r"^cmake --install build/release", "cmake --install $BUILD", "the build under test"),
     (r"^bundle/bin/", "", "the installed program"),
-    (r"examples/ensemble/", "$SOURCE/examples/ensemble/", "a file of the source tree"),
+    (r"(?<!\S)(examples/ensemble|experiments/scenes/arm)/", r"$SOURCE/\1/",
+     "a file of the source tree"),
     (r"--device gpu", "--device none", "needs a GPU"),
     (r"opencl@gpu", "opencl@cpu", "needs a GPU"),
     (r"^(?=dssbench compare before/)", "dssbench bench --kernel euler --model spatial --out before "
@@ -59,6 +60,10 @@ SIZES = (
     (r"--steps (500|1000)\b", "--steps 20", "takes seconds"),
     (r"(run plate_paper)(?!.*--steps)", r"\1 --steps 20", "takes seconds"),
     (r"--frames 20", "--frames 2", "takes seconds"),
+    (r"(run arm/arm)(?!.*static)", r"\1 --set layers=3 --steps 20", "takes a minute"),
+    (r"(run arm/arm)(?=.*static)", r"\1 --set layers=3", "takes seconds"),
+    (r"--set layers=4 ", "", "a larger grid"),
+    (r"(verify arm/arm --variant )avx2,avx512", r"\1avx2", "takes half a minute"),
 )
 
 TRANSCRIPTS = (  # transcripts that are run smaller; their lines are then not compared

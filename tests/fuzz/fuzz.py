@@ -24,6 +24,7 @@ SHIPPED = {
     "study": ["experiments/studies/**/*.json"],
     "members": ["examples/ensemble/*"],
     "csv": ["results/raw/table2.csv", "examples/ensemble/*.csv"],
+    "surface": ["experiments/scenes/verification/*.stl"],
 }
 LIMITS = ["-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=1024", "-print_final_stats=1"]
 

@@ -131,8 +131,13 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
   if (request.frames > 0 && request.output.empty())
     refuse("--frames: needs --output F.vtu, which names the series");
-  if (!request.output.empty() && !request.output.ends_with(".vtu"))
-    refuse(fmt::format("--output {}: give a name that ends in .vtu", request.output));
+  const bool is_one_file = request.output.ends_with(".vtkhdf");
+  if (!request.output.empty() && !request.output.ends_with(".vtu") && !is_one_file)
+    refuse(fmt::format("--output {}: give a name that ends in .vtu or .vtkhdf", request.output));
+  if (is_one_file && request.has_checkpoint())
+    refuse(fmt::format("--output {}: a checkpoint cannot go on with a series in one file; give "
+                       "F.vtu",
+                       request.output));
 }
 
 /// Tolerance from --rtol and --atol; empty without them.

@@ -2,6 +2,7 @@
 #include "experiments/base/interrupt.hpp"
 #include "solver/error.hpp"
 #include "solver/io/picture/picture.hpp"
+#include "solver/io/state_csv.hpp"
 #include "solver/io/vtk/node_motion.hpp"
 #include "solver/model/stress/stress_field.hpp"
 #include "solver/numerics/signal_rows.hpp"
@@ -151,7 +152,10 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
   const std::filesystem::path path = next_file();
   try {
     const StressOutput stress = stress_output(problem, state, equations, signals);
-    if (is_series_) {
+    if (is_one_file()) {
+      if (!whole_) whole_ = std::make_shared<VtkHdfFile>(output_);
+      whole_->add(problem, time, state, stress);
+    } else if (is_series_) {
       AtomicFile file(path.string());
       write_vtu(file, problem, time, state, stress);
       file.commit();
@@ -161,7 +165,7 @@ void FrameSeries::add(const Problem& problem, const std::vector<double>& state, 
       file.finish();
     }
     frames_.push_back({path.filename().string(), time});
-    if (is_series_) keep_index();
+    if (is_series_ && !is_one_file()) keep_index();
   } catch (...) {
     if (!keeps_finished_) discard();
     throw;
@@ -196,6 +200,11 @@ void FrameSeries::keep_index() {
 }
 
 void FrameSeries::discard() {
+  if (is_one_file()) {
+    whole_.reset();
+    frames_.clear();
+    return;
+  }
   if (!is_series_) {
     outputs_->drop(output_);
     frames_.clear();
@@ -212,6 +221,10 @@ std::string FrameSeries::index() const {
 }
 
 std::string FrameSeries::finish() const {
+  if (is_one_file()) {
+    if (whole_) whole_->commit();
+    return fmt::format("{}, which has {} states", output_, frames_.size());
+  }
   if (!is_series_ || output_.empty()) return output_;
   write_pvd(index(), frames_);
   return fmt::format("{}, which lists {} files {} to {}", index(), frames_.size(),

@@ -3,8 +3,10 @@
 #include "experiments/base/clock.hpp"
 #include "experiments/run/plan/run_request.hpp"
 #include "solver/io/file_set.hpp"
+#include "solver/io/vtk/vtkhdf.hpp"
 #include "solver/io/vtk/vtu.hpp"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +26,8 @@ void write_final_files(FileSet& outputs, const RunRequest& request, const Proble
                        std::span<const double> signals);
 
 /// The .vtu file of a run, one of its set of files. A series has several files and a .pvd index:
-/// F.vtu becomes F_0000.vtu, F_0001.vtu, ... and F.pvd, each of which appears at once.
+/// F.vtu becomes F_0000.vtu, F_0001.vtu, ... and F.pvd, each of which appears at once. F.vtkhdf has
+/// all states of a series, and appears at its end.
 class FrameSeries {
 public:
   /// @param outputs  files of the run; lives longer
@@ -45,6 +48,7 @@ public:
   void discard();
 
 private:
+  bool is_one_file() const { return output_.ends_with(".vtkhdf"); }
   std::string index() const;
   std::string next_file() const;
   void keep_index();
@@ -54,6 +58,7 @@ private:
   FileSet* outputs_;
   bool keeps_finished_ = false;
   std::vector<Frame> frames_;
+  std::shared_ptr<VtkHdfFile> whole_; ///< of a series in one file
   Clock::time_point indexed_;
 };
 

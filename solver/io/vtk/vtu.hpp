@@ -1,7 +1,8 @@
 #pragma once
 /// VTK XML output, readable by ParaView. Elements share their corners, so a body that is warped
 /// looks whole although its elements are rigid and gaps open between them.
-#include "solver/io/state_csv.hpp"
+#include "solver/io/atomic_file.hpp"
+#include "solver/io/vtk/stress_output.hpp"
 #include "solver/model/problem.hpp"
 
 #include <span>
@@ -9,13 +10,6 @@
 #include <vector>
 
 namespace dss {
-
-/// Stress and strain of a state, as written.
-struct StressOutput {
-  std::vector<ElementStress> elements;
-  ElementNodes nodes;
-  std::vector<SymmetricTensor> at_nodes; ///< stress of each node [Pa]
-};
 
 /// Writes one state as an unstructured grid (.vtu, compressed appended data, 64-bit floats). Points
 /// are nodes at rest. Point data, means of what the elements at a node have there: displacement
