@@ -6,7 +6,8 @@
 set -eu
 DSS_EXTRA_PACKAGES="g++-aarch64-linux-gnu qemu-user" ./cmake/install_packages.sh
 
-libraries="libfmt-dev libmuparser-dev libbenchmark-dev zlib1g-dev libpng-dev libpugixml-dev libhdf5-dev"
+libraries="libfmt-dev libmuparser-dev libbenchmark-dev
+  zlib1g-dev libpng-dev libpugixml-dev libhdf5-dev"
 folder=$PWD/build/aarch64-packages
 [ -e "$folder/complete" ] && exit 0
 rm -rf "$folder"

@@ -1,4 +1,3 @@
-#include "experiments/base/cores.hpp"
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
@@ -6,6 +5,7 @@
 #include "experiments/run/advise/advise.hpp"
 #include "experiments/run/advise/grid_advice.hpp"
 #include "experiments/run/plan/names.hpp"
+#include "solver/cores.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
 

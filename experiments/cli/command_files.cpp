@@ -90,6 +90,7 @@ void CommandFiles::write_family(const std::string& option, const std::string& pa
 
 void CommandFiles::write_series(const std::string& option, const std::string& path) {
   if (!is_named(path)) return;
+  if (path.ends_with(".vtkhdf")) return write(option, path); // all in one file
   write_family(option, path, "_", "[0-9]*", ".vtu");
   entries_.push_back({option, fs::path(path).replace_extension(".pvd").string(), true, "", ""});
 }

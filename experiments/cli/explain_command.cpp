@@ -11,7 +11,9 @@
 #include "solver/model/thickness.hpp"
 #include "solver/scene/scene.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -63,6 +65,24 @@ void print_models(const ModelChoice& choice, const std::string& scene_model) {
                scene_model);
 }
 
+/// Of each load.
+std::vector<std::size_t> loaded_elements(const Problem& problem) {
+  std::vector<std::size_t> counts;
+  for (const Load& load : problem.loads) counts.push_back(load.elements.size());
+  return counts;
+}
+
+/// How many elements the selections of clamps and loads have.
+std::string selections_text(const Problem& problem) {
+  constexpr std::size_t most = 12; // a load along a line is one for each element
+  std::string text = fmt::format("clamps hold {} elements", problem.clamps.size());
+  const std::vector<std::size_t> counts = loaded_elements(problem);
+  if (counts.empty()) return text + "; nothing is loaded\n";
+  const auto end = counts.begin() + std::ptrdiff_t(std::min(most, counts.size()));
+  return text + fmt::format("; loads act on {}{} elements\n", fmt::join(counts.begin(), end, ", "),
+                            end == counts.end() ? "" : ", ...");
+}
+
 int explain(const ExplainArguments& arguments) {
   const std::vector<Override> overrides = parse_overrides(arguments.set);
   require_sound_output(arguments.scene, overrides, arguments.json);
@@ -93,6 +113,8 @@ int explain(const ExplainArguments& arguments) {
                                 {"degrees_of_freedom", needs_json(dofs)},
                                 {"terms", needs_json(needed_terms)},
                                 {"rotations", needs_json(rotations)},
+                                {"clamped_elements", problem.clamps.size()},
+                                {"loaded_elements", loaded_elements(problem)},
                                 {"links_by_kind", links_json(links)},
                                 {"pressures", pressures_json(pressures)},
                                 {"notes", notes}});
@@ -105,6 +127,7 @@ int explain(const ExplainArguments& arguments) {
   print_needs("degree of freedom", dofs);
   print_needs("term", needed_terms);
   print_needs("", rotations);
+  fmt::print("\n{}", selections_text(problem));
   fmt::print("\n{}", links_text(links));
   if (!pressures.empty()) fmt::print("\n{}", pressures_text(pressures));
   for (const std::string& note : notes) fmt::print("\nnote: {}\n", note);

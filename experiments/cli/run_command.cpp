@@ -86,7 +86,7 @@ void require_distinct_files(const RunRequest& request, const std::string& analys
     files.write_members("--picture", request.picture);
     files.write_members("--history", request.history);
     files.write_members("--output", request.output);
-    if (request.frames > 0 && !request.output.empty())
+    if (request.frames > 0 && request.output.ends_with(".vtu"))
       files.write_members("--output",
                           std::filesystem::path(request.output).replace_extension(".pvd").string());
   } else {

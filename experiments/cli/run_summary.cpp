@@ -1,6 +1,6 @@
 #include "experiments/cli/run_summary.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/base/text_table.hpp"
+#include "solver/cores.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
 #include "experiments/base/child.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/cli/arguments.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/sweep_study.hpp"
@@ -8,6 +7,7 @@
 #include "experiments/run/plan/names.hpp"
 #include "experiments/studies/run_study.hpp"
 #include "experiments/studies/speedup/speedup_study.hpp"
+#include "solver/cores.hpp"
 #include "solver/error.hpp"
 #include "solver/io/program_files.hpp"
 #include "solver/json/parse.hpp"

@@ -84,6 +84,10 @@ void write_voxels(AtomicFile& file, const SpaceGrid& grid, const VoxelGrid& voxe
 nlohmann::ordered_json as_json(const VoxelizeArguments& arguments, const Surface& surface,
                                const SpaceGrid& grid, const ShapeReport& report) {
   const auto vector = [](const Eigen::Vector3d& v) { return Vec3{v[0], v[1], v[2]}; };
+  const auto if_known = [](double value) {
+    return std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
+  };
+  const auto [low, high] = bounds(surface);
   nlohmann::ordered_json wall;
   if (report.thinnest)
     wall = {{"thickness_m", report.thinnest->thickness},
@@ -95,9 +99,10 @@ nlohmann::ordered_json as_json(const VoxelizeArguments& arguments, const Surface
           {"origin_m", vector(grid.low)},
           {"cells", grid.count},
           {"elements", report.elements},
-          {"surface_volume_m3", report.surface_volume},
+          {"surface_m", vector(high - low)},
+          {"surface_volume_m3", if_known(report.surface_volume)},
           {"voxel_volume_m3", report.voxel_volume},
-          {"volume_error", report.volume_error()},
+          {"volume_error", if_known(report.volume_error())},
           {"thinnest_wall", wall},
           {"pieces", report.pieces}};
 }
@@ -107,10 +112,16 @@ void print(const VoxelizeArguments& arguments, const Surface& surface, const Spa
   fmt::print("{}: {} triangles, {} x {} x {} cells of {:.4g} x {:.4g} x {:.4g} m, {} elements\n",
              arguments.file, surface.triangles.size(), grid.count[0], grid.count[1], grid.count[2],
              grid.edge[0], grid.edge[1], grid.edge[2], report.elements);
+  const auto [low, high] = bounds(surface);
+  fmt::print("the surface measures {:.4g} x {:.4g} x {:.4g} m\n", high[0] - low[0],
+             high[1] - low[1], high[2] - low[2]);
   fmt::print("low corner of cell (0, 0, 0): [{:.6g}, {:.6g}, {:.6g}] m\n", grid.low[0], grid.low[1],
              grid.low[2]);
-  fmt::print("volume: {:.6g} m^3, that of the surface is {:.6g} m^3 ({:+.3g} %)\n",
-             report.voxel_volume, report.surface_volume, 100 * report.volume_error());
+  if (std::isnan(report.surface_volume))
+    fmt::print("volume: {:.6g} m^3; the surface is open, so it has none\n", report.voxel_volume);
+  else
+    fmt::print("volume: {:.6g} m^3, that of the surface is {:.6g} m^3 ({:+.3g} %)\n",
+               report.voxel_volume, report.surface_volume, 100 * report.volume_error());
   if (report.thinnest)
     fmt::print("thinnest wall: {:.4g} m at [{:.4g}, {:.4g}, {:.4g}] m, {:.2g} elements\n",
                report.thinnest->thickness, report.thinnest->place[0], report.thinnest->place[1],
@@ -128,6 +139,8 @@ void require_sound(const VoxelizeArguments& arguments) {
   const std::string& output = arguments.output;
   if (!output.empty() && !output.ends_with(".npy") && !output.ends_with(".vti"))
     throw InputError(fmt::format("--output {}: give a name that ends in .npy or .vti", output));
+  if (!arguments.picture.empty() && !arguments.picture.ends_with(".svg"))
+    throw InputError(fmt::format("--picture {}: give a name that ends in .svg", arguments.picture));
   CommandFiles files;
   files.read("FILE", arguments.file);
   files.write("--output", output);
@@ -179,7 +192,7 @@ void add_voxelize_command(CLI::App& app, Chosen& chosen) {
   command->add_option("FILE", arguments->file, "STL file, binary or ASCII")->required();
   command->add_option("--unit", arguments->unit, "Unit of its numbers: m, cm, mm, um or in")
       ->required();
-  command->add_option("--cell", arguments->cell, "Edge of an element [m]; or three, along x, y, z")
+  command->add_option("--cell", arguments->cell, "Edge of an element [m]; or three as X,Y,Z")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--count", arguments->count,

@@ -1,8 +1,8 @@
 #include "experiments/measure/cell_record.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/measure/cell_bases.hpp"
 #include "experiments/run/plan/context.hpp"
 #include "experiments/run/timed/run_fields.hpp"
+#include "solver/cores.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "experiments/measure/cell_runs.hpp"
 #include "experiments/base/child.hpp"
 #include "experiments/base/clock.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/base/exit_code.hpp"
 #include "experiments/base/quiet.hpp"
 #include "experiments/base/statistics.hpp"
@@ -12,6 +11,7 @@
 #include "experiments/measure/patience.hpp"
 #include "experiments/measure/samples.hpp"
 #include "experiments/run/plan/context.hpp"
+#include "solver/cores.hpp"
 #include "solver/error.hpp"
 #include "solver/io/atomic_file.hpp"
 

@@ -14,4 +14,9 @@ namespace dss {
 std::ifstream open_whole(const std::filesystem::path& path, double share, const std::string& what,
                          const std::string& advice);
 
+/// The bytes of a file.
+/// @param kind  such as "STL file", for errors
+/// @throws InputError if it cannot be read, or if it and what is made of it do not fit into memory
+std::string bytes_of(const std::string& kind, const std::string& path);
+
 } // namespace dss

@@ -7,8 +7,9 @@
 
 namespace dss {
 
-/// Digest of shapes, materials of elements and tables of signals, 16 hexadecimal digits. They may
-/// come from files, which the text of a scene does not hold.
+/// Digest of shapes, sizes and places of elements, their materials, which of them are clamped,
+/// loaded and linked, and tables of signals, 16 hexadecimal digits. All may come from files, which
+/// the text of a scene does not hold.
 std::string file_digest(const Problem& problem);
 
 } // namespace dss

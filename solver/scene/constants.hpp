@@ -30,7 +30,10 @@ public:
 
   bool is_solid() const { return !materials_.empty(); }
   std::size_t count() const { return materials_.size(); }
-  const Material& of(int number) const { return materials_.at(number); }
+  /// @param number  of any voxel if there is one material
+  const Material& of(int number) const {
+    return count() == 1 ? materials_.begin()->second : materials_.at(number);
+  }
   /// Whether an element of some material has a pressure.
   bool is_contracting() const {
     return std::ranges::any_of(materials_, [](const auto& one) { return one.second.nu > 0; });

@@ -195,8 +195,9 @@ std::vector<Load> with_face_strains(const std::vector<Load>& loads, const BodyMa
                                     const Vec3& edge, const Problem& problem) {
   std::vector<Load> split;
   for (const Load& load : loads) {
-    if (load.face < 0) {
+    if (load.face < 0 || solid.count() == 1) {
       split.push_back(load);
+      if (load.face >= 0) set_face_strain(solid.of(1), edge, split.back());
       continue;
     }
     for (const auto& one : solid.all()) {
@@ -225,6 +226,8 @@ std::vector<Load> read_load(const Node& node, const Solids& solids, const BodySu
     loads = read_line_load(object, *line, problem, body);
   else
     loads = {read_selected_load(object, problem, surfaces, own)};
+  if (const BodyMaterials& solid = solids.bodies[std::size_t(body)]; solid.is_contracting())
+    loads = with_face_strains(loads, solid, own.edge, problem);
   if (const auto given = object.find("signal")) {
     const Signal signal = read_signal(*given, "1"); // a factor
     require_memory(16.0 * double(loads.size()) * double(signal.times.size()),
@@ -238,8 +241,6 @@ std::vector<Load> read_load(const Node& node, const Solids& solids, const BodySu
                                 load.torque[1], load.torque[2]})
       if (!std::isfinite(number))
         object.fail("the force on an element is beyond the range of numbers");
-  if (const BodyMaterials& solid = solids.bodies[std::size_t(body)]; solid.is_contracting())
-    loads = with_face_strains(loads, solid, own.edge, problem);
   return loads;
 }
 

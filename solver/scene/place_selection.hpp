@@ -22,7 +22,8 @@ extern const std::vector<std::string> place_keys;
 ///   cylinder  {"from", "to", "radius"}: the centre lies in this cylinder
 ///   cad_face  {"near", "angle"}: the face of the surface next to a point. It goes on over edges at
 ///             which normals turn by less than the angle [degrees]; elements are those that it
-///             passes within half of their diagonal.
+///             passes within half of their diagonal, in units of elements. The point is within a
+///             tenth of the surface's diagonal of it.
 /// @return elements of the body, ascending; none if the selection is empty
 std::vector<std::size_t> read_place(const std::string& key, const Node& node,
                                     const Problem& problem, int body,

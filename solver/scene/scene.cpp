@@ -32,10 +32,10 @@ std::vector<int> material_numbers(const VoxelGrid& grid) {
   return numbers;
 }
 
-/// Adds a body's materials to those of the elements. Bodies of one material have the number 1.
-void append_materials(const VoxelGrid& grid, const BodyMaterials& materials, Problem& problem) {
+/// Adds the numbers of a body's voxels to those of the elements.
+void append_materials(const VoxelGrid& grid, Problem& problem) {
   const std::size_t count = problem.lattice.element_count;
-  if (materials.all().empty() || (materials.count() == 1 && materials.all().contains(1))) {
+  if (std::ranges::all_of(grid.occupied, [](std::uint8_t cell) { return cell <= 1; })) {
     if (!problem.materials.empty()) problem.materials.resize(count, 1);
     return;
   }
@@ -67,7 +67,7 @@ void read_bodies(const Node& node, Problem& problem, Solids& solids, BodySurface
       if (other.name == body.name)
         object.require("name").fail(fmt::format("a second body \"{}\"; names differ", body.name));
     append_body(problem.lattice, shape.grid, int(problem.bodies.size()));
-    append_materials(shape.grid, solids.bodies.back(), problem);
+    append_materials(shape.grid, problem);
     problem.bodies.push_back(body);
     surfaces.push_back(std::move(shape.surface));
     if (problem.lattice.element_count > std::size_t(max_elements))

@@ -1,5 +1,9 @@
 #include "solver/surface/crossings.hpp"
 
+#include "solver/memory.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -51,7 +55,12 @@ std::vector<Span> spans(const std::vector<Crossing>& line, int axis) {
 Crossings::Crossings(const Surface& surface, const SpaceGrid& grid, int axis) {
   const auto [u, v] = across(axis);
   count_u_ = grid.count[std::size_t(u)];
-  lines_.resize(std::size_t(count_u_) * std::size_t(grid.count[std::size_t(v)]));
+  const std::size_t lines = std::size_t(count_u_) * std::size_t(grid.count[std::size_t(v)]);
+  // A list and a few crossings each.
+  require_memory(150 * double(lines),
+                 fmt::format("surface {}: {} lines along {}", surface.path, lines, "xyz"[axis]),
+                 "take larger cells");
+  lines_.resize(lines);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto corners = surface.corners_of(t);
     const Eigen::Vector3d area = surface.area_of(t);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace dss {
 namespace {
@@ -105,8 +106,9 @@ ShapeReport report_shape(const Surface& surface, const SpaceGrid& grid, const Vo
   report.elements =
       std::size_t(std::ranges::count_if(voxels.occupied, [](auto c) { return c != 0; }));
   const LineReport lines(surface, grid);
-  report.surface_volume =
-      has_overlaps(surface, grid) ? lines.volume() : std::abs(enclosed_volume(surface));
+  report.surface_volume = unpaired_edges(surface) > 0   ? std::numeric_limits<double>::quiet_NaN()
+                          : has_overlaps(surface, grid) ? lines.volume()
+                                                        : std::abs(enclosed_volume(surface));
   report.voxel_volume = double(report.elements) * grid.edge.prod();
   report.thinnest = lines.thinnest();
   report.pieces = pieces_of(voxels);

@@ -20,6 +20,7 @@ struct ShapeReport {
   std::size_t elements = 0;
   /// [m^3]. That of a surface of parts that overlap is measured along lines through the centres of
   /// cells, so it is right to first order in their size.
+  /// That of an open surface is not known: NaN.
   double surface_volume = 0, voxel_volume = 0;
   std::optional<Wall> thinnest;    ///< none if no two faces are nearly parallel
   std::vector<std::size_t> pieces; ///< elements of each connected piece, the largest first

@@ -36,6 +36,7 @@ public:
     surface_.path = path;
   }
   void add(std::array<Corner, 3> triangle) {
+    ++count_;
     std::array<std::uint32_t, 3> numbers{};
     for (std::size_t n = 0; n < 3; ++n) numbers[n] = number_of(triangle[n]);
     if (numbers[0] == numbers[1] || numbers[1] == numbers[2] || numbers[2] == numbers[0]) return;
@@ -70,6 +71,7 @@ private:
 
   SurfacePlacement placement_;
   Surface surface_;
+  std::size_t count_ = 0; ///< of triangles so far, with those that are left out
   std::unordered_map<Corner, std::uint32_t, CornerHash> numbers_;
 };
 
@@ -117,19 +119,23 @@ void read_ascii(const std::string& path, const std::string& bytes, Builder& buil
   Words words(bytes);
   std::array<Corner, 3> triangle{};
   std::size_t corners = 0, triangles = 0;
-  bool is_ended = false;
+  bool is_in_solid = false, is_in_facet = false;
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-    is_ended = word == "endsolid";
-    if (word == "facet") corners = 0;
+    if (word == "solid") is_in_solid = true;
+    if (word == "endsolid") is_in_solid = false;
+    if (word == "facet") corners = 0, is_in_facet = true;
     if (word == "vertex") {
       if (corners == 3)
         refuse_stl(path, fmt::format("facet {} has more than three vertices", triangles));
       for (float& x : triangle[corners]) {
         std::string_view number = words.next();
         if (number.starts_with('+')) number.remove_prefix(1);
-        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), x);
+        double value = 0; // in single precision, a tiny number would be out of range
+        const auto [end, error] =
+            std::from_chars(number.data(), number.data() + number.size(), value);
         if (number.empty() || error != std::errc{} || end != number.data() + number.size())
           refuse_stl(path, fmt::format("facet {}: \"{}\" is not a number", triangles, number));
+        x = float(value);
       }
       ++corners;
     }
@@ -138,22 +144,16 @@ void read_ascii(const std::string& path, const std::string& bytes, Builder& buil
         refuse_stl(path, fmt::format("facet {} has {} vertices", triangles, corners));
       builder.add(triangle);
       ++triangles;
+      is_in_facet = false;
     }
   }
-  if (!is_ended && corners > 0) // words behind "endsolid" are a name
-    if (bytes.find("endsolid") == std::string::npos)
-      refuse_stl(path, "it is cut off: no \"endsolid\"");
+  if (is_in_solid || is_in_facet) refuse_stl(path, "it is cut off: its solid does not end");
 }
 
 } // namespace
 
 Surface read_stl(const std::string& path, const SurfacePlacement& placement) {
-  // The text, the corners and the table that finds them.
-  std::ifstream file =
-      open_whole(path, 5, fmt::format("the surface of {}", path), "give one of fewer triangles");
-  if (!file.is_open()) refuse_stl(path, "cannot be read");
-  std::string bytes(std::filesystem::file_size(path), '\0');
-  if (!file.read(bytes.data(), std::streamsize(bytes.size()))) refuse_stl(path, "cannot be read");
+  const std::string bytes = bytes_of("STL file", path);
   Builder builder(path, placement);
   if (is_binary(bytes)) {
     read_binary(bytes, builder);

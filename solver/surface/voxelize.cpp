@@ -2,13 +2,13 @@
 
 #include "solver/error.hpp"
 #include "solver/memory.hpp"
+#include "solver/parallel.hpp"
 #include "solver/surface/winding_number.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <fmt/format.h>
-#include <thread>
 
 namespace dss {
 namespace {
@@ -148,17 +148,10 @@ VoxelGrid filled_by_winding(const Surface& surface, const SpaceGrid& grid) {
   if (unpaired_edges(surface) == 0) return filled_by_spans(surface, grid);
   VoxelGrid voxels = empty_voxels(grid);
   WindingFill fill(surface, grid);
-  std::atomic<int> next_layer = 0;
-  const auto fill_layers = [&] {
-    for (int z = next_layer++; z < grid.count[2]; z = next_layer++)
-      for (int y = 0; y < grid.count[1]; ++y)
-        fill.fill_row(y, z, &voxels.occupied[row_of(grid, y, z)]);
-  };
-  std::vector<std::jthread> threads;
-  for (unsigned n = 1; n < std::thread::hardware_concurrency(); ++n)
-    threads.emplace_back(fill_layers);
-  fill_layers();
-  threads.clear(); // joins them
+  for_each_on_all_cores(std::size_t(grid.count[2]), [&](std::size_t z) {
+    for (int y = 0; y < grid.count[1]; ++y)
+      fill.fill_row(y, int(z), &voxels.occupied[row_of(grid, y, int(z))]);
+  });
   if (double(fill.unclear()) > 0.01 * double(fill.inside()))
     refuse_surface(surface,
                    fmt::format("it does not enclose a body: {} cells have a winding number of 0.25 "

@@ -17,7 +17,7 @@ SOURCES = (".h", ".hpp", ".cpp", ".cl")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 # experiments/base knows of no solver. Of the layers before it, it may include only these.
 FOR_BASE = ("solver/error.hpp", "solver/nearest_name.hpp", "solver/io/atomic_file.hpp",
-            "solver/io/temporaries.hpp")
+            "solver/io/temporaries.hpp", "solver/cores.hpp", "solver/parallel.hpp")
 
 
 def layer_of(path):

@@ -107,8 +107,9 @@ class Voxelize(Files):
             ((*good, "--cell", "2e-3", "--axes", "+x,+x,+z"), "three different axes"),
             ((*good, "--cell", "2e-3", "--surface", "open"), "not a rule for surfaces"),
             ((*good, "--cell", "2e-3", "--output", self.path("o.png")), "ends in .npy or .vti"),
-            ((*good, "--cell", "2e-3", "--output", part.with_suffix(".npy"), "--picture",
+            ((*good, "--cell", "2e-3", "--output", part.with_suffix(".npy"), "--json",
               part.with_suffix(".npy")), "writes this file"),
+            ((*good, "--cell", "2e-3", "--picture", "p.png"), "ends in .svg"),
             (("voxelize", self.path("none.stl"), "--unit", "mm", "--cell", "1"), "cannot be read"),
         ]
         for arguments, part_of_it in cases:

@@ -1,8 +1,8 @@
 #include "experiments/measure/ceilings/ceilings.hpp"
 #include "experiments/base/child.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/measure/ceilings/own_ceilings.hpp"
 #include "experiments/measure/kernels/working_set.hpp"
+#include "solver/cores.hpp"
 #include "variants/isa/instruction_set.hpp"
 #include "variants/loading/loader.hpp"
 

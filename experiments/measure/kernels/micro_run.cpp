@@ -1,8 +1,8 @@
 #include "experiments/measure/kernels/micro_run.hpp"
 #include "experiments/base/clock.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/measure/kernels/likwid_markers.hpp"
 #include "experiments/run/plan/context.hpp"
+#include "solver/cores.hpp"
 #include "solver/error.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 #include "experiments/run/plan/context.hpp"
 #include "experiments/base/build_info.hpp"
-#include "experiments/base/cores.hpp"
+#include "solver/cores.hpp"
 #include "solver/io/atomic_file.hpp"
 #include "variants/isa/denormals.hpp"
 #include "variants/loading/loader.hpp"

@@ -1,6 +1,6 @@
 #include "experiments/run/plan/device_listing.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/run/plan/context.hpp"
+#include "solver/cores.hpp"
 #include "solver/error.hpp"
 #include "variants/loading/loader.hpp"
 

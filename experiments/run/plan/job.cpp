@@ -1,8 +1,8 @@
 #include "experiments/run/plan/job.hpp"
 
 #include "experiments/base/child.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/base/exit_code.hpp"
+#include "solver/cores.hpp"
 #include "solver/error.hpp"
 #include "variants/loading/loader.hpp"
 #include "variants/loading/outside.hpp"

@@ -74,6 +74,23 @@ constexpr long most_steps_of_run = 1'000'000'000'000'000;
 constexpr int most_frames_of_run = 1'000'000;
 constexpr long most_rows_of_history = 1'000'000;
 
+/// Names and numbers of output files.
+void require_sensible_files(const RunRequest& request) {
+  const auto refuse = [](const std::string& what) { throw InputError(what); };
+  if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
+  if (request.frames > 0 && request.output.empty())
+    refuse("--frames: needs --output F.vtu, which names the series");
+  if (!request.picture.empty() && !request.picture.ends_with(".svg"))
+    refuse(fmt::format("--picture {}: give a name that ends in .svg", request.picture));
+  const bool is_one_file = request.output.ends_with(".vtkhdf");
+  if (!request.output.empty() && !request.output.ends_with(".vtu") && !is_one_file)
+    refuse(fmt::format("--output {}: give a name that ends in .vtu or .vtkhdf", request.output));
+  if (is_one_file && request.has_checkpoint())
+    refuse(fmt::format("--output {}: a checkpoint cannot go on with a series in one file; give "
+                       "F.vtu",
+                       request.output));
+}
+
 void require_sensible(const RunRequest& request, const RunPlan& plan) {
   const auto refuse = [](const std::string& what) { throw InputError(what); };
   const auto require_at_most = [&](const char* option, long value, long most) {
@@ -128,16 +145,7 @@ void require_sensible(const RunRequest& request, const RunPlan& plan) {
   if (request.samples < 1) refuse(fmt::format("--samples {}: give at least 1", request.samples));
   if (request.repeat_for > 0 && request.ranks > 1)
     refuse("--repeat-for: only a run on 1 rank starts again");
-  if (request.frames < 0) refuse(fmt::format("--frames {}: give 0 or more", request.frames));
-  if (request.frames > 0 && request.output.empty())
-    refuse("--frames: needs --output F.vtu, which names the series");
-  const bool is_one_file = request.output.ends_with(".vtkhdf");
-  if (!request.output.empty() && !request.output.ends_with(".vtu") && !is_one_file)
-    refuse(fmt::format("--output {}: give a name that ends in .vtu or .vtkhdf", request.output));
-  if (is_one_file && request.has_checkpoint())
-    refuse(fmt::format("--output {}: a checkpoint cannot go on with a series in one file; give "
-                       "F.vtu",
-                       request.output));
+  require_sensible_files(request);
 }
 
 /// Tolerance from --rtol and --atol; empty without them.

@@ -19,7 +19,7 @@ Model known_model(const std::string& text) {
 /// Requires that the model has the degrees of freedom of all loads and clamps. The initial state
 /// does not matter in statics.
 void require_sufficient(Model model, const Problem& problem) {
-  if (const std::string why = why_not(model, problem); !why.empty())
+  if (const std::string why = why_no_degrees(model, problem); !why.empty())
     throw InputError(fmt::format("--model {}: {}: {}; use --model {}", name(model), problem.name,
                                  why, is_linear(model) ? "linear" : "spatial"));
 }
@@ -37,8 +37,9 @@ AnalysisModel smallest_model(const Problem& problem) {
 
 /// This always finds one: `linear` is in `models` and has the degrees of freedom of every problem.
 Model smallest_linear(const Problem& problem) {
-  return *std::ranges::find_if(
-      models, [&](Model model) { return is_linear(model) && why_not(model, problem).empty(); });
+  return *std::ranges::find_if(models, [&](Model model) {
+    return is_linear(model) && why_no_degrees(model, problem).empty();
+  });
 }
 
 AnalysisModel static_model(const RunRequest& run, const Scene& scene, const std::string& solver) {

@@ -66,8 +66,9 @@ public:
       : executor_(executor), method_(method), load_norm_(load_norm), settings_(settings),
         edge_(shortest_edge(problem)), state_(problem.lattice.element_count * field_count, 0.0),
         rates_(state_.size()) {
-    problem.lattice.for_each_element([&](std::size_t, const Row& row, int) {
+    problem.lattice.for_each_element([&](std::size_t e, const Row& row, int) {
       body_.push_back(&problem.bodies[std::size_t(row.body)]);
+      mass_ratio_.push_back(problem.mass_ratio(e, *body_.back()));
     });
     signals_ = signal_rows(problem, method, settings.dt, 0, 1);
     signals_.resize(signal_count(problem));
@@ -151,8 +152,8 @@ private:
     for (std::size_t e = 0; e < body_.size(); ++e) {
       const double* f = &state[e * field_count];
       for (std::size_t a = 0; a < 3; ++a)
-        energy +=
-            body_[e]->mass * f[vx + a] * f[vx + a] + body_[e]->inertia[a] * f[wx + a] * f[wx + a];
+        energy += mass_ratio_[e] * (body_[e]->mass * f[vx + a] * f[vx + a] +
+                                    body_[e]->inertia[a] * f[wx + a] * f[wx + a]);
     }
     return energy / 2;
   }
@@ -174,7 +175,8 @@ private:
             axes *
             Eigen::Vector3d(inertia[0], inertia[1], inertia[2]).cwiseProduct(axes.transpose() * dw);
       }
-      sum += (body_[e]->mass * dv).squaredNorm() + (moment / edge_).squaredNorm();
+      sum += mass_ratio_[e] * mass_ratio_[e] *
+             ((body_[e]->mass * dv).squaredNorm() + (moment / edge_).squaredNorm());
     }
     return load_norm_ > 0 ? std::sqrt(sum) / load_norm_ : std::sqrt(sum);
   }
@@ -185,8 +187,9 @@ private:
   const RelaxationSettings& settings_;
   double edge_;
   std::vector<double> state_, rates_, signals_;
-  std::vector<const Body*> body_; ///< body of each element
-  long steps_between_ = 1;        ///< steps between checks of the kinetic energy
+  std::vector<const Body*> body_;  ///< body of each element
+  std::vector<double> mass_ratio_; ///< Problem::mass_ratio of each element
+  long steps_between_ = 1;         ///< steps between checks of the kinetic energy
   Relaxation found_;
 };
 

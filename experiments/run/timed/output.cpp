@@ -94,7 +94,8 @@ StressPicture stress_picture(const Problem& problem, const std::vector<double>& 
       const std::size_t node = stress.nodes.of(face.element)[face.corners[n]];
       for (std::size_t a = 0; a < 3; ++a)
         drawn.corners[n][Eigen::Index(a)] =
-            float(motion.rest[node][a] + picture.magnification * motion.displacement[node][a]);
+            float(motion.rest[node][a] - motion.rest.front()[a] +
+                  picture.magnification * motion.displacement[node][a]);
       drawn.values[n] = float(von_mises(stress.at_nodes[node]));
     }
   }
@@ -202,6 +203,7 @@ void FrameSeries::keep_index() {
 void FrameSeries::discard() {
   if (is_one_file()) {
     whole_.reset();
+    outputs_->drop(output_);
     frames_.clear();
     return;
   }
@@ -222,7 +224,11 @@ std::string FrameSeries::index() const {
 
 std::string FrameSeries::finish() const {
   if (is_one_file()) {
-    if (whole_) whole_->commit();
+    if (whole_) {
+      AtomicFile& file = outputs_->open(output_);
+      whole_->copy_to(file);
+      file.finish();
+    }
     return fmt::format("{}, which has {} states", output_, frames_.size());
   }
   if (!is_series_ || output_.empty()) return output_;

@@ -27,7 +27,7 @@ void write_final_files(FileSet& outputs, const RunRequest& request, const Proble
 
 /// The .vtu file of a run, one of its set of files. A series has several files and a .pvd index:
 /// F.vtu becomes F_0000.vtu, F_0001.vtu, ... and F.pvd, each of which appears at once. F.vtkhdf has
-/// all states of a series, and appears at its end.
+/// all states of a series, and appears with the other files of the run.
 class FrameSeries {
 public:
   /// @param outputs  files of the run; lives longer

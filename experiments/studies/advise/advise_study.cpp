@@ -1,5 +1,4 @@
 #include "experiments/studies/advise/advise_study.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/base/parallel.hpp"
 #include "experiments/base/statistics.hpp"
 #include "experiments/base/text_table.hpp"
@@ -10,6 +9,7 @@
 #include "experiments/run/advise/step_costs.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/studies/advise/brute_force.hpp"
+#include "solver/cores.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "experiments/base/cores.hpp"
 #include "experiments/measure/study_names.hpp"
 #include "experiments/studies/chain/chain_study.hpp"
+#include "solver/cores.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "experiments/studies/chain/stage_run.hpp"
 #include "experiments/base/clock.hpp"
-#include "experiments/base/cores.hpp"
 #include "kernels/fields.hpp"
+#include "solver/cores.hpp"
 #include "solver/error.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"

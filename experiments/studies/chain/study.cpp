@@ -1,5 +1,4 @@
 #include "experiments/studies/study.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/base/progress.hpp"
 #include "experiments/base/usage.hpp"
 #include "experiments/measure/circumstances.hpp"
@@ -7,6 +6,7 @@
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/studies/chain/chain_study.hpp"
 #include "experiments/studies/chain/chain_table.hpp"
+#include "solver/cores.hpp"
 #include "variants/isa/denormals.hpp"
 
 #include <algorithm>

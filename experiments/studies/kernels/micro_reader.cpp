@@ -1,8 +1,8 @@
-#include "experiments/base/cores.hpp"
 #include "experiments/measure/kernels/working_set.hpp"
 #include "experiments/measure/study_file.hpp"
 #include "experiments/measure/study_names.hpp"
 #include "experiments/studies/kernels/micro_study.hpp"
+#include "solver/cores.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
-#include "experiments/base/cores.hpp"
 #include "experiments/measure/circumstances.hpp"
 #include "experiments/measure/kernels/likwid_markers.hpp"
 #include "experiments/run/plan/context.hpp"
 #include "experiments/studies/kernels/micro_study.hpp"
 #include "experiments/studies/kernels/micro_tables.hpp"
+#include "solver/cores.hpp"
 #include "variants/isa/denormals.hpp"
 #include "variants/loading/loader.hpp"
 

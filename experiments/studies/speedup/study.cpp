@@ -1,11 +1,11 @@
 #include "experiments/studies/study.hpp"
 #include "experiments/base/child.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/measure/cell_plan.hpp"
 #include "experiments/measure/cell_rows.hpp"
 #include "experiments/measure/cell_runs.hpp"
 #include "experiments/measure/oracle_checks.hpp"
 #include "experiments/studies/speedup/speedup_table.hpp"
+#include "solver/cores.hpp"
 
 namespace dss {
 namespace {

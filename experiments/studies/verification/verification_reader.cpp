@@ -30,11 +30,12 @@ VerifiedFigure read_figure(const Node& node, const VerificationProblem& problem)
     figure.mode = object.require("mode").count(1);
   } else {
     figure.column = object.require("column").name();
-    figure.is_peak = object.flag_or("peak", false);
+    if (problem.analysis == "dynamic") figure.is_peak = object.flag_or("peak", false);
   }
   figure.scale = Formula(object, "scale");
   const auto reference = object.find("reference");
   figure.reference = reference ? reference->number() : std::numeric_limits<double>::quiet_NaN();
+  if (figure.reference == 0) reference->fail("errors are relative; take a figure that is not 0");
   figure.uncertainty = object.non_negative_or("uncertainty", 0);
   object.finish();
   return figure;
@@ -49,7 +50,8 @@ VerificationProblem read_problem(const Node& node, const std::string& path, doub
   problem.scene = scene_beside(path, object.require("scene").name());
   problem.analysis =
       object.require("analysis").known_name("analysis", {"static", "modal", "dynamic"});
-  problem.model = object.name_or("model", "");
+  if (const auto model = object.find("model"))
+    problem.model = model->known_name("model", model_names());
   problem.set = one_set(object, "set");
   problem.probes = object.names_or("probes", {});
   read_grids(object.require("refine"), most, problem);

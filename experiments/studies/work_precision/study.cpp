@@ -1,12 +1,12 @@
 #include "experiments/studies/study.hpp"
 #include "experiments/base/child.hpp"
-#include "experiments/base/cores.hpp"
 #include "experiments/measure/cell_plan.hpp"
 #include "experiments/measure/cell_rows.hpp"
 #include "experiments/measure/cell_runs.hpp"
 #include "experiments/studies/work_precision/precision_table.hpp"
 #include "experiments/studies/work_precision/precision_text.hpp"
 #include "experiments/studies/work_precision/solution_checks.hpp"
+#include "solver/cores.hpp"
 
 #include <filesystem>
 

@@ -1,6 +1,7 @@
 #include "solver/io/voxels/npy.hpp"
 
 #include "solver/error.hpp"
+#include "solver/io/input_file.hpp"
 #include "solver/io/voxels/voxel_numbers.hpp"
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace dss {
@@ -84,16 +83,6 @@ VoxelGrid voxels_of(const VoxelArray& array, long most_cells) {
         grid.occupied[cell] = std::uint8_t(value);
       }
   return grid;
-}
-
-std::string bytes_of(const std::string& kind, const std::string& path) {
-  std::ifstream file =
-      open_whole(path, 2, fmt::format("the array of {}", path), "give a smaller one");
-  const auto fail = [&] { throw InputError(fmt::format("{} {}: cannot be read", kind, path)); };
-  if (!file.is_open()) fail();
-  std::string bytes(std::filesystem::file_size(path), '\0');
-  if (!file.read(bytes.data(), std::streamsize(bytes.size()))) fail();
-  return bytes;
 }
 
 VoxelGrid read_raw_voxels(const std::string& path, const std::array<long, 3>& shape,

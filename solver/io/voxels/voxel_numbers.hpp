@@ -37,11 +37,6 @@ VoxelGrid voxels_of(const VoxelArray& array, long most_cells);
 /// @throws InputError "array file PATH: WHAT"
 [[noreturn]] void refuse_array(const std::string& path, const std::string& what);
 
-/// The bytes of a file.
-/// @param kind  such as "array file", for errors
-/// @throws InputError if it cannot be read or does not fit into memory
-std::string bytes_of(const std::string& kind, const std::string& path);
-
 /// Reads a file that holds nothing but the numbers of an array, x fastest.
 /// @throws InputError as above
 VoxelGrid read_raw_voxels(const std::string& path, const std::array<long, 3>& shape,

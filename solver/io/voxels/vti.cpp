@@ -1,6 +1,7 @@
 #include "solver/io/voxels/vti.hpp"
 
 #include "solver/error.hpp"
+#include "solver/io/input_file.hpp"
 #include "solver/io/voxels/voxel_numbers.hpp"
 #include "solver/memory.hpp"
 
@@ -66,8 +67,7 @@ std::vector<T> numbers_of(const pugi::xml_node& node, const char* attribute) {
 /// An .vti file. Appended data follow the XML, so that the whole is no XML.
 class Image {
 public:
-  explicit Image(const std::string& path)
-      : path_(path), bytes_(bytes_of("image file", path)) {
+  explicit Image(const std::string& path) : path_(path), bytes_(bytes_of("image file", path)) {
     const std::size_t appended = bytes_.find("<AppendedData");
     std::string head = bytes_.substr(0, appended);
     if (appended != std::string::npos) {
@@ -98,8 +98,11 @@ private:
     const std::vector<long> extent = numbers_of<long>(image_.child("Piece"), "Extent");
     if (extent.size() != 6) refuse_image(path_, "its piece has no Extent of six numbers");
     std::array<long, 3> shape{};
-    for (std::size_t a = 0; a < 3; ++a)
-      shape[a] = extent[2 * a + 1] - extent[2 * a] + (is_of_cells ? 0 : 1);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double size = double(extent[2 * a + 1]) - double(extent[2 * a]);
+      if (!(size >= 0 && size < 0x1p31)) refuse_image(path_, "the Extent of its piece is wrong");
+      shape[a] = long(size) + (is_of_cells ? 0 : 1);
+    }
     return shape;
   }
   std::pair<pugi::xml_node, bool> find(const std::string& name) const;
@@ -245,6 +248,7 @@ ImageVoxels Image::voxels(const std::string& name, long most_cells) {
   const double most = double(type->size) * double(cells[0]) * double(cells[1]) * double(cells[2]);
   if (most > double(type->size) * double(most_cells))
     refuse_image(path_, fmt::format("it has more than {} cells, too many", most_cells));
+  require_memory(2 * most, fmt::format("image file {}", path_), "give a smaller one");
   const std::string bytes = data_of(array, *type, most);
   ImageVoxels image;
   image.grid = voxels_of({path_, cells, true, &*type, bytes}, most_cells);

@@ -1,9 +1,9 @@
 #include "solver/io/vtk/appended_data.hpp"
 
-#include <atomic>
+#include "solver/parallel.hpp"
+
 #include <cstdint>
 #include <stdexcept>
-#include <thread>
 #include <zlib.h>
 
 namespace dss {
@@ -25,17 +25,9 @@ std::string compressed(std::string_view bytes) {
 
 std::vector<std::string> compressed_blocks(std::string_view bytes) {
   std::vector<std::string> blocks((bytes.size() + block_bytes - 1) / block_bytes);
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t n = next++; n < blocks.size(); n = next++)
-      blocks[n] = compressed(bytes.substr(n * block_bytes, block_bytes));
-  };
-  std::vector<std::jthread> threads;
-  for (std::size_t n = 1;
-       n < std::min<std::size_t>(blocks.size(), std::thread::hardware_concurrency()); ++n)
-    threads.emplace_back(work);
-  work();
-  threads.clear(); // joins them
+  for_each_on_all_cores(blocks.size(), [&](std::size_t n) {
+    blocks[n] = compressed(bytes.substr(n * block_bytes, block_bytes));
+  });
   return blocks;
 }
 

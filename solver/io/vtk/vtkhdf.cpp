@@ -5,9 +5,9 @@
 #include "solver/io/vtk/state_arrays.hpp"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
+#include <fstream>
 #include <hdf5.h>
 #include <tuple>
 #include <type_traits>
@@ -49,6 +49,9 @@ hid_t type_of() {
   if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
   return H5T_NATIVE_INT64;
 }
+
+/// HDF5 prints errors of its own, unless each thread says otherwise.
+void tell_errors_in_one_line() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 constexpr hsize_t chunk_rows = 32768;
 
@@ -118,16 +121,16 @@ void set_numbers(hid_t file, const char* group, const char* name,
   require(H5Awrite(made, H5T_NATIVE_INT64, numbers.data()));
 }
 
-/// Names of the scene and its bodies, one text each.
-void write_text(hid_t file, const std::string& name, const std::string& text) {
+void write_texts(hid_t file, const std::string& name, const std::vector<std::string>& texts) {
   const Owned type(H5Tcopy(H5T_C_S1), H5Tclose);
   require(H5Tset_size(type, H5T_VARIABLE));
-  const hsize_t size = 1;
+  const hsize_t size = texts.size();
   const Owned space(H5Screate_simple(1, &size, nullptr), H5Sclose);
   const Owned made(
       H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
-  const char* const characters = text.c_str();
-  require(H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &characters));
+  std::vector<const char*> characters;
+  for (const std::string& text : texts) characters.push_back(text.c_str());
+  require(H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, characters.data()));
 }
 
 std::string made_beside(const std::string& target) {
@@ -148,7 +151,7 @@ void VtkHdfFile::fail(const char* what) const {
 
 VtkHdfFile::VtkHdfFile(std::string target)
     : target_(std::move(target)), temporary_(made_beside(target_)) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are told in one line
+  tell_errors_in_one_line();
   file_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (file_ < 0) {
     ::unlink(temporary_.c_str());
@@ -188,8 +191,12 @@ void VtkHdfFile::write_bodies(const Problem& problem, const StressOutput& stress
   append_rows(file_, "VTKHDF/CellData/body", 1, body_numbers(problem.lattice));
   if (!problem.materials.empty())
     append_rows(file_, "VTKHDF/CellData/material", 1, problem.materials);
-  write_text(file_, "VTKHDF/FieldData/scene", problem.name);
-  write_text(file_, "VTKHDF/FieldData/units", vtk_units);
+  std::vector<std::string> bodies;
+  for (const Body& body : problem.bodies) bodies.push_back(body.name);
+  bodies_ = bodies.size();
+  write_texts(file_, "VTKHDF/FieldData/scene", {problem.name});
+  write_texts(file_, "VTKHDF/FieldData/bodies", bodies);
+  write_texts(file_, "VTKHDF/FieldData/units", {vtk_units});
 }
 
 void VtkHdfFile::append(const std::string& name, std::size_t components,
@@ -217,6 +224,7 @@ void VtkHdfFile::add(const Problem& problem, double time, std::span<const double
   };
   errno = 0;
   try {
+    tell_errors_in_one_line();
     if (times_.empty()) {
       write_bodies(problem, stress);
       put("VTKHDF/Points", points_, [&](std::size_t node) { return motion.rest[node]; });
@@ -254,19 +262,32 @@ void VtkHdfFile::write_steps() {
   append_rows(file_, "VTKHDF/Steps/CellDataOffsets/body", 1, zeros);
   if (H5Lexists(file_, "VTKHDF/CellData/material", H5P_DEFAULT) > 0)
     append_rows(file_, "VTKHDF/Steps/CellDataOffsets/material", 1, zeros);
+  make_group(file_, "VTKHDF/Steps/FieldDataOffsets");
+  make_group(file_, "VTKHDF/Steps/FieldDataSizes");
+  for (const auto& [name, texts] :
+       {std::pair("scene", std::size_t(1)), {"bodies", bodies_}, {"units", std::size_t(1)}}) {
+    append_rows(file_, fmt::format("VTKHDF/Steps/FieldDataOffsets/{}", name), 1, zeros);
+    std::vector<std::int64_t> sizes; // components and texts
+    for (std::size_t n = 0; n < count; ++n) sizes.insert(sizes.end(), {1, std::int64_t(texts)});
+    append_rows(file_, fmt::format("VTKHDF/Steps/FieldDataSizes/{}", name), 2, sizes);
+  }
 }
 
-void VtkHdfFile::commit() {
+void VtkHdfFile::copy_to(AtomicFile& file) {
   errno = 0;
   try {
+    tell_errors_in_one_line();
     write_steps();
     require(H5Fclose(std::exchange(file_, -1)));
   } catch (const std::pair<const char*, int>& fault) {
     errno = fault.second;
     fail(fault.first);
   }
-  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be moved to its place");
-  forget_temporary(std::exchange(temporary_, {}));
+  std::ifstream whole(temporary_, std::ios::binary);
+  std::vector<char> part(std::size_t(1) << 20U);
+  while (whole.read(part.data(), std::streamsize(part.size())) || whole.gcount() > 0)
+    file.write({part.data(), std::size_t(whole.gcount())});
+  if (!whole.eof()) fail("cannot be read again");
 }
 
 } // namespace dss

@@ -53,8 +53,8 @@ private:
 
 void add_cells(Arrays& out, std::size_t count, const ElementNodes& nodes) {
   out.line("<Cells>\n");
-  out.add<std::int64_t>("Int64", "connectivity", 8, count, [&](std::size_t cell, std::size_t n) {
-    return std::int64_t(nodes.of(cell)[vtk_corners[n]]);
+  out.add<std::int64_t>("Int64", "connectivity", 1, 8 * count, [&](std::size_t n, std::size_t) {
+    return std::int64_t(nodes.of(n / 8)[vtk_corners[n % 8]]);
   });
   out.add<std::int64_t>("Int64", "offsets", 1, count,
                         [](std::size_t cell, std::size_t) { return std::int64_t(8 * (cell + 1)); });

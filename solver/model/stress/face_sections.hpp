@@ -61,6 +61,11 @@ public:
   /// The element across a face, or `none`. Extra links do not count.
   std::size_t beyond(std::size_t element, std::size_t face) const;
   static constexpr std::size_t none = std::size_t(-1);
+  /// The same; `none` if it is of another material, across which stress may jump.
+  std::size_t alike_beyond(std::size_t element, std::size_t face) const {
+    const std::size_t other = beyond(element, face);
+    return other != none && problem_.material(other) == problem_.material(element) ? other : none;
+  }
 
   /// Axes of an element as columns.
   Eigen::Matrix3d axes(std::size_t element) const { return axes_of(motion(element)); }

@@ -141,8 +141,8 @@ ElementStress StressField::found(std::size_t element, const Faces& faces) const 
 /// Change of the stress from the middle of an element to a face.
 SymmetricTensor StressField::step_to(std::size_t element, const Faces& faces,
                                      std::size_t face) const {
-  const std::size_t below = sections_.beyond(element, face & ~std::size_t(1)),
-                    above = sections_.beyond(element, face | 1);
+  const std::size_t below = sections_.alike_beyond(element, face & ~std::size_t(1)),
+                    above = sections_.alike_beyond(element, face | 1);
   const double half = face % 2 == 1 ? 0.5 : -0.5; // edges
   if (below == FaceSections::none && above == FaceSections::none) {
     const SymmetricTensor bent =

@@ -95,6 +95,10 @@ std::string why_not(Model model, const Problem& problem) {
   if (model != Model::spatial && problem.has_rotating_frame()) return "its frame rotates";
   if (model != Model::spatial && problem.has_mass_ratios())
     return "its elements differ in mass, because its materials have different densities";
+  return why_no_degrees(model, problem);
+}
+
+std::string why_no_degrees(Model model, const Problem& problem) {
   switch (degrees_of(model)) {
   case dof_all:
     return {};

@@ -27,6 +27,8 @@ std::string why_not_in_translation(const Problem& problem);
 
 /// Returns an empty text if the model has every degree of freedom that the problem moves (spatial,
 /// small and linear have all six); otherwise one line that says what is missing.
+std::string why_no_degrees(Model model, const Problem& problem);
+/// The same; also if no rows of the model are compiled that step the problem in time.
 std::string why_not(Model model, const Problem& problem);
 
 /// Returns an empty text if the model's results are proven to equal those of the spatial model

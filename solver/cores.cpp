@@ -1,4 +1,4 @@
-#include "experiments/base/cores.hpp"
+#include "solver/cores.hpp"
 
 #include <sched.h>
 
