@@ -2,6 +2,7 @@
 
 #include "solver/io/base64.hpp"
 #include "solver/io/picture/raster.hpp"
+#include "solver/io/xml_text.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -81,19 +82,6 @@ std::string drawn(std::vector<PictureFace> faces, const PictureWords& words) {
   return raster.png();
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string scale_svg(const ColourScale& scale) {
   constexpr int x = picture_width - scale_width, high = 140, length = 460, bars = 64;
   std::string svg;
@@ -111,7 +99,7 @@ std::string scale_svg(const ColourScale& scale) {
                        high + 6 + double(length) * n / ticks,
                        scale.high - (scale.high - scale.low) * n / ticks);
   return svg + fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n",
-                           picture_width - 20, high - 22, escaped(scale.label));
+                           picture_width - 20, high - 22, xml_text(scale.label));
 }
 
 } // namespace
@@ -141,7 +129,7 @@ std::string picture_svg(const std::vector<PictureFace>& faces, const PictureWord
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
       "<image width=\"{0}\" height=\"{1}\" href=\"data:image/png;base64,{2}\"/>\n"
       "<text x=\"{3}\" y=\"38\" font-size=\"20\">{4}</text>\n",
-      picture_width, picture_height, base64(drawn(faces, words)), margin, escaped(words.title));
+      picture_width, picture_height, base64(drawn(faces, words)), margin, xml_text(words.title));
   if (words.scale) svg += scale_svg(*words.scale);
   return svg + "</svg>\n";
 }

@@ -2,6 +2,7 @@
 
 #include "solver/io/vtk/appended_data.hpp"
 #include "solver/io/vtk/state_arrays.hpp"
+#include "solver/io/xml_text.hpp"
 
 #include <array>
 #include <cstdint>
@@ -130,26 +131,12 @@ void write_vtu(AtomicFile& file, const Problem& problem, double time, std::span<
 }
 
 void write_pvd(const std::string& path, std::span<const Frame> frames) {
-  const auto escaped = [](std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-      if (c == '&')
-        out += "&amp;";
-      else if (c == '<')
-        out += "&lt;";
-      else if (c == '"')
-        out += "&quot;";
-      else
-        out += c;
-    }
-    return out;
-  };
   AtomicFile file(path);
   file.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
              "byte_order=\"LittleEndian\">\n<Collection>\n");
   for (const Frame& frame : frames)
     file.write(fmt::format("<DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", frame.time,
-                           escaped(frame.file)));
+                           xml_text(frame.file)));
   file.write("</Collection>\n</VTKFile>\n");
   file.commit();
 }
