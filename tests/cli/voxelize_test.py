@@ -158,10 +158,51 @@ class Scenes(Files):
         self.assertEqual(len(digests), 1, digests)
         why = self.refused("run", path, "--model", "linear")
         self.assertIn("its elements differ in mass", why)
+        found = []
+        for more in (("--solver", "direct"), ("--solver", "cg"), ("--solver", "newton"),
+                     ("--solver", "relaxation", "--masses", "scene")):
+            result = dssbench("run", path, "--analysis", "static", *more, "--json", "-")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            found.append(json.loads(result.stdout)["max_displacement_m"])
+        for other in found[1:]:
+            self.assertAlmostEqual(other / found[0], 1, delta=1e-4)
+
+    def clamped(self, select, element=0.002):
+        """How many elements a selection of the box has; or why it is refused."""
+        self.write("part.stl", box_stl((0, 0, 0), (30, 8, 8)))
+        body = {**SCENE["bodies"][0], "element": element}
+        path = self.write("scene.json", {**SCENE, "bodies": [body],
+                                         "clamps": [{"select": select}]})
+        result = dssbench("explain", path, "--json", "-")
+        if result.returncode != 0:
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            return result.stderr
+        return json.loads(result.stdout)["clamped_elements"]
+
+    def test_places_select_the_elements_there(self):
+        bottom = {"near": [0.015, 0.004, 0]}
+        self.assertEqual(self.clamped({"cad_face": bottom}), 15 * 4)
+        flat = [0.002, 0.002, 0.0005]
+        self.assertEqual(self.clamped({"cad_face": bottom}, flat), 15 * 4)  # still one layer
+        self.assertEqual(self.clamped({"cad_face": {**bottom, "angle": 100}}), 15 * 16 - 13 * 4)
+        region = {"from": [0, 0, 0], "to": [0.0101, 0.004, 0.004]}
+        self.assertEqual(self.clamped({"region": region}), 5 * 2 * 2)
+        cut = {"point": [0.01, 0, 0], "normal": [1, 0, 0]}
+        self.assertEqual(self.clamped({"plane": cut}), 16)
+        bar = {"from": [0, 0.004, 0.004], "to": [0.03, 0.004, 0.004], "radius": 0.0015}
+        self.assertEqual(self.clamped({"cylinder": bar}), 15 * 4)
+
+    def test_places_that_are_elsewhere_are_refused(self):
+        far = self.clamped({"cad_face": {"near": [15, 4, 0]}})  # mm in place of m
+        self.assertIn("m from the surface of body \"part\"", far)
+        wide = self.clamped({"cad_face": {"near": [0, 0, 0], "angle": 200}})
+        self.assertIn("200 is out of range; 0 < angle < 180", wide)
+        beyond = self.clamped({"plane": {"point": [0.03, 0, 0], "normal": [1, 0, 0]}})
+        self.assertIn("selects nothing", beyond)
 
     def test_the_arm_gives_a_picture_of_its_stress(self):
         for more in (("--analysis", "static", "--set", "roll=0"), ("--steps", "20")):
-            result = dssbench("run", ARM / "arm.json", "--set", "cell=0.008", *more, "--picture",
+            result = dssbench("run", ARM / "arm.json", "--set", "layers=2", *more, "--picture",
                               self.path("arm.svg"))
             self.assertEqual(result.returncode, 0, result.stderr)
             root = xml.etree.ElementTree.parse(self.path("arm.svg")).getroot()

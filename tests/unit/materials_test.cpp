@@ -1,4 +1,7 @@
 /// Bodies of several materials (Problem::materials).
+#include "solver/model/file_digest.hpp"
+#include "solver/model/stress/stress_field.hpp"
+#include "solver/numerics/signal_rows.hpp"
 #include "solver/scene/solid.hpp"
 #include "solver/statics/equilibrium.hpp"
 #include "solver/statics/modal.hpp"
@@ -152,6 +155,35 @@ TEST(Materials, contract_as_each_of_them_does_to_first_order) {
   };
   EXPECT_NEAR(across(6) / (-0.3 * stress / soft_E), 1, 0.01);
   EXPECT_NEAR(across(18) / (-0.3 * stress / stiff_E), 1, 0.01);
+}
+
+TEST(Materials, have_a_stress_that_jumps_at_their_seam) {
+  Problem bar = two_materials({40, 4, 4}, 1, 2);
+  const std::vector<double> state = pulled(bar, 16);
+  const StressField field(bar, state, Rotation::linearised, signals_at(bar, 0));
+  const double strain = 16 / (16 * h * h) / ((soft_E + stiff_E) / 2);
+  bar.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
+    if (x != 20) return;
+    const double own = strain * (row.y < 2 ? soft_E : stiff_E);
+    EXPECT_NEAR(field.elements()[e].stress[0] / own, 1, 1e-2) << row.y;
+    for (const std::size_t face : {2U, 3U}) // towards the seam and away from it
+      EXPECT_NEAR(field.at_face(e, face)[0] / own, 1, 1e-2) << row.y << " " << face;
+  });
+}
+
+TEST(Materials, sizes_and_selections_are_part_of_the_digest_of_files) {
+  const Problem bar = two_materials({6, 2, 2}, 0, 3);
+  const auto differs = [&](auto&& change) {
+    Problem other = bar;
+    change(other);
+    return file_digest(other) != file_digest(bar);
+  };
+  EXPECT_FALSE(differs([](Problem&) {}));
+  EXPECT_TRUE(differs([](Problem& other) { other.bodies[0].edge[1] *= 2; }));
+  EXPECT_TRUE(differs([](Problem& other) { other.bodies[0].origin[2] = 1; }));
+  EXPECT_TRUE(differs([](Problem& other) { other.materials[3] = 2; }));
+  EXPECT_TRUE(differs([](Problem& other) { other.clamps.push_back({1, dof_all}); }));
+  EXPECT_TRUE(differs([](Problem& other) { other.loads.push_back({{2}, {}, {}, {}}); }));
 }
 
 TEST(Materials, fall_alike_whatever_their_density) {

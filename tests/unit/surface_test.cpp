@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace dss {
@@ -216,6 +217,8 @@ TEST_F(Surfaces, in_files_that_are_none_are_refused_in_one_line) {
   says(fixture::binary_stl({}), "has no triangle");
   says("solid nothing\nendsolid nothing\n", "has no triangle");
   says(text.substr(0, text.size() / 2), "cut off");
+  says(text.substr(0, text.find("outer")), "cut off");
+  says(text + text.substr(0, text.size() / 2), "cut off"); // in a second solid
   says("solid x\nfacet vertex 0 0 0 vertex 1 0 0 endfacet endsolid", "facet 0 has 2 vertices");
   says("solid x\nfacet vertex 0 0 zero", "facet 0: \"zero\" is not a number");
   says("solid x\nfacet vertex 0 0", "facet 0: \"\" is not a number");
@@ -226,6 +229,24 @@ TEST_F(Surfaces, in_files_that_are_none_are_refused_in_one_line) {
   says(fixture::binary_stl(flat), "has no triangle");
   EXPECT_THROW(read_stl(directory.string(), {}), InputError);
   EXPECT_THROW(read_stl(file("none.stl"), {}), InputError);
+}
+
+TEST_F(Surfaces, may_have_numbers_that_single_precision_rounds_to_zero) {
+  std::string text = fixture::ascii_stl(fixture::box_facets({0, 0, 0}, {1, 1, 1}));
+  for (std::size_t at = 0; (at = text.find("0e+00", at)) != std::string::npos; at += 8)
+    text.replace(at, 5, "6.1e-50");
+  const Surface part = read_stl(written("part.stl", text), {});
+  EXPECT_EQ(part.corners.size(), 8U);
+  EXPECT_EQ(unpaired_edges(part), 0U);
+}
+
+TEST_F(Surfaces, that_are_open_have_no_volume) {
+  Facets box = fixture::box_facets({0, 0, 0}, {4, 4, 4});
+  box.pop_back();
+  const Surface part = surface(box);
+  const SpaceGrid grid = grid_around(part, Eigen::Vector3d::Constant(0.5), 1000000);
+  VoxelGrid cells{8, 8, 8, std::vector<std::uint8_t>(512, 1)};
+  EXPECT_TRUE(std::isnan(report_shape(part, grid, cells).surface_volume));
 }
 
 TEST_F(Surfaces, are_reported_with_volume_thinnest_wall_and_pieces) {

@@ -132,6 +132,8 @@ TEST_F(Vti, is_refused_where_it_is_no_body) {
   refuses("", "no XML of VTK");
   refuses("<VTKFile><PolyData/></VTKFile>", "no ImageData");
   refuses(image(good, "", "0 3 0 2"), "no Extent");
+  refuses(image(good, "", "-9223372036854775808 9223372036854775807 0 2 0 1"), "Extent");
+  refuses(image(good, "", "3 0 0 2 0 1"), "Extent");
   refuses(image(good + good), "its arrays are: m, m");
   refuses(image(good), "its arrays are: m; name one", "other");
   refuses(image(""), "its arrays are: ;");
