@@ -181,7 +181,7 @@ TEST(Materials, sizes_and_selections_are_part_of_the_digest_of_files) {
   EXPECT_FALSE(differs([](Problem&) {}));
   EXPECT_TRUE(differs([](Problem& other) { other.bodies[0].edge[1] *= 2; }));
   EXPECT_TRUE(differs([](Problem& other) { other.bodies[0].origin[2] = 1; }));
-  EXPECT_TRUE(differs([](Problem& other) { other.materials[3] = 2; }));
+  EXPECT_TRUE(differs([](Problem& other) { other.materials[0] = 2; }));
   EXPECT_TRUE(differs([](Problem& other) { other.clamps.push_back({1, dof_all}); }));
   EXPECT_TRUE(differs([](Problem& other) { other.loads.push_back({{2}, {}, {}, {}}); }));
 }

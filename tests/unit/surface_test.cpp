@@ -233,8 +233,9 @@ TEST_F(Surfaces, in_files_that_are_none_are_refused_in_one_line) {
 
 TEST_F(Surfaces, may_have_numbers_that_single_precision_rounds_to_zero) {
   std::string text = fixture::ascii_stl(fixture::box_facets({0, 0, 0}, {1, 1, 1}));
-  for (std::size_t at = 0; (at = text.find("0e+00", at)) != std::string::npos; at += 8)
-    text.replace(at, 5, "6.1e-50");
+  const std::string zero = "0.000000e+00";
+  for (std::size_t at = 0; (at = text.find(zero)) != std::string::npos;)
+    text.replace(at, zero.size(), "6.1e-50");
   const Surface part = read_stl(written("part.stl", text), {});
   EXPECT_EQ(part.corners.size(), 8U);
   EXPECT_EQ(unpaired_edges(part), 0U);
