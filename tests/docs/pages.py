@@ -105,7 +105,9 @@ def scenes_of(text):
     for _, lines in split_page(text)[0]:
         shown = "\n".join(line for _, line in lines)
         try:
-            scenes.append((json.loads(shown)["scene"] + ".json", shown))
+            scene = json.loads(shown)
+            if "bodies" in scene:  # else it only names a scene
+                scenes.append((scene["scene"] + ".json", shown))
         except (ValueError, TypeError, KeyError):
             pass
     return scenes
