@@ -45,6 +45,16 @@ int joint_axis(ObjectNode& joint, const JointSide& from, const JointSide& to) {
   return int(axis);
 }
 
+/// A body whose elements have the mass of one of them.
+Body body_of_element(const Problem& problem, const Body& body, std::size_t element) {
+  Body own;
+  own.edge = body.edge;
+  const double ratio = problem.mass_ratio(element, body);
+  own.mass = ratio * body.mass;
+  for (std::size_t a = 0; a < 3; ++a) own.inertia[a] = ratio * body.inertia[a];
+  return own;
+}
+
 std::uint8_t read_dofs(const Node& node) {
   static const std::vector<std::string> names(dof_names.begin(), dof_names.end());
   if (node.is_string()) {
@@ -132,8 +142,10 @@ void read_extra_links(const Node& node, const BodySurfaces& surfaces, Problem& p
                &body_to = problem.bodies[std::size_t(to.body)];
     std::optional<Material> solid;
     const BodyMaterials& own = solids.bodies[std::size_t(from.body)];
-    const bool has_own = !joint.has("constants") && own.is_solid();
-    if (const auto constants = joint.find("constants")) {
+    const auto constants = joint.find("constants");
+    const bool has_own = !constants && own.is_solid(),
+               has_ratios = !body_from.mass_ratios.empty() || !body_to.mass_ratios.empty();
+    if (constants) {
       solid = read_link_constants(*constants, body_from, body_to, link);
     } else {
       link.law = body_from.law;
@@ -144,6 +156,9 @@ void read_extra_links(const Node& node, const BodySurfaces& surfaces, Problem& p
       link.i = from.elements[k];
       link.j = to.elements[k];
       if (link.i == link.j) joint.fail(fmt::format("joins element {} to itself", link.i));
+      if (constants && has_ratios) // dampers follow from masses
+        solid = read_link_constants(*constants, body_of_element(problem, body_from, link.i),
+                                    body_of_element(problem, body_to, link.j), link);
       if (has_own) solid = own.of(problem.material(link.i));
       if (solid) solid->nu = 0; // pressure does not pass a joint
       if (solid) solids.extra_links.emplace(problem.extra_links.size(), *solid);

@@ -167,6 +167,23 @@ class Scenes(Files):
         self.assertAlmostEqual(found[1] / found[0], 1, delta=1e-7)  # linear equations
         self.assertAlmostEqual(found[3] / found[2], 1, delta=1e-7)  # finite rotations
 
+    def test_dampers_of_extra_links_follow_the_masses_of_their_elements(self):
+        def damping(layers, constants):
+            body = {"name": "part", "geometry": {"voxels": {"layers": [layers]}}, "element": 0.01,
+                    "constants": constants}
+            link = {"from": {"elements": [[1, 0, 0]]}, "to": {"elements": [[1, 2, 0]]}, "axis": "y",
+                    "constants": {"law": "material", "E": 1e7, "damping_ratio": 0.1}}
+            scene = {**SCENE, "bodies": [body], "extra_links": [link], "loads": [], "clamps": []}
+            result = dssbench("explain", self.write("scene.json", scene), "--json", "-")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return json.loads(result.stdout)["links_by_kind"][-1]["d_normal_n_s_per_m"]
+
+        heavy = {"E": 1e7, "rho": 16000}
+        alone = damping(["##", "#.", "##"], {"law": "solid", **heavy})
+        both = damping(["12", "1.", "12"], {"law": "solid", "materials": {
+            "1": {"E": 1e7, "rho": 1000}, "2": heavy}})
+        self.assertAlmostEqual(both / alone, 1, delta=1e-12)
+
     def clamped(self, select, element=0.002):
         """How many elements a selection of the box has; or why it is refused."""
         self.write("part.stl", box_stl((0, 0, 0), (30, 8, 8)))
