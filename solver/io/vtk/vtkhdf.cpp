@@ -4,6 +4,7 @@
 #include "solver/io/temporaries.hpp"
 #include "solver/io/vtk/state_arrays.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
@@ -53,13 +54,14 @@ hid_t type_of() {
 /// HDF5 prints errors of its own, unless each thread says otherwise.
 void tell_errors_in_one_line() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-constexpr hsize_t chunk_rows = 32768;
+constexpr hsize_t most_chunk_rows = 32768;
 
 /// How arrays are stored: in chunks, compressed. Bytes of equal weight stand together, which makes
 /// numbers of one size smaller.
-Owned storage(hsize_t components) {
+/// @param rows  of a state: a chunk has those of one, so that a later state changes none before
+Owned storage(hsize_t components, hsize_t rows) {
   Owned list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  const hsize_t chunk[2] = {chunk_rows, components};
+  const hsize_t chunk[2] = {std::clamp<hsize_t>(rows, 1, most_chunk_rows), components};
   require(H5Pset_chunk(list, components > 1 ? 2 : 1, chunk));
   require(H5Pset_shuffle(list));
   require(H5Pset_deflate(list, 1));
@@ -76,7 +78,7 @@ void append_rows(hid_t file, const std::string& name, hsize_t components,
   if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) {
     const hsize_t most[2] = {H5S_UNLIMITED, components};
     const Owned space(H5Screate_simple(rank, size, most), H5Sclose);
-    const Owned list = storage(components);
+    const Owned list = storage(components, rows);
     const Owned made(
         H5Dcreate2(file, name.c_str(), type_of<T>(), space, H5P_DEFAULT, list, H5P_DEFAULT),
         H5Dclose);
