@@ -15,8 +15,11 @@ mkdir -p "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial"
 apt="-qq -o APT::Architecture=arm64 -o APT::Architectures=arm64
   -o Dir::State::Lists=$folder/apt/lists -o Dir::Cache=$folder/apt/cache -o APT::Sandbox::User="
 apt-get $apt update
-# A -dev package holds headers and links; the library is what it depends on.
-needed=$(apt-cache $apt depends $libraries | awk '$1 == "Depends:" { print $2 }')
+# A -dev package holds headers and links; the libraries are what it depends on, directly or not. The
+# cross compiler has those of the languages.
+needed=$(apt-cache $apt depends --recurse --no-recommends --no-suggests --no-conflicts --no-breaks \
+  --no-replaces --no-enhances $libraries | grep '^lib' |
+  grep -vE '^lib(c6|c-dev-bin|gcc|stdc|crypt-dev|nsl|tirpc)' | sed 's/:arm64//' | sort -u)
 (cd "$folder/apt" && apt-get $apt download $libraries $needed)
 for package in "$folder"/apt/*.deb; do dpkg -x "$package" "$folder"; done
 rm -r "$folder/apt"
