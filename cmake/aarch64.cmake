@@ -9,7 +9,7 @@ set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
 set(CMAKE_CXX_FLAGS_INIT -Wno-psabi)
 
 # Headers without code of their own, such as Eigen, are those of the host.
-set(packages ${CMAKE_CURRENT_LIST_DIR}/../build/aarch64-packages)
+get_filename_component(packages ${CMAKE_CURRENT_LIST_DIR}/../build/aarch64-packages ABSOLUTE)
 set(CMAKE_FIND_ROOT_PATH ${packages})
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
