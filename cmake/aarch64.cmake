@@ -18,5 +18,6 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
 set(ENV{PKG_CONFIG_LIBDIR} ${packages}/usr/lib/aarch64-linux-gnu/pkgconfig)
 set(ENV{PKG_CONFIG_SYSROOT_DIR} ${packages})
 
-# Where the emulator finds these libraries.
-set(CMAKE_BUILD_RPATH ${packages}/usr/lib/aarch64-linux-gnu)
+# Where the linker and the emulator find these libraries.
+set(CMAKE_BUILD_RPATH ${packages}/usr/lib/aarch64-linux-gnu ${packages}/lib/aarch64-linux-gnu)
+set(CMAKE_EXE_LINKER_FLAGS_INIT -Wl,-rpath-link,${packages}/lib/aarch64-linux-gnu)

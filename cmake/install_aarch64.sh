@@ -18,7 +18,7 @@ apt-get $apt update
 # A -dev package holds headers and links; the libraries are what it depends on, directly or not. The
 # cross compiler has those of the languages.
 needed=$(apt-cache $apt depends --recurse --no-recommends --no-suggests --no-conflicts --no-breaks \
-  --no-replaces --no-enhances $libraries | grep '^lib' |
+  --no-replaces --no-enhances $libraries | grep -E '^z?lib' |
   grep -vE '^lib(c6|c-dev-bin|gcc|stdc|crypt-dev|nsl|tirpc)' | sed 's/:arm64//' | sort -u)
 (cd "$folder/apt" && apt-get $apt download $libraries $needed)
 for package in "$folder"/apt/*.deb; do dpkg -x "$package" "$folder"; done
