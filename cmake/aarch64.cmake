@@ -20,4 +20,6 @@ set(ENV{PKG_CONFIG_SYSROOT_DIR} ${packages})
 
 # Where the linker and the emulator find these libraries.
 set(CMAKE_BUILD_RPATH ${packages}/usr/lib/aarch64-linux-gnu ${packages}/lib/aarch64-linux-gnu)
-set(CMAKE_EXE_LINKER_FLAGS_INIT -Wl,-rpath-link,${packages}/lib/aarch64-linux-gnu)
+# DT_RPATH, which old tags set, holds for libraries of libraries, too.
+set(CMAKE_EXE_LINKER_FLAGS_INIT
+  "-Wl,-rpath-link,${packages}/lib/aarch64-linux-gnu -Wl,--disable-new-dtags")
