@@ -1,5 +1,5 @@
 #pragma once
-/// Base64 (RFC 4648), for VTK's arrays and pictures.
+/// Base64 (RFC 4648), for images inside of pictures.
 #include <cstdint>
 #include <string>
 #include <string_view>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace dss {
@@ -43,11 +44,13 @@ std::vector<Span> spans(const std::vector<Crossing>& line, int axis) {
   std::vector<Span> inside;
   int winding = 0;
   const Crossing* in = nullptr;
+  int most = 0;
   for (const Crossing& crossing : line) {
     const int before = winding;
     winding += crossing.normal[axis] < 0 ? 1 : -1;
-    if (before == 0) in = &crossing;
-    if (winding == 0) inside.push_back({*in, crossing});
+    if (before == 0) in = &crossing, most = 0;
+    most = std::max(most, std::abs(winding));
+    if (winding == 0) inside.push_back({*in, crossing, most});
   }
   return inside;
 }

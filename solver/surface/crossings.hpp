@@ -27,6 +27,7 @@ struct Crossing {
 /// A part of a line inside of a surface.
 struct Span {
   Crossing in, out;
+  int most_enclosed = 1; ///< largest absolute winding number; more than 1 where parts overlap
 };
 /// Where a line is inside: where its winding number is not 0. Parts that overlap are one span.
 /// @param line  its crossings, ascending, along `axis`

@@ -32,6 +32,8 @@ public:
   const std::optional<Wall>& thinnest() const { return thinnest_; }
   /// Volume inside, the mean over the three axes [m^3].
   double volume() const { return volume_; }
+  /// Whether a place on a line along x is enclosed more than once.
+  bool has_overlaps() const { return has_overlaps_; }
 
 private:
   void look_along(int axis, const Crossings& crossings) {
@@ -41,6 +43,7 @@ private:
       for (int x = 0; x < grid_.count[std::size_t(u)]; ++x)
         for (const Span& span : spans(crossings.of_line(x, y), axis)) {
           volume_ += area * (span.out.at - span.in.at) / 3;
+          has_overlaps_ |= axis == 0 && span.most_enclosed > 1;
           std::optional<Wall> wall = wall_between(span.in, span.out, axis, grid_);
           if (!wall || (thinnest_ && wall->elements >= thinnest_->elements)) continue;
           wall->place[axis] = (span.in.at + span.out.at) / 2;
@@ -53,19 +56,8 @@ private:
   const SpaceGrid& grid_;
   std::optional<Wall> thinnest_;
   double volume_ = 0;
+  bool has_overlaps_ = false;
 };
-
-/// Whether an element is enclosed more than once.
-bool has_overlaps(const Surface& surface, const SpaceGrid& grid) {
-  const Crossings crossings(surface, grid, 0);
-  for (int z = 0; z < grid.count[2]; ++z)
-    for (int y = 0; y < grid.count[1]; ++y) {
-      int winding = 0;
-      for (const Crossing& crossing : crossings.of_line(y, z))
-        if (winding += crossing.normal.x() < 0 ? 1 : -1; std::abs(winding) > 1) return true;
-    }
-  return false;
-}
 
 } // namespace
 
@@ -106,9 +98,9 @@ ShapeReport report_shape(const Surface& surface, const SpaceGrid& grid, const Vo
   report.elements =
       std::size_t(std::ranges::count_if(voxels.occupied, [](auto c) { return c != 0; }));
   const LineReport lines(surface, grid);
-  report.surface_volume = unpaired_edges(surface) > 0   ? std::numeric_limits<double>::quiet_NaN()
-                          : has_overlaps(surface, grid) ? lines.volume()
-                                                        : std::abs(enclosed_volume(surface));
+  report.surface_volume = unpaired_edges(surface) > 0 ? std::numeric_limits<double>::quiet_NaN()
+                          : lines.has_overlaps()      ? lines.volume()
+                                                      : std::abs(enclosed_volume(surface));
   report.voxel_volume = double(report.elements) * grid.edge.prod();
   report.thinnest = lines.thinnest();
   report.pieces = pieces_of(voxels);

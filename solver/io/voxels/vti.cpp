@@ -195,7 +195,7 @@ std::string Image::decoded(std::string_view text, bool is_raw, double most) cons
   return std::string(bytes.substr(word_bytes(), size));
 }
 
-std::string trimmed(const char* text) {
+std::string without_space(std::string_view text) {
   std::string out(text);
   std::erase_if(out, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; });
   return out;
@@ -210,12 +210,12 @@ std::string Image::data_of(const pugi::xml_node& array, const NumberType& type, 
     std::string_view text = tail_.substr(offset);
     std::string own;
     if (!is_raw_) {
-      own = trimmed(std::string(text.substr(0, text.find('<'))).c_str());
+      own = without_space(text.substr(0, text.find('<')));
       text = own;
     }
     return decoded(text, is_raw_, most);
   }
-  if (format == "binary") return decoded(trimmed(array.child_value()), false, most);
+  if (format == "binary") return decoded(without_space(array.child_value()), false, most);
   // Text: as the bytes of the type, so that one function reads all.
   if (type.size != 1)
     refuse_image(path_, "its array is text of a wide type; write UInt8, or binary data");

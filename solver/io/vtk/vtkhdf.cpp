@@ -201,11 +201,6 @@ void VtkHdfFile::write_bodies(const Problem& problem, const StressOutput& stress
   write_texts(file_, "VTKHDF/FieldData/units", {vtk_units});
 }
 
-void VtkHdfFile::append(const std::string& name, std::size_t components,
-                        const std::vector<double>& numbers) {
-  append_rows(file_, name, components, numbers);
-}
-
 void VtkHdfFile::add(const Problem& problem, double time, std::span<const double> state,
                      const StressOutput& stress) {
   const NodeMotion motion = node_motion(problem, state, stress.nodes);
@@ -216,7 +211,7 @@ void VtkHdfFile::add(const Problem& problem, double time, std::span<const double
     numbers.reserve(components * count);
     for (std::size_t n = 0; n < count; ++n)
       for (const double number : value_of(n)) numbers.push_back(number);
-    append(name, components, numbers);
+    append_rows(file_, name, components, numbers);
   };
   const auto put_in = [&](const char* group, std::vector<std::string>& names) {
     return [&, group](std::string_view name, std::size_t count, auto&& value_of) {

@@ -32,7 +32,6 @@ private:
   using Handle = std::int64_t; ///< hid_t of HDF5
   void write_bodies(const Problem& problem, const StressOutput& stress);
   void write_steps();
-  void append(const std::string& name, std::size_t components, const std::vector<double>& numbers);
   [[noreturn]] void fail(const char* what) const;
 
   std::string target_, temporary_;
