@@ -114,19 +114,19 @@ def build(results, plotly):
     missing_grids = list(map(sections.missing_section, missing))
     charts, chart_sections, chart_titles = charts_of(results, ages, missing, bool(plotly))
     sentences, groups = summary.sentences(results, missing, ages), by_study(missing)
-    body = [sections.summary_section(sentences),
-            sections.old_and_missing_section(groups, ages),
+    body = [sections.summary_section(results, sentences),
             elements.element("h2", "Tables of the paper", id="tables"),
             *[sections.grid_section(*grid) for grid in grids],
             *missing_grids,
             elements.element("h2", "Charts", id="charts-of-studies"),
             *chart_sections,
             sections.pictures_section(results),
+            sections.old_and_missing_section(groups, ages),
             sections.environment_section(ages),
             sections.tables_section(results, ages)]
-    contents = [("summary", "Summary"), ("old-and-missing", "Old and missing"),
-                ("tables", "Tables 1-3"), *chart_titles,
-                ("pictures", "Pictures"), ("environment", "Environment"),
+    contents = [("summary", "Summary"), ("tables", "Tables 1-3"), *chart_titles,
+                ("pictures", "Pictures"), ("old-and-missing", "Old and missing"),
+                ("environment", "Environment"),
                 ("all-tables", "All tables")]
     text = markdown.write(sentences, [grid[:3] for grid in grids], results.figures(), groups, ages)
     return page.assemble(origin_text(results, ages), contents, body, charts, plotly), text, missing

@@ -203,32 +203,43 @@ def verification_table(results):
     def part(value):
         return "" if value != value else f"{value:+.2%}"
 
-    lines = [[f"`{row['problem']}`", f"{row['figure']} [{row['unit']}]", f"{row['reference']:.6g}",
+    lines = [[f"[`{row['problem']}`](problems/{row['problem']}.md)",
+              f"{row['figure']} [{row['unit']}]", f"{row['reference']:.6g}",
               f"{row['extrapolated']:.6g} ± {row['extrapolated_uncertainty']:.1g}",
               part(row["grid_error"]), part(row["model_error"]), part(row["time_error"]),
               row["status"]] for _, row in frame.iterrows()]
     return ["problem", "figure", "published", "extrapolated", "grid", "model", "time", ""], lines
 
 
-def arm_table(results):
-    """Figures of the suspension arm by grid."""
-    grids = results.table("verification_grids", "problem", "figure", "value", "elements", "result",
-                          "unit")
+def problem_table(results, problem):
+    """Figures of a published problem by grid, extrapolated, and as published."""
+    grids = results.table("verification_grids", "problem", "figure", "refined", "value",
+                          "elements", "result", "unit")
     whole = results.table("verification", "problem", "figure", "extrapolated",
-                          "extrapolated_uncertainty")
-    grids, whole = (frame[frame["problem"] == "arm"] for frame in (grids, whole))
+                          "extrapolated_uncertainty", "reference", "order", "model_error",
+                          "status")
+    grids, whole = (frame[frame["problem"] == problem] for frame in (grids, whole))
+    if grids.empty:
+        raise NotMeasured(f"verification_grids has no problem {problem}")
     names = list(dict.fromkeys(f"{row['figure']} [{row['unit']}]" for _, row in grids.iterrows()))
     lines = [[f"{value:g}", f"{rows['elements'].iloc[0]}",
-              *(f"{result:.4g}" for result in rows["result"])]
+              *(f"{result:.6g}" for result in rows["result"])]
              for value, rows in grids.groupby("value")]
-    lines.append(["extrapolated", "",
-                  *(f"{row['extrapolated']:.4g} ± {row['extrapolated_uncertainty']:.1g}"
-                    for _, row in whole.iterrows())])
-    return ["layers of a leg", "elements", *names], lines
+    last = {"extrapolated": lambda row: f"{row['extrapolated']:.6g} ± "
+                                        f"{row['extrapolated_uncertainty']:.1g}",
+            "published": lambda row: f"{row['reference']:.6g}",
+            "difference": lambda row: f"{row['model_error']:+.2%}",
+            "order": lambda row: f"{row['order']:.1f}",
+            "verdict": lambda row: row["status"]}
+    for name, text in last.items():
+        words = [text(row) for _, row in whole.iterrows()]
+        if not all("nan" in word for word in words):
+            lines.append([f"**{name}**", "", *("" if "nan" in word else word for word in words)])
+    return [grids["refined"].iloc[0], "elements", *names], lines
 
 
-TABLES = {"arm": arm_table, "chain": chain_table, "continuum": continuum_table,
-          "first": first_table, "geometry": geometry_table, "goals": goals_table, "gpu": gpu_table,
+TABLES = {"chain": chain_table, "continuum": continuum_table, "first": first_table,
+          "geometry": geometry_table, "goals": goals_table, "gpu": gpu_table,
           "machine": machine_table, "mix": mix_table, "models": models_table,
-          "networks": network_table, "schedules": schedules_table, "sizes": sizes_table,
-          "statics": statics_table, "verification": verification_table}
+          "networks": network_table, "problem": problem_table, "schedules": schedules_table,
+          "sizes": sizes_table, "statics": statics_table, "verification": verification_table}

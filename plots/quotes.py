@@ -1,7 +1,7 @@
 """Figures that pages quote: they come from the tables of results, never from a keyboard.
 
 A page marks a quotation with its name in quotes.toml, and a table with its name in
-page_tables.py:
+page_tables.py. A second name says of what: <!--table problem arm-->.
 
     It is <!--chain_end-->1751<!--/--> times as fast.
 
@@ -20,7 +20,8 @@ from tables.results import FAULTS, ROOT, NotMeasured, Results
 from tables.words import is_missing, shown
 
 MARK = re.compile(r"<!--(?!table |/)([a-z0-9_]+)-->(.*?)<!--/-->", re.DOTALL)
-TABLE = re.compile(r"(<!--table ([a-z0-9_]+)-->\n)(.*?)(<!--/table-->)", re.DOTALL)
+TABLE = re.compile(r"(<!--table ([a-z0-9_]+)(?: ([a-z0-9_]+))?-->\n)(.*?)(<!--/table-->)",
+                   re.DOTALL)
 
 
 class Unknown(Exception):
@@ -111,11 +112,12 @@ def filled(text, results, quotes):
         return f"<!--{name}-->{new}<!--/-->"
 
     def table(match):
-        begin, name, old, end = match.groups()
+        begin, name, of, old, end = match.groups()
         if name not in TABLES:
             faults.append(f"table {name}: is not in plots/page_tables.py")
             return match.group(0)
-        return begin + attempt(name, old, lambda: markdown(*TABLES[name](results))) + end
+        words = [of] if of else []
+        return begin + attempt(name, old, lambda: markdown(*TABLES[name](results, *words))) + end
 
     return TABLE.sub(table, MARK.sub(quotation, text)), faults
 

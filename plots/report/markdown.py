@@ -45,11 +45,11 @@ def age_lines(ages):
 def write(sentences, grids, figures, missing, ages):
     """The text of REPORT.md. grids: (grid, age, command); missing: (titles, reason, study)."""
     lines = [HEADING, *[f"{number}. {text}" for number, text in enumerate(sentences, 1)], "",
-             "## Old and missing", "", *missing_lines(missing), "", *age_lines(ages), "",
              "## Tables of the paper", ""]
     for grid, age, made_by in grids:
         lines += grid_lines(grid, age, made_by)
     lines += ["## Figures", ""]
     lines += [f"* [{path.name}](figures/{path.name}), {pictures.made_by(path)}"
               for path in figures]
+    lines += ["", "## Old and missing", "", *missing_lines(missing), "", *age_lines(ages)]
     return "\n".join(lines) + "\n"

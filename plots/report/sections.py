@@ -22,10 +22,11 @@ PICTURES_MADE_BY = (
 TALL = 15  # a table with more rows has a limited height
 
 
-def summary_section(sentences):
-    """The sentences of the summary."""
+def summary_section(results, sentences):
+    """The first picture beside the sentences of the summary."""
     listed = element("ol", elements("li", map(prose, sentences)), class_="summary")
-    return element("section", element("h2", "Summary") + listed, id="summary")
+    picture = element("div", "".join(drawn(results)[:1]), class_="first")
+    return element("section", element("h2", "Summary") + picture + listed, id="summary")
 
 
 def old_and_missing_section(missing_sections, ages):
@@ -196,10 +197,14 @@ def picture_figure(path, text):
     return element("figure", image + element("figcaption", caption))
 
 
-def pictures_section(results):
-    """Pictures of deformed bodies."""
+def drawn(results):
+    """The pictures that are there."""
     paths = {results.directory / "figures" / name: text for name, text in PICTURES.items()}
-    parts = [picture_figure(path, text) for path, text in paths.items() if path.exists()]
-    parts = parts or [missing("Not drawn: run <code>make reproduce</code>.")]
+    return [picture_figure(path, text) for path, text in paths.items() if path.exists()]
+
+
+def pictures_section(results):
+    """Pictures of deformed bodies, but for the first, which the summary has."""
+    parts = drawn(results)[1:] or [missing("Not drawn: run <code>make reproduce</code>.")]
     return element("section", element("h2", "Pictures") + "\n".join(parts)
                    + element("p", prose(PICTURES_MADE_BY), class_="source"), id="pictures")

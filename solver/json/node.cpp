@@ -15,6 +15,10 @@ double JsonFile::evaluate(const std::string& text) const {
   throw InputError(fmt::format("\"{}\" is not a number", text));
 }
 
+double JsonFile::evaluate_at(const std::string& text, const Vec3& /*place*/) const {
+  return evaluate(text);
+}
+
 std::string listed(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
@@ -49,6 +53,15 @@ double Node::number() const {
     fail(fmt::format("{} is not a number; write {}", shown(), file_->number_forms()));
   if (value_->is_number()) return value_->get<double>();
   return placed([&] { return file_->evaluate(value_->get_ref<const std::string&>()); });
+}
+
+bool Node::is_of_place() const {
+  return is_string() && is_number() && file_->is_of_place(value_->get_ref<const std::string&>());
+}
+
+double Node::number_at(const Vec3& place) const {
+  if (!is_of_place()) return number();
+  return placed([&] { return file_->evaluate_at(value_->get_ref<const std::string&>(), place); });
 }
 
 std::string Node::with_source(double value) const {
@@ -97,6 +110,12 @@ Vec3 Node::vector() const {
   if (!is_array() || value_->size() != 3) fail(shown() + " is not [x, y, z]");
   const std::vector<Node> parts = items();
   return {parts[0].number(), parts[1].number(), parts[2].number()};
+}
+
+Vec3 Node::vector_at(const Vec3& place) const {
+  if (!is_array() || value_->size() != 3) fail(shown() + " is not [x, y, z]");
+  const std::vector<Node> parts = items();
+  return {parts[0].number_at(place), parts[1].number_at(place), parts[2].number_at(place)};
 }
 
 Vec3 Node::positive_vector() const {

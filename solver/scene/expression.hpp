@@ -1,6 +1,7 @@
 #pragma once
 /// Expressions in scenes: "=floor(n/4)".
 #include <map>
+#include <set>
 #include <string>
 
 namespace dss {
@@ -12,5 +13,8 @@ using Parameters = std::map<std::string, double>;
 /// @throws InputError that says what is wrong with the expression; the caller adds the place in the
 ///     file
 double evaluate(const std::string& expression, const Parameters& parameters);
+
+/// Names of numbers that an expression uses; none if it is not one.
+std::set<std::string> names_in(const std::string& expression);
 
 } // namespace dss

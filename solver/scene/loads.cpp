@@ -2,6 +2,7 @@
 
 #include "solver/memory.hpp"
 #include "solver/model/element_place.hpp"
+#include "solver/scene/density_loads.hpp"
 #include "solver/scene/selection.hpp"
 #include "solver/scene/signals.hpp"
 
@@ -39,35 +40,12 @@ void read_wrench(ObjectNode& object, Load& load) {
   load.torque = scaled(part, load.torque);
 }
 
-/// "traction" or "pressure" on a face. It acts in the middle of the face of each element.
-void read_traction(ObjectNode& object, const Body& body, Load& load) {
-  if (load.face < 0)
-    object.fail("a traction or pressure acts on faces; select a \"face\", such as \"+x\"");
-  const auto axis = std::size_t(load.face) / 2;
-  Vec3 normal{}, traction{};
-  normal[axis] = load.face % 2 == 1 ? 1 : -1;
-  if (const auto given = object.find("traction")) traction = given->vector();
-  if (const auto pressure = object.find("pressure")) traction = scaled(-pressure->number(), normal);
-  const double area = body.edge[(axis + 1) % 3] * body.edge[(axis + 2) % 3];
-  set_force_at(scaled(body.edge[axis] / 2, normal), scaled(area, traction), load);
-}
-
 /// A load on selected elements.
-Load read_selected_load(ObjectNode& object, const Problem& problem, const BodySurfaces& surfaces,
-                        const Body& body) {
+Load read_selected_load(ObjectNode& object, const Problem& problem, const BodySurfaces& surfaces) {
   Load load;
   load.elements = read_selected(object, problem, surfaces, false);
-  const auto face = selected_face(object);
-  if (const auto density = object.find("body_force")) {
-    load.force = scaled(body.edge[0] * body.edge[1] * body.edge[2], density->vector());
-    return load;
-  }
-  if (face) load.face = int(*face);
-  if (object.has("traction") || object.has("pressure")) {
-    read_traction(object, body, load);
-  } else {
-    read_wrench(object, load);
-  }
+  if (const auto face = selected_face(object)) load.face = int(*face);
+  read_wrench(object, load);
   return load;
 }
 
@@ -176,8 +154,8 @@ void require_kind(ObjectNode& object) {
   std::vector<std::string> kinds;
   const bool is_wrench = object.has("force") || object.has("torque");
   if (is_wrench) kinds.emplace_back("force or torque");
-  for (const char* kind : {"traction", "pressure", "body_force"})
-    if (object.node().json().contains(kind)) kinds.emplace_back(kind);
+  for (const std::string& kind : density_keys)
+    if (object.node().json().contains(kind)) kinds.push_back(kind);
   if (kinds.empty())
     object.fail("a load needs \"force\" or \"torque\", \"traction\", \"pressure\" or "
                 "\"body_force\"");
@@ -224,8 +202,10 @@ std::vector<Load> read_load(const Node& node, const Solids& solids, const BodySu
     loads = {read_point_load(object, *at, problem, body)};
   else if (const auto line = object.find("line"))
     loads = read_line_load(object, *line, problem, body);
+  else if (std::ranges::any_of(density_keys, [&](const auto& key) { return object.has(key); }))
+    loads = read_density_loads(object, problem, body, surfaces);
   else
-    loads = {read_selected_load(object, problem, surfaces, own)};
+    loads = {read_selected_load(object, problem, surfaces)};
   if (const BodyMaterials& solid = solids.bodies[std::size_t(body)]; solid.is_contracting())
     loads = with_face_strains(loads, solid, own.edge, problem);
   if (const auto given = object.find("signal")) {

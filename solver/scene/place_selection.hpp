@@ -20,10 +20,7 @@ extern const std::vector<std::string> place_keys;
 ///   plane     {"point", "normal"}: the plane cuts the element. One that lies between two layers
 ///             takes the layer to which its normal points.
 ///   cylinder  {"from", "to", "radius"}: the centre lies in this cylinder
-///   cad_face  {"near", "angle"}: the face of the surface next to a point. It goes on over edges at
-///             which normals turn by less than the angle [degrees]; elements are those that it
-///             passes within half of their diagonal, in units of elements. The point is within a
-///             tenth of the surface's diagonal of it.
+///   cad_face  {"near", "angle"}: see read_cad_face
 /// @return elements of the body, ascending; none if the selection is empty
 std::vector<std::size_t> read_place(const std::string& key, const Node& node,
                                     const Problem& problem, int body,

@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace dss {
@@ -143,6 +145,14 @@ std::vector<std::string> scene_names(const std::string& directory) {
   return names;
 }
 
+/// An expression without the sign that marks it.
+std::string without_sign(const std::string& text) {
+  return text.substr(text.starts_with('=') ? 1 : 0);
+}
+
+/// Coordinates of a place in expressions. Parameters of the same name hide them.
+constexpr std::array<const char*, 3> place_names{"x", "y", "z"};
+
 } // namespace
 
 Override read_override(const std::string& key, const Node& value) {
@@ -185,13 +195,26 @@ bool SceneText::is_expression(const std::string& text, const std::string& pointe
 
 double SceneText::evaluate(const std::string& text) const {
   try {
-    return dss::evaluate(text.substr(text.starts_with('=') ? 1 : 0), parameters);
+    return dss::evaluate(without_sign(text), parameters);
   } catch (const InputError& error) {
     std::vector<std::string> known;
     for (const auto& item : parameters) known.push_back(item.first);
     throw InputError(
         fmt::format("{}; parameters are {}", error.what(), known.empty() ? "none" : listed(known)));
   }
+}
+
+bool SceneText::is_of_place(const std::string& text) const {
+  const std::set<std::string> used = names_in(without_sign(text));
+  return std::ranges::any_of(place_names, [&](const char* name) {
+    return used.contains(name) && !parameters.contains(name);
+  });
+}
+
+double SceneText::evaluate_at(const std::string& text, const Vec3& place) const {
+  Parameters with_place = parameters;
+  for (std::size_t a = 0; a < 3; ++a) with_place.try_emplace(place_names[a], place[a]);
+  return dss::evaluate(without_sign(text), with_place);
 }
 
 std::string SceneText::changed_by(const std::string& pointer) const {

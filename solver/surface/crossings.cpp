@@ -64,7 +64,7 @@ Crossings::Crossings(const Surface& surface, const SpaceGrid& grid, int axis) {
                  fmt::format("surface {}: {} lines along {}", surface.path, lines, "xyz"[axis]),
                  "take larger cells");
   lines_.resize(lines);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
     const auto corners = surface.corners_of(t);
     const Eigen::Vector3d area = surface.area_of(t);
     if (area[axis] == 0) continue; // no line along the axis crosses it
@@ -85,7 +85,7 @@ Crossings::Crossings(const Surface& surface, const SpaceGrid& grid, int axis) {
         const double at = corners[0][axis] - (area[u] * (point.x() - corners[0][u]) +
                                               area[v] * (point.y() - corners[0][v])) /
                                                  area[axis];
-        lines_[std::size_t(y) * std::size_t(count_u_) + std::size_t(x)].push_back({at, normal});
+        lines_[std::size_t(y) * std::size_t(count_u_) + std::size_t(x)].push_back({at, normal, t});
       }
   }
   for (std::vector<Crossing>& line : lines_) std::ranges::sort(line, {}, &Crossing::at);

@@ -3,6 +3,7 @@
 #include "solver/surface/surface.hpp"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace dss {
@@ -22,6 +23,7 @@ struct SpaceGrid {
 struct Crossing {
   double at = 0;          ///< place along the axis [m]
   Eigen::Vector3d normal; ///< outer one of the triangle, length 1
+  std::uint32_t triangle = 0;
 };
 
 /// A part of a line inside of a surface.

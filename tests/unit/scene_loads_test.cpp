@@ -3,11 +3,13 @@
 #include "solver/io/series_csv.hpp"
 #include "solver/scene/scene.hpp"
 #include "tests/fixtures/own_directory.hpp"
+#include "tests/fixtures/surfaces.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace dss {
 namespace {
@@ -52,6 +54,60 @@ TEST_F(SceneLoads, tractions_and_pressures_act_in_the_middle_of_faces) {
   EXPECT_EQ(pressure.force, (Vec3{0, 0, 42})); // pushes from below
   EXPECT_EQ(pressure.torque, (Vec3{0, 0, 0}));
   EXPECT_DOUBLE_EQ(pressure.face_strain, -7 / (4 * 4e5));
+}
+
+TEST_F(SceneLoads, densities_may_depend_on_the_place) {
+  const std::vector<Load> loads =
+      with_load(R"("select": {"face": "-y"}, "pressure": "=2*x", "signal": 3)").loads;
+  ASSERT_EQ(loads.size(), 4u); // centres at x = 1, 3, 5, 7 m, faces of 10 m^2
+  for (std::size_t n = 0; n < loads.size(); ++n) {
+    EXPECT_EQ(loads[n].elements, std::vector<std::size_t>{n});
+    EXPECT_DOUBLE_EQ(loads[n].force[1], 20 * (1 + 2 * double(n)));
+    EXPECT_DOUBLE_EQ(loads[n].face_strain, -2 * (1 + 2 * double(n)) / (4 * 4e5));
+    EXPECT_EQ(loads[n].signal(0), 3);
+  }
+  const Load top =
+      with_load(R"("select": {"face": "+z"}, "traction": [0, "=z", "=-y"])").loads.at(5);
+  EXPECT_EQ(top.force, (Vec3{0, 6 * 5, -6 * 4.5})); // at the middle of the face, (3, 4.5, 5) m
+  const Load volume =
+      with_load(R"("select": {"all": true}, "body_force": ["=z", 0, 0])").loads.at(0);
+  EXPECT_EQ(volume.force, (Vec3{30 * 2.5, 0, 0}));
+}
+
+TEST_F(SceneLoads, parameters_hide_the_coordinates_of_a_place) {
+  const Problem bar = with(R"("parameters": {"x": 3},
+      "loads": [{"select": {"face": "-y"}, "pressure": "=2*x"}])");
+  ASSERT_EQ(bar.loads.size(), 1u);
+  EXPECT_DOUBLE_EQ(bar.loads[0].force[1], 60);
+}
+
+TEST_F(SceneLoads, mistakes_in_densities_of_a_place_have_their_line) {
+  EXPECT_NE(refused([&] {
+              with_load(R"("select": {"face": "-y"}, "pressure": "=1/(x-3)^2")");
+            }).find("/loads/0/pressure: \"=1/(x-3)^2\" is inf"),
+            std::string::npos);
+  EXPECT_NE(refused([&] {
+              with_load(R"("select": {"face": "-y"}, "force": ["=x", 0, 0])");
+            }).find("not an expression over the scene's parameters"),
+            std::string::npos);
+}
+
+TEST_F(SceneLoads, a_pressure_on_a_cad_face_has_its_projection_and_no_net_force) {
+  written("ball.stl", fixture::binary_stl(fixture::sphere_facets(1, 24)));
+  const Problem ball = load_scene(written("ball.json", R"({"scene": "ball", "title": "a ball",
+      "run": {"dt": 1e-6, "steps": 1},
+      "bodies": [{"name": "b", "element": [0.1, 0.08, 0.1],
+                  "geometry": {"stl": {"file": "ball.stl", "unit": "m"}},
+                  "constants": {"law": "solid", "E": 1e6, "nu": 0.25, "rho": 1000}}],
+      "loads": [{"select": {"cad_face": {"near": [0, 0, 1]}}, "pressure": 7}]})"))
+                           .problem;
+  ASSERT_EQ(ball.loads.size(), 6u);
+  for (const Load& load : ball.loads) {
+    const auto axis = std::size_t(load.face) / 2;
+    const double push = load.force[axis] * double(load.elements.size());
+    EXPECT_NEAR(push * (load.face % 2 == 1 ? -1 : 1) / (7 * std::numbers::pi), 1, 0.02);
+    EXPECT_EQ(load.elements.size(), ball.loads[std::size_t(load.face ^ 1)].elements.size());
+  }
 }
 
 TEST_F(SceneLoads, body_forces_act_on_volumes) {

@@ -41,14 +41,20 @@ Columns columns_of(const Table& table) {
 }
 
 double figure_in(const Columns& columns, const VerifiedFigure& figure) {
-  const auto name = std::ranges::find(columns.names, figure.column);
-  if (name == columns.names.end())
-    throw InputError(
-        fmt::format("figure {}: the history has no column \"{}\"", figure.name, figure.column));
-  const auto place = std::size_t(name - columns.names.begin());
-  double value = columns.rows.back()[place];
+  const auto place_of = [&](const std::string& column) {
+    const auto name = std::ranges::find(columns.names, column);
+    if (name == columns.names.end())
+      throw InputError(
+          fmt::format("figure {}: the history has no column \"{}\"", figure.name, column));
+    return std::size_t(name - columns.names.begin());
+  };
+  const std::size_t place = place_of(figure.column);
+  const auto in = [&](const std::vector<double>& row) {
+    return figure.minus.empty() ? row[place] : row[place] - row[place_of(figure.minus)];
+  };
+  double value = in(columns.rows.back());
   for (const std::vector<double>& row : columns.rows)
-    if (figure.is_peak && std::abs(row[place]) > std::abs(value)) value = row[place];
+    if (figure.is_peak && std::abs(in(row)) > std::abs(value)) value = in(row);
   return value;
 }
 

@@ -30,6 +30,7 @@ VerifiedFigure read_figure(const Node& node, const VerificationProblem& problem)
     figure.mode = object.require("mode").count(1);
   } else {
     figure.column = object.require("column").name();
+    if (const auto minus = object.find("minus")) figure.minus = minus->name();
     if (problem.analysis == "dynamic") figure.is_peak = object.flag_or("peak", false);
   }
   figure.scale = Formula(object, "scale");
@@ -37,6 +38,7 @@ VerifiedFigure read_figure(const Node& node, const VerificationProblem& problem)
   figure.reference = reference ? reference->number() : std::numeric_limits<double>::quiet_NaN();
   if (figure.reference == 0) reference->fail("errors are relative; take a figure that is not 0");
   figure.uncertainty = object.non_negative_or("uncertainty", 0);
+  if (const auto differs = object.find("differs")) figure.differs = differs->name();
   object.finish();
   return figure;
 }
@@ -58,7 +60,6 @@ VerificationProblem read_problem(const Node& node, const std::string& path, doub
   for (const Node& item : object.require("figures").items(1))
     problem.figures.push_back(read_figure(item, problem));
   problem.tolerance = object.require("tolerance").positive();
-  if (const auto differs = object.find("differs")) problem.differs = differs->name();
   object.finish();
   return problem;
 }

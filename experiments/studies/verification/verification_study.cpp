@@ -48,8 +48,8 @@ void judge(const VerificationProblem& problem, const VerifiedFigure& figure,
   }
   const double error = std::abs(limit.value - figure.reference),
                allowed = problem.tolerance * std::abs(figure.reference) + figure.uncertainty;
-  row["status"] = error <= allowed ? "agrees" : problem.differs.empty() ? "failed" : "differs";
-  if (row["status"] == "differs") row["reason"] = problem.differs;
+  row["status"] = error <= allowed ? "agrees" : figure.differs.empty() ? "failed" : "differs";
+  if (row["status"] == "differs") row["reason"] = figure.differs;
   if (row["status"] == "failed")
     row["reason"] = fmt::format("{:.2g} from the reference, {:.2g} is allowed", error, allowed);
 }

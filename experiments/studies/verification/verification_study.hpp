@@ -17,10 +17,12 @@ struct VerifiedFigure {
   std::string name, unit;
   int mode = 0;         ///< number of a natural frequency [Hz], from 1 on; 0: `column` of a history
   std::string column;   ///< such as "tip.uz"
+  std::string minus;    ///< a column that is subtracted from it; empty: none
   bool is_peak = false; ///< the largest absolute value over time instead of the last value
   Formula scale;        ///< the figure is multiplied by it
   double reference = 0; ///< NaN: there is none, and the figure must converge
   double uncertainty = 0; ///< of the reference
+  std::string differs;    ///< why it differs from its reference; else empty
 };
 
 struct VerificationProblem {
@@ -32,7 +34,6 @@ struct VerificationProblem {
   std::vector<std::string> probes; ///< as --probe
   std::vector<VerifiedFigure> figures;
   double tolerance = 0; ///< relative, of the extrapolated figure
-  std::string differs;  ///< why it differs from its reference; else empty
 };
 
 struct VerificationStudy {

@@ -1,0 +1,112 @@
+#include "solver/scene/density_loads.hpp"
+
+#include "solver/scene/cad_face.hpp"
+#include "solver/scene/selection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace dss {
+
+const std::vector<std::string> density_keys = {"traction", "pressure", "body_force"};
+
+namespace {
+
+/// A force an area or volume.
+struct Density {
+  Node node;
+  bool is_pressure = false;
+
+  bool is_of_place() const {
+    if (is_pressure) return node.is_of_place();
+    node.vector_at({}); // checks the shape of the array
+    return std::ranges::any_of(node.items(), &Node::is_of_place);
+  }
+  /// @param normal  the outer one of the face that a pressure pushes
+  Vec3 at(const Vec3& place, const Vec3& normal) const {
+    if (!is_pressure) return node.vector_at(place);
+    const double pressure = node.number_at(place);
+    return {-pressure * normal[0], -pressure * normal[1], -pressure * normal[2]};
+  }
+};
+
+/// Where a density acts on each of some elements.
+struct Side {
+  std::vector<std::size_t> elements; ///< ascending
+  int face = -1;                     ///< as Load::face
+};
+
+/// The load on a side at a place, for the body's elements.
+Load load_at(const Vec3& place, const Side& side, const Density& density, const Body& body) {
+  Load load;
+  load.face = side.face;
+  Vec3 normal{}, arm{};
+  double size = body.edge[0] * body.edge[1] * body.edge[2]; // [m^3], or [m^2] of a face
+  if (side.face >= 0) {
+    const auto axis = std::size_t(side.face) / 2;
+    normal[axis] = side.face % 2 == 1 ? 1 : -1;
+    arm[axis] = normal[axis] * body.edge[axis] / 2;
+    size = body.edge[(axis + 1) % 3] * body.edge[(axis + 2) % 3];
+  }
+  const Vec3 f = density.at({place[0] + arm[0], place[1] + arm[1], place[2] + arm[2]}, normal);
+  load.force = {size * f[0], size * f[1], size * f[2]};
+  load.torque = {arm[1] * load.force[2] - arm[2] * load.force[1],
+                 arm[2] * load.force[0] - arm[0] * load.force[2],
+                 arm[0] * load.force[1] - arm[1] * load.force[0]};
+  return load;
+}
+
+/// A load of its own for each element of a side.
+void add_by_place(const Side& side, const Density& density, const Problem& problem,
+                  const Body& body, std::vector<Load>& loads) {
+  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
+    if (!std::ranges::binary_search(side.elements, e)) return;
+    loads.push_back(load_at(rest_position(problem, row, x), side, density, body));
+    loads.back().elements = {e};
+  });
+}
+
+/// The faces or elements that "select" names.
+std::vector<Side> read_sides(ObjectNode& object, bool is_volume, bool is_pressure,
+                             const Problem& problem, int body, const BodySurfaces& surfaces) {
+  std::vector<Side> sides;
+  ObjectNode select(object.require("select"));
+  const auto cad_face = select.find("cad_face");
+  if (cad_face && is_pressure) {
+    select.finish();
+    auto by_face = read_cad_sides(*cad_face, problem, body, surfaces[std::size_t(body)]);
+    for (std::size_t face = 0; face < by_face.size(); ++face)
+      if (!by_face[face].empty()) sides.push_back({std::move(by_face[face]), int(face)});
+    if (sides.empty()) cad_face->fail("selects nothing: no free face of an element lies there");
+    return sides;
+  }
+  const auto face = selected_face(object);
+  if (!is_volume && !face)
+    object.fail("a traction or pressure acts on faces; select a \"face\", such as \"+x\", or "
+                "for a pressure a \"cad_face\"");
+  return {{read_selected(object, problem, surfaces, false), is_volume ? -1 : int(*face)}};
+}
+
+} // namespace
+
+std::vector<Load> read_density_loads(ObjectNode& object, const Problem& problem, int body,
+                                     const BodySurfaces& surfaces) {
+  const std::string key = object.require_one(density_keys);
+  const Density density{object.require(key), key == "pressure"};
+  const bool is_of_place = density.is_of_place();
+  const Body& own = problem.bodies[std::size_t(body)];
+  std::vector<Load> loads;
+  for (Side& side :
+       read_sides(object, key == "body_force", density.is_pressure, problem, body, surfaces)) {
+    if (is_of_place) {
+      add_by_place(side, density, problem, own, loads);
+      continue;
+    }
+    loads.push_back(load_at({}, side, density, own));
+    loads.back().elements = std::move(side.elements);
+  }
+  return loads;
+}
+
+} // namespace dss
