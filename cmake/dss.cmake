@@ -81,7 +81,8 @@ function(dss_add_variant name)
   endif()
   target_link_libraries(${target} PRIVATE dss_options dss_solver OpenMP::OpenMP_CXX)
   target_compile_definitions(${target} PRIVATE
-    $<$<BOOL:${DSS_FEWER_KERNELS}>:DSS_FEWER_KERNELS>)
+    $<$<BOOL:${DSS_FEWER_KERNELS}>:DSS_FEWER_KERNELS>
+    $<$<IN_LIST:${name},${DSS_PLAIN_ROWS}>:DSS_PLAIN_ROWS>)
   set_target_properties(${target} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/variants)
   install(TARGETS ${target} LIBRARY DESTINATION lib/dssbench/variants)

@@ -20,8 +20,7 @@ struct Density {
 
   bool is_of_place() const {
     if (is_pressure) return node.is_of_place();
-    node.vector_at({}); // checks the shape of the array
-    return std::ranges::any_of(node.items(), &Node::is_of_place);
+    return node.is_array() && std::ranges::any_of(node.items(), &Node::is_of_place);
   }
   /// @param normal  the outer one of the face that a pressure pushes
   Vec3 at(const Vec3& place, const Vec3& normal) const {

@@ -55,8 +55,9 @@ VerificationStudy study_with(double reference, const std::string& differs) {
   problem.probes = {"tip=beam,1,0,0"};
   VerifiedFigure figure;
   figure.name = "w", figure.unit = "L", figure.column = "tip.uy", figure.reference = reference;
+  figure.differs = differs;
   problem.figures = {figure};
-  problem.tolerance = 0.01, problem.differs = differs;
+  problem.tolerance = 0.01;
   return {"verification", "Test", "", {problem}};
 }
 
@@ -78,6 +79,18 @@ TEST(Verification, SaysWhetherAFigureAgreesConvergesOrDiffers) {
   EXPECT_EQ(known.at("status"), "differs");
   EXPECT_EQ(known.at("reason"), "a reason");
   EXPECT_EQ(row_with(NAN).at("status"), "converges");
+}
+
+TEST(Verification, TakesTheDifferenceOfTwoColumns) {
+  VerificationStudy study = study_with(-0.01 / 3, "");
+  study.problems.front().figures.front().minus = "tip.ux"; // of second order in the force
+  EXPECT_NEAR(number_in(verification_tables(study, [](const std::string&) {}).figures.rows.at(0),
+                        "extrapolated"),
+              -0.01 / 3, 1e-4);
+  study.problems.front().figures.front().minus = "tip.uy";
+  EXPECT_EQ(number_in(verification_tables(study, [](const std::string&) {}).figures.rows.at(0),
+                      "finest"),
+            0);
 }
 
 TEST(Verification, GoesOnAfterAProblemThatCannotBeSolved) {

@@ -39,6 +39,13 @@ inline constexpr bool has_all_kernels = false;
 inline constexpr bool has_all_kernels = true;
 #endif
 
+/// True with DSS_PLAIN_ROWS: no rows of this variant have functions of their own for actions.
+#ifdef DSS_PLAIN_ROWS
+inline constexpr bool has_plain_rows = true;
+#else
+inline constexpr bool has_plain_rows = false;
+#endif
+
 /// Builds with fewer kernels leave out undamped and oblong rows, which damped and full rows cover.
 /// Rarely used models leave out the damped oblong row of the paper's law; the full row covers it.
 /// They keep all rows of the material law, since the full row in their place would be slower
