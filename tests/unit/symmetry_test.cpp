@@ -5,6 +5,7 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/dynamics.hpp"
 #include "tests/fixtures/solids.hpp"
+#include "tests/fixtures/symmetry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,49 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double h = 0.01, nu = 0.3;
-using Cell = std::array<int, 3>;
-
-/// A signed permutation of the axes.
-struct Symmetry {
-  std::array<std::size_t, 3> axis{0, 1, 2}; ///< of the body that becomes x, y, z
-  std::array<bool, 3> is_reversed{};
-  Matrix3d matrix() const {
-    Matrix3d m = Matrix3d::Zero();
-    for (std::size_t a = 0; a < 3; ++a)
-      m(Eigen::Index(a), Eigen::Index(axis[a])) = is_reversed[a] ? -1 : 1;
-    return m;
-  }
-  Cell of(const Cell& cell, const Cell& size) const {
-    Cell moved{};
-    for (std::size_t a = 0; a < 3; ++a)
-      moved[a] = is_reversed[a] ? size[axis[a]] - 1 - cell[axis[a]] : cell[axis[a]];
-    return moved;
-  }
-};
-
-std::vector<Symmetry> all_symmetries() {
-  std::vector<Symmetry> all;
-  std::array<std::size_t, 3> axis{0, 1, 2};
-  do
-    for (unsigned signs = 0; signs < 8; ++signs)
-      all.push_back({axis, {(signs & 1U) != 0, (signs & 2U) != 0, (signs & 4U) != 0}});
-  while (std::ranges::next_permutation(axis).found);
-  return all;
-}
-
-/// The number of each cell's element in a body of these cells.
-std::map<Cell, std::size_t> numbers_of(const Problem& problem) {
-  std::map<Cell, std::size_t> numbers;
-  problem.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
-    numbers[{x, row.y, row.z}] = e;
-  });
-  return numbers;
-}
-
-Vec3 moved(const Matrix3d& m, const Vec3& v) {
-  const Vector3d w = m * Vector3d(v[0], v[1], v[2]);
-  return {w[0], w[1], w[2]};
-}
+using fixture::all_symmetries, fixture::Cell, fixture::numbers_of, fixture::Symmetry;
 
 constexpr Cell base_size = {5, 3, 4};
 
@@ -116,7 +75,6 @@ std::vector<Action> base_actions(const std::map<Cell, int>& cells) {
 
 Problem transformed(const std::map<Cell, int>& cells, const Symmetry& by) {
   const Matrix3d m = by.matrix();
-  const double hand = m.determinant();
   std::map<Cell, int> own;
   for (const auto& [cell, material] : cells) own[by.of(cell, base_size)] = material;
   const Cell size = {base_size[by.axis[0]], base_size[by.axis[1]], base_size[by.axis[2]]};
@@ -125,11 +83,11 @@ Problem transformed(const std::map<Cell, int>& cells, const Symmetry& by) {
   for (const Action& action : base_actions(cells)) {
     Load load;
     load.elements = {numbers.at(by.of(action.cell, base_size))};
-    load.force = moved(m, action.force);
-    load.torque = moved(hand * m, action.torque);
+    load.force = fixture::product(m, action.force);
+    load.torque = fixture::product(by.axial_matrix(), action.torque);
     problem.loads.push_back(load);
   }
-  const Vec3 gravity = moved(m, {1, -2, 9.81});
+  const Vec3 gravity = fixture::product(m, {1, -2, 9.81});
   for (std::size_t a = 0; a < 3; ++a) problem.frame_acceleration[a].amplitude = gravity[a];
   problem.stabilization = {20, 0.5, 1e-3, 1e-5};
   return problem;
@@ -138,7 +96,7 @@ Problem transformed(const std::map<Cell, int>& cells, const Symmetry& by) {
 /// A state or its rates, turned or mirrored.
 std::vector<double> transformed(const std::vector<double>& fields, const Problem& from,
                                 const Problem& to, const Symmetry& by) {
-  const Matrix3d m = by.matrix(), axial = m.determinant() * m;
+  const Matrix3d m = by.matrix(), axial = by.axial_matrix();
   const auto numbers = numbers_of(to);
   std::vector<double> out(fields.size());
   from.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
