@@ -10,8 +10,9 @@ from tables.words import choice, escaped, is_missing, prose, shown
 from .elements import (OLD, age_text, code, command, details, element, elements, filters, link,
                        link_table, missing, plain_table, scrolling, source_line, table)
 
+FIRST_PICTURE = {
+    "arm.png": "The suspension arm of the scene arm/arm while its wheel runs over a bump"}
 PICTURES = {
-    "arm.png": "The suspension arm of the scene arm/arm while its wheel runs over a bump",
     "plate_paper.png": "The paper's plate, deformed, coloured by von Mises stress",
     "l_bracket.png": "The bracket of the scene l_bracket, deformed, coloured by von Mises stress",
     "l_bracket_frames.png": "The bracket over time"}
@@ -23,10 +24,10 @@ TALL = 15  # a table with more rows has a limited height
 
 
 def summary_section(results, sentences):
-    """The first picture beside the sentences of the summary."""
+    """A picture beside the sentences of the summary."""
     listed = element("ol", elements("li", map(prose, sentences)), class_="summary")
-    picture = element("div", "".join(drawn(results)[:1]), class_="first")
-    return element("section", element("h2", "Summary") + picture + listed, id="summary")
+    return element("section", element("h2", "Summary")
+                   + "".join(drawn(results, FIRST_PICTURE)) + listed, id="summary")
 
 
 def old_and_missing_section(missing_sections, ages):
@@ -197,14 +198,15 @@ def picture_figure(path, text):
     return element("figure", image + element("figcaption", caption))
 
 
-def drawn(results):
-    """The pictures that are there."""
-    paths = {results.directory / "figures" / name: text for name, text in PICTURES.items()}
+def drawn(results, pictures_of):
+    """Those of some pictures that are there."""
+    paths = {results.directory / "figures" / name: text for name, text in pictures_of.items()}
     return [picture_figure(path, text) for path, text in paths.items() if path.exists()]
 
 
 def pictures_section(results):
-    """Pictures of deformed bodies, but for the first, which the summary has."""
-    parts = drawn(results)[1:] or [missing("Not drawn: run <code>make reproduce</code>.")]
+    """Pictures of deformed bodies, but for that of the summary."""
+    parts = drawn(results, PICTURES)
+    parts = parts or [missing("Not drawn: run <code>make reproduce</code>.")]
     return element("section", element("h2", "Pictures") + "\n".join(parts)
                    + element("p", prose(PICTURES_MADE_BY), class_="source"), id="pictures")

@@ -31,7 +31,7 @@ def square(half):
 
 
 def hollow(outer, inner, thickness):
-    """Facets between two outlines with as many corners, from z = -thickness / 2 to thickness / 2."""
+    """Facets of a plate between two outlines with as many corners. Its middle is at z = 0."""
     low, high = -thickness / 2, thickness / 2
     facets = []
 
