@@ -39,6 +39,17 @@ class Columns(unittest.TestCase):
 
 
 class Pages(unittest.TestCase):
+    def test_each_published_problem_has_a_page_with_its_results(self):
+        folder = "experiments/studies/verification"
+        study = json.loads(pages.read_page(workplace.SOURCE, f"{folder}/verification.json"))
+        for problem in (each["problem"] for each in study["verification"]):
+            text = pages.read_page(workplace.SOURCE, f"{folder}/problems/{problem}.md")
+            for part in ("Statement", "Reference", "Here", "Results", "Sources"):
+                self.assertIn(f"\n## {part}\n", text, problem)
+            self.assertIn(f"<!--table problem {problem}-->\n|", text)
+            self.assertIn(f"(problems/{problem}.md)",
+                          pages.read_page(workplace.SOURCE, f"{folder}/README.md"))
+
     def test_every_command_is_run_described_or_left_out_with_a_reason(self):
         self.assertEqual(PLAN.faults, [])
         self.assertGreater(len(PLAN.run), 60)

@@ -110,11 +110,13 @@ struct TestedVariant {
            c.name == "rotating_paper" || c.name == "rotating_pressed" || c.name == "masses" ||
            c.name == "undamped_material";
   }
-  /// What devices compile: every pairing for the problem with all terms and for the paper's plate.
-  /// Other problems take the first pairing. If forces do not depend on velocities, they also take
-  /// the other family, which then holds no half-step velocities.
+  /// What is compiled for devices elsewhere (opencl_run.hpp): every pairing for the problem with
+  /// all terms and for the paper's plate. Other problems, and devices, take the first pairing. If
+  /// forces do not depend on velocities, they also take the other family, which then holds no
+  /// half-step velocities.
   std::vector<Scheme> composed_schemes(const Case& c) const {
-    if (c.name == "plate" || c.name == "everything") return device_schemes();
+    const bool has_many = plugin.devices == nullptr;
+    if (has_many && (c.name == "plate" || c.name == "everything")) return device_schemes();
     std::vector<Scheme> first{{*find_method("rk4"), Precision::f64}};
     if (c.name == "lean_sheet_paper")
       first.push_back({*find_method("velocity_verlet"), Precision::f64});
