@@ -84,7 +84,7 @@ class Quotes(unittest.TestCase):
     def test_a_planted_row_of_a_table_is_found(self):
         text = (ROOT / "README.md").read_text(encoding="utf-8")
         found = quotes.TABLE.search(text)
-        planted = text.replace(found.group(3), found.group(3) + "| planted |\n")
+        planted = text.replace(found.group(4), found.group(4) + "| planted |\n")
         self.assertEqual(fill("--check", self.page(planted)).returncode, 1)
 
     def test_a_quotation_is_a_value_an_interval_a_number_of_rows_or_over_all_rows(self):
