@@ -88,9 +88,9 @@ TEST(Verification, TakesTheDifferenceOfTwoColumns) {
                         "extrapolated"),
               -0.01 / 3, 1e-4);
   study.problems.front().figures.front().minus = "tip.uy";
-  EXPECT_EQ(number_in(verification_tables(study, [](const std::string&) {}).figures.rows.at(0),
-                      "finest"),
-            0);
+  EXPECT_EQ(
+      number_in(verification_tables(study, [](const std::string&) {}).figures.rows.at(0), "finest"),
+      0);
 }
 
 TEST(Verification, GoesOnAfterAProblemThatCannotBeSolved) {
