@@ -196,8 +196,8 @@ def statics_table(results):
 def verification_table(results):
     """Published problems: their figures, and the parts of the error."""
     frame = results.table("verification", "problem", "figure", "unit", "reference", "extrapolated",
-                          "extrapolated_uncertainty", "grid_error", "model_error", "status",
-                          optional=["time_error"])
+                          "extrapolated_uncertainty", "order", "grid_error", "model_error",
+                          "status", optional=["time_error"])
     frame = frame[frame["reference"].notna()]
 
     def part(value):
@@ -206,9 +206,10 @@ def verification_table(results):
     lines = [[f"[`{row['problem']}`](problems/{row['problem']}.md)",
               f"{row['figure']} [{row['unit']}]", f"{row['reference']:.6g}",
               f"{row['extrapolated']:.6g} ± {row['extrapolated_uncertainty']:.1g}",
-              part(row["grid_error"]), part(row["model_error"]), part(row["time_error"]),
-              row["status"]] for _, row in frame.iterrows()]
-    return ["problem", "figure", "published", "extrapolated", "grid", "model", "time", ""], lines
+              "no order" if row["order"] != row["order"] else part(row["grid_error"]),
+              part(row["model_error"]), part(row["time_error"]), row["status"]]
+             for _, row in frame.iterrows()]
+    return ["problem", "figure", "reference", "extrapolated", "grid", "model", "time", ""], lines
 
 
 def problem_table(results, problem):
@@ -227,9 +228,9 @@ def problem_table(results, problem):
              for value, rows in grids.groupby("value")]
     last = {"extrapolated": lambda row: f"{row['extrapolated']:.6g} ± "
                                         f"{row['extrapolated_uncertainty']:.1g}",
-            "published": lambda row: f"{row['reference']:.6g}",
+            "reference": lambda row: f"{row['reference']:.6g}",
             "difference": lambda row: f"{row['model_error']:+.2%}",
-            "order": lambda row: f"{row['order']:.1f}",
+            "order": lambda row: "none" if row["order"] != row["order"] else f"{row['order']:.1f}",
             "verdict": lambda row: row["status"]}
     for name, text in last.items():
         words = [text(row) for _, row in whole.iterrows()]

@@ -51,7 +51,7 @@ VerificationStudy study_with(double reference, const std::string& differs) {
   problem.scene = scene_beside("experiments/studies/verification/verification.json", problem.scene);
   problem.model = "planar";
   problem.set = {{"force", "0.01"}};
-  problem.refined = "n", problem.values = {5, 9, 17};
+  problem.refined = "cells", problem.values = {4, 8, 16};
   problem.probes = {"tip=beam,1,0,0"};
   VerifiedFigure figure;
   figure.name = "w", figure.unit = "L", figure.column = "tip.uy", figure.reference = reference;
