@@ -15,10 +15,6 @@ double JsonFile::evaluate(const std::string& text) const {
   throw InputError(fmt::format("\"{}\" is not a number", text));
 }
 
-double JsonFile::evaluate_at(const std::string& text, const Vec3& /*place*/) const {
-  return evaluate(text);
-}
-
 std::string listed(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
@@ -55,13 +51,13 @@ double Node::number() const {
   return placed([&] { return file_->evaluate(value_->get_ref<const std::string&>()); });
 }
 
-bool Node::is_of_place() const {
-  return is_string() && is_number() && file_->is_of_place(value_->get_ref<const std::string&>());
-}
-
-double Node::number_at(const Vec3& place) const {
-  if (!is_of_place()) return number();
-  return placed([&] { return file_->evaluate_at(value_->get_ref<const std::string&>(), place); });
+PlaceFunction Node::function_of_place() const {
+  if (!is_string() || !is_number()) return {};
+  PlaceFunction function = file_->function_of(value_->get_ref<const std::string&>());
+  if (!function) return {};
+  return [node = *this, function = std::move(function)](const Vec3& place) {
+    return node.placed([&] { return function(place); });
+  };
 }
 
 std::string Node::with_source(double value) const {
@@ -110,12 +106,6 @@ Vec3 Node::vector() const {
   if (!is_array() || value_->size() != 3) fail(shown() + " is not [x, y, z]");
   const std::vector<Node> parts = items();
   return {parts[0].number(), parts[1].number(), parts[2].number()};
-}
-
-Vec3 Node::vector_at(const Vec3& place) const {
-  if (!is_array() || value_->size() != 3) fail(shown() + " is not [x, y, z]");
-  const std::vector<Node> parts = items();
-  return {parts[0].number_at(place), parts[1].number_at(place), parts[2].number_at(place)};
 }
 
 Vec3 Node::positive_vector() const {

@@ -6,10 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace dss {
+
+/// A number that depends on the place x, y, z [m]. It may throw InputError.
+using PlaceFunction = std::function<double(const Vec3& place)>;
 
 /// A parsed JSON file. A kind of file may let texts stand for numbers, and may change values: see
 /// SceneText.
@@ -28,10 +32,8 @@ struct JsonFile {
   }
   /// Its number. @throws InputError without a place
   virtual double evaluate(const std::string& text) const;
-  /// True if it depends on the place x, y, z.
-  virtual bool is_of_place(const std::string& /*text*/) const { return false; }
-  /// Its number at a place [m]. @throws InputError without a place in the file
-  virtual double evaluate_at(const std::string& text, const Vec3& place) const;
+  /// Its function of the place; none if it does not depend on it.
+  virtual PlaceFunction function_of(const std::string& /*text*/) const { return {}; }
   /// How numbers may be written, for errors.
   virtual const char* number_forms() const { return "a number"; }
   /// What has changed the value at this JSON pointer, such as "--set n=4"; empty if nothing has.
@@ -50,10 +52,9 @@ public:
   explicit Node(const JsonFile& file) : Node(file, file.root, "") {}
 
   double number() const; ///< finite; a JSON number or an expression
-  /// True for an expression over the place, "=9.81e3*(2-z)".
-  bool is_of_place() const;
-  /// A number that may be an expression over the place x, y, z [m].
-  double number_at(const Vec3& place) const;
+  /// Of an expression over the place, such as "=9.81e3*(2-z)": its function. Of other numbers:
+  /// none.
+  PlaceFunction function_of_place() const;
   double positive() const;
   double non_negative() const;
   /// A number without a fraction, least <= number <= most.
@@ -61,9 +62,8 @@ public:
   int count(int least) const; ///< as whole, up to the largest int
   bool flag() const;
   std::string text() const;
-  std::string name() const;                ///< a text that is not empty
-  Vec3 vector() const;                     ///< [x, y, z]
-  Vec3 vector_at(const Vec3& place) const; ///< of three numbers, as number_at
+  std::string name() const; ///< a text that is not empty
+  Vec3 vector() const;      ///< [x, y, z]
   Vec3 positive_vector() const;
 
   std::vector<Node> items(std::size_t least = 0) const; ///< items of an array

@@ -154,20 +154,32 @@ std::vector<std::uint32_t> read_triangles(const Node& node, const Body& body,
   return triangles;
 }
 
-/// The triangle through which a span that leaves the surface between the centre of a cell and that
-/// of the next one does so; none if no span does.
-/// @param line  spans along the axis of the side
-/// @param side  -1: to the cell before, 1: to the cell behind
-std::optional<std::uint32_t> exit_of(const std::vector<Span>& line, double centre, double edge,
-                                     int side) {
-  std::optional<std::uint32_t> triangle;
-  double nearest = edge * (1 + 1e-6) / 2;
-  for (const Span& span : line) {
-    const Crossing& exit = side < 0 ? span.in : span.out;
-    const double distance = std::abs(exit.at - (centre + side * edge / 2));
-    if (distance <= nearest) nearest = distance, triangle = exit.triangle;
-  }
-  return triangle;
+/// Whether a line leaves the body through a face between the centre of a cell and that of the next
+/// one. It leaves at the crossing up to which outer sides exceed inner ones by most: the outermost
+/// wall of parts that overlap, not a fin behind a gap. Of walls at one place, any may be of the
+/// face.
+/// @param line  crossings, ascending
+/// @param side  -1: towards the cell before, 1: towards the one behind
+bool leaves_through(const std::vector<bool>& is_of_face, const std::vector<Crossing>& line,
+                    int axis, double centre, double edge, int side) {
+  constexpr double slack = 1e-3; // of an edge, for rounding
+  double exit = 0;
+  int passed = 0, most = 0;
+  const auto distance = [&](const Crossing& crossing) { return side * (crossing.at - centre); };
+  const auto is_outer = [&](const Crossing& crossing) { return side * crossing.normal[axis] > 0; };
+  const auto visit = [&](const Crossing& crossing) {
+    if (distance(crossing) < -slack * edge || distance(crossing) > (1 + slack) * edge) return;
+    passed += is_outer(crossing) ? 1 : -1;
+    if (passed > most) most = passed, exit = distance(crossing);
+  };
+  if (side > 0)
+    std::ranges::for_each(line, visit);
+  else
+    std::for_each(line.rbegin(), line.rend(), visit);
+  return most > 0 && std::ranges::any_of(line, [&](const Crossing& crossing) {
+           return is_outer(crossing) && is_of_face[crossing.triangle] &&
+                  std::abs(distance(crossing) - exit) <= slack * edge;
+         });
 }
 
 /// Whether a body has a cell beside an element. @param side  -1 or 1, along the axis
@@ -214,10 +226,10 @@ std::array<std::vector<std::size_t>, 6> read_cad_sides(const Node& node, const P
       const std::array<int, 3> cell = {x, row.y, row.z};
       for (const int side : {-1, 1}) {
         if (has_neighbour(problem.lattice, row, x, axis, side)) continue;
-        const auto exit =
-            exit_of(spans(crossings.of_line(cell[std::size_t(u)], cell[std::size_t(v)]), axis),
-                    grid.centre(axis, cell[std::size_t(axis)]), grid.edge[axis], side);
-        if (exit && is_of_face[*exit]) sides[std::size_t(2 * axis + (side > 0))].push_back(element);
+        const auto& line = crossings.of_line(cell[std::size_t(u)], cell[std::size_t(v)]);
+        if (leaves_through(is_of_face, line, axis, grid.centre(axis, cell[std::size_t(axis)]),
+                           grid.edge[axis], side))
+          sides[std::size_t(2 * axis + (side > 0))].push_back(element);
       }
     });
   }

@@ -1,10 +1,14 @@
 #include "solver/scene/density_loads.hpp"
 
+#include "solver/memory.hpp"
 #include "solver/scene/cad_face.hpp"
 #include "solver/scene/selection.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 
 namespace dss {
@@ -14,20 +18,35 @@ const std::vector<std::string> density_keys = {"traction", "pressure", "body_for
 namespace {
 
 /// A force an area or volume.
-struct Density {
-  Node node;
-  bool is_pressure = false;
-
-  bool is_of_place() const {
-    if (is_pressure) return node.is_of_place();
-    return node.is_array() && std::ranges::any_of(node.items(), &Node::is_of_place);
+class Density {
+public:
+  Density(const Node& node, bool is_pressure) : is_pressure_(is_pressure) {
+    if (is_pressure) {
+      add(node);
+    } else {
+      if (!node.is_array() || node.items().size() != parts_.size()) node.vector(); // fails
+      for (const Node& part : node.items()) add(part);
+    }
   }
+  bool is_of_place() const { return is_of_place_; }
   /// @param normal  the outer one of the face that a pressure pushes
   Vec3 at(const Vec3& place, const Vec3& normal) const {
-    if (!is_pressure) return node.vector_at(place);
-    const double pressure = node.number_at(place);
+    if (!is_pressure_) return {parts_[0](place), parts_[1](place), parts_[2](place)};
+    const double pressure = parts_[0](place);
     return {-pressure * normal[0], -pressure * normal[1], -pressure * normal[2]};
   }
+
+private:
+  void add(const Node& node) {
+    PlaceFunction& part = parts_[count_++];
+    part = node.function_of_place();
+    is_of_place_ |= part != nullptr;
+    if (!part) part = [number = node.number()](const Vec3&) { return number; };
+  }
+
+  bool is_pressure_, is_of_place_ = false;
+  std::array<PlaceFunction, 3> parts_;
+  std::size_t count_ = 0;
 };
 
 /// Where a density acts on each of some elements.
@@ -66,6 +85,20 @@ void add_by_place(const Side& side, const Density& density, const Problem& probl
   });
 }
 
+/// Each load has a signal of its own in every row of signals, and rows of elements look at all of
+/// their loads.
+void require_few(std::size_t loads, const Node& node) {
+  constexpr std::size_t most = 100'000;
+  if (loads > most)
+    node.fail(fmt::format("depends on the place of {} elements, at most {} can have loads of their "
+                          "own; select fewer, or give a number",
+                          loads, most));
+  constexpr double rows = 1024; // of signals, that a run has at once
+  require_memory(8 * rows * double(loads),
+                 fmt::format("{}: the signals of {} loads", node.where(), loads),
+                 "select fewer elements, or give a number");
+}
+
 /// The faces or elements that "select" names.
 std::vector<Side> read_sides(ObjectNode& object, bool is_volume, bool is_pressure,
                              const Problem& problem, int body, const BodySurfaces& surfaces) {
@@ -73,6 +106,7 @@ std::vector<Side> read_sides(ObjectNode& object, bool is_volume, bool is_pressur
   ObjectNode select(object.require("select"));
   const auto cad_face = select.find("cad_face");
   if (cad_face && is_pressure) {
+    select.require_one({"cad_face", "face"});
     select.finish();
     auto by_face = read_cad_sides(*cad_face, problem, body, surfaces[std::size_t(body)]);
     for (std::size_t face = 0; face < by_face.size(); ++face)
@@ -92,13 +126,14 @@ std::vector<Side> read_sides(ObjectNode& object, bool is_volume, bool is_pressur
 std::vector<Load> read_density_loads(ObjectNode& object, const Problem& problem, int body,
                                      const BodySurfaces& surfaces) {
   const std::string key = object.require_one(density_keys);
-  const Density density{object.require(key), key == "pressure"};
-  const bool is_of_place = density.is_of_place();
+  const Node node = object.require(key);
+  const bool is_pressure = key == "pressure";
+  const Density density(node, is_pressure);
   const Body& own = problem.bodies[std::size_t(body)];
   std::vector<Load> loads;
-  for (Side& side :
-       read_sides(object, key == "body_force", density.is_pressure, problem, body, surfaces)) {
-    if (is_of_place) {
+  for (Side& side : read_sides(object, key == "body_force", is_pressure, problem, body, surfaces)) {
+    if (density.is_of_place()) {
+      require_few(side.elements.size(), node);
       add_by_place(side, density, problem, own, loads);
       continue;
     }

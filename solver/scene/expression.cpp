@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace dss {
@@ -39,15 +41,33 @@ double evaluate(const std::string& expression, const Parameters& parameters) {
   return value;
 }
 
-std::set<std::string> names_in(const std::string& expression) {
-  std::set<std::string> names;
+std::function<double(const Vec3& place)> function_of_place(const std::string& expression,
+                                                           const Parameters& parameters) {
+  struct Function { // the parser refers to the place
+    mu::Parser parser;
+    Vec3 place{};
+  };
+  const auto function = std::make_shared<Function>();
   try {
-    const mu::Parser parser = parser_of(expression);
-    for (const auto& used : parser.GetUsedVar()) names.insert(used.first);
+    function->parser = parser_of(expression);
+    for (const auto& [name, number] : parameters) function->parser.DefineConst(name, number);
+    constexpr std::array names{"x", "y", "z"};
+    for (std::size_t a = 0; a < names.size(); ++a)
+      if (!parameters.contains(names[a])) function->parser.DefineVar(names[a], &function->place[a]);
+    function->parser.Eval(); // finds mistakes
+    if (function->parser.GetUsedVar().empty()) return {};
   } catch (const mu::Parser::exception_type&) {
     return {};
   }
-  return names;
+  return [function, expression](const Vec3& place) {
+    function->place = place;
+    const double value = function->parser.Eval();
+    if (!std::isfinite(value))
+      throw InputError(
+          fmt::format("\"={}\" is {} at [{:.6g}, {:.6g}, {:.6g}] m, not a finite number",
+                      expression, value, place[0], place[1], place[2]));
+    return value;
+  };
 }
 
 } // namespace dss

@@ -1,7 +1,9 @@
 #pragma once
 /// Expressions in scenes: "=floor(n/4)".
+#include "kernels/fields.hpp"
+
+#include <functional>
 #include <map>
-#include <set>
 #include <string>
 
 namespace dss {
@@ -14,7 +16,11 @@ using Parameters = std::map<std::string, double>;
 ///     file
 double evaluate(const std::string& expression, const Parameters& parameters);
 
-/// Names of numbers that an expression uses; none if it is not one.
-std::set<std::string> names_in(const std::string& expression);
+/// The function of an expression over named numbers and the coordinates x, y, z of a place [m]. A
+/// number of the same name hides a coordinate.
+/// @return none if the expression uses no coordinate, or is none
+/// @throws InputError, the function, if its value is not finite
+std::function<double(const Vec3& place)> function_of_place(const std::string& expression,
+                                                           const Parameters& parameters);
 
 } // namespace dss

@@ -9,11 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <set>
 #include <sstream>
 
 namespace dss {
@@ -150,9 +148,6 @@ std::string without_sign(const std::string& text) {
   return text.substr(text.starts_with('=') ? 1 : 0);
 }
 
-/// Coordinates of a place in expressions. Parameters of the same name hide them.
-constexpr std::array<const char*, 3> place_names{"x", "y", "z"};
-
 } // namespace
 
 Override read_override(const std::string& key, const Node& value) {
@@ -204,17 +199,8 @@ double SceneText::evaluate(const std::string& text) const {
   }
 }
 
-bool SceneText::is_of_place(const std::string& text) const {
-  const std::set<std::string> used = names_in(without_sign(text));
-  return std::ranges::any_of(place_names, [&](const char* name) {
-    return used.contains(name) && !parameters.contains(name);
-  });
-}
-
-double SceneText::evaluate_at(const std::string& text, const Vec3& place) const {
-  Parameters with_place = parameters;
-  for (std::size_t a = 0; a < 3; ++a) with_place.try_emplace(place_names[a], place[a]);
-  return dss::evaluate(without_sign(text), with_place);
+PlaceFunction SceneText::function_of(const std::string& text) const {
+  return function_of_place(without_sign(text), parameters);
 }
 
 std::string SceneText::changed_by(const std::string& pointer) const {

@@ -29,8 +29,7 @@ struct SceneText : JsonFile {
 
   bool is_expression(const std::string& text, const std::string& pointer) const override;
   double evaluate(const std::string& text) const override;
-  bool is_of_place(const std::string& text) const override;
-  double evaluate_at(const std::string& text, const Vec3& place) const override;
+  PlaceFunction function_of(const std::string& text) const override;
   const char* number_forms() const override { return "a number or \"=expression\""; }
   std::string changed_by(const std::string& pointer) const override;
 };

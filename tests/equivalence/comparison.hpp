@@ -142,13 +142,12 @@ inline State oracle_derivative(const Problem& problem, const Method& method, con
   oracle.derivative(0.0, rates);
   return restricted_rates(std::move(rates), model);
 }
-/// @tparam T  of the oracle
-template <class T = long double>
-State oracle_after(const Problem& problem, const Method& method, const State& state, long steps,
-                   Model model = Model::spatial, Rotation finite = Rotation::quaternion) {
+inline State oracle_after(const Problem& problem, const Method& method, const State& state,
+                          long steps, Model model = Model::spatial,
+                          Rotation finite = Rotation::quaternion) {
   const Rotation rotation = rotation_of(model);
-  Oracle<T> oracle(problem, method, problem.dt,
-                   rotation == Rotation::quaternion ? finite : rotation);
+  Oracle<long double> oracle(problem, method, problem.dt,
+                             rotation == Rotation::quaternion ? finite : rotation);
   oracle.write(state);
   oracle.advance(steps);
   State result = poisoned(problem);

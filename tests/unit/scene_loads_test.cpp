@@ -92,15 +92,33 @@ TEST_F(SceneLoads, mistakes_in_densities_of_a_place_have_their_line) {
             std::string::npos);
 }
 
-TEST_F(SceneLoads, a_pressure_on_a_cad_face_has_its_projection_and_no_net_force) {
-  written("ball.stl", fixture::binary_stl(fixture::sphere_facets(1, 24)));
-  const Problem ball = load_scene(written("ball.json", R"({"scene": "ball", "title": "a ball",
+/// A body from a surface, with its load.
+class SurfaceLoads : public SceneLoads {
+protected:
+  Problem of(const fixture::Facets& facets, const std::string& load,
+             const std::string& more = "") const {
+    written("part.stl", fixture::binary_stl(facets));
+    return load_scene(written("part.json", R"({"scene": "part", "title": "a part",
       "run": {"dt": 1e-6, "steps": 1},
-      "bodies": [{"name": "b", "element": [0.1, 0.08, 0.1],
-                  "geometry": {"stl": {"file": "ball.stl", "unit": "m"}},
+      "bodies": [{"name": "b", "element": [0.1, 0.08, 0.1], )" +
+                                               more + R"("geometry": {"stl": {"file": "part.stl",
+                  "unit": "m", "surface": "winding"}},
                   "constants": {"law": "solid", "E": 1e6, "nu": 0.25, "rho": 1000}}],
-      "loads": [{"select": {"cad_face": {"near": [0, 0, 1]}}, "pressure": 7}]})"))
-                           .problem;
+      "loads": [{"select": {"cad_face": )" + load +
+                                               "}]}"))
+        .problem;
+  }
+  /// Force of all loads [N].
+  static Vec3 total(const Problem& problem) {
+    Vec3 sum{};
+    for (const Load& load : problem.loads)
+      for (std::size_t a = 0; a < 3; ++a) sum[a] += load.force[a] * double(load.elements.size());
+    return sum;
+  }
+};
+
+TEST_F(SurfaceLoads, a_pressure_on_a_ball_has_its_projection_and_no_net_force) {
+  const Problem ball = of(fixture::sphere_facets(1, 24), R"({"near": [0, 0, 1]}}, "pressure": 7)");
   ASSERT_EQ(ball.loads.size(), 6u);
   for (const Load& load : ball.loads) {
     const auto axis = std::size_t(load.face) / 2;
@@ -108,6 +126,37 @@ TEST_F(SceneLoads, a_pressure_on_a_cad_face_has_its_projection_and_no_net_force)
     EXPECT_NEAR(push * (load.face % 2 == 1 ? -1 : 1) / (7 * std::numbers::pi), 1, 0.02);
     EXPECT_EQ(load.elements.size(), ball.loads[std::size_t(load.face ^ 1)].elements.size());
   }
+}
+
+TEST_F(SurfaceLoads, a_pressure_acts_on_its_face_alone_wherever_the_body_is) {
+  const fixture::Facets box = fixture::box_facets({0, 0, 0}, {1, 0.8F, 0.5F});
+  for (const std::string origin : {"", "\"origin\": [3, -5, 1e4], "}) {
+    const Problem pressed = of(box, R"({"near": [0.5, 0.8, 0.2]}}, "pressure": 7)", origin);
+    ASSERT_EQ(pressed.loads.size(), 1u) << origin;
+    EXPECT_EQ(pressed.loads[0].face, 3);
+    EXPECT_EQ(pressed.loads[0].elements.size(), 50u);
+    EXPECT_NEAR(total(pressed)[1], -7 * 0.5, 1e-12);
+  }
+  const Problem water = of(box, R"({"near": [0, 0.4, 0.2]}}, "pressure": "=4.5-9*z") ");
+      EXPECT_EQ(water.loads.size(), 50u);
+  EXPECT_NEAR(total(water)[0], 9 * 0.5 * 0.5 / 2 * 0.8, 1e-12);
+}
+
+TEST_F(SurfaceLoads, a_hole_in_a_surface_takes_no_pressure_from_the_other_side) {
+  fixture::Facets box = fixture::box_facets({0, 0, 0}, {1, 0.8F, 0.5F});
+  const auto is_low = [](const fixture::Facet& facet) {
+    return std::ranges::all_of(facet, [](const Eigen::Vector3f& p) { return p.y() == 0; });
+  };
+  box.erase(std::ranges::find_if(box, is_low)); // half of the face opposite
+  EXPECT_NEAR(total(of(box, R"({"near": [0.5, 0.8, 0.2]}}, "pressure": 7)"))[1], -7 * 0.5, 1e-12);
+}
+
+TEST_F(SurfaceLoads, parts_that_overlap_are_pressed_on_their_outer_walls) {
+  fixture::Facets both = fixture::box_facets({0, 0, 0}, {1, 0.8F, 0.5F});
+  const fixture::Facets plate = fixture::box_facets({0, 0.4F, 0}, {1, 0.84F, 0.5F}); // half a cell
+  both.insert(both.end(), plate.begin(), plate.end());
+  // The wall of the box at y = 0.8 lies in the plate, within a cell of the plate's own.
+  EXPECT_NEAR(total(of(both, R"({"near": [0.5, 0.84, 0.2]}}, "pressure": 7)"))[1], -7 * 0.5, 1e-12);
 }
 
 TEST_F(SceneLoads, body_forces_act_on_volumes) {

@@ -14,14 +14,16 @@ SIDES = 128
 
 
 def circle(radius):
-    """Corners of the polygon with the area of a circle, anticlockwise."""
+    """Corners of the polygon with the area of a circle, anticlockwise. None is on an axis, so that
+    the polygon is not wider than the circle along x and y."""
     angle = 2 * math.pi / SIDES
     grown = radius * math.sqrt(angle / math.sin(angle))
-    return [(grown * math.cos(n * angle), grown * math.sin(n * angle)) for n in range(SIDES)]
+    return [(grown * math.cos((n + 0.5) * angle), grown * math.sin((n + 0.5) * angle))
+            for n in range(SIDES)]
 
 
 def square(half):
-    """Points on the edge of a square, one in the direction of each corner of a circle."""
+    """Points on the edge of a square, as many as corners of a circle."""
     points = []
     for n in range(SIDES):
         x, y = math.cos(2 * math.pi * n / SIDES), math.sin(2 * math.pi * n / SIDES)
