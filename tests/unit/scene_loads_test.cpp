@@ -137,8 +137,8 @@ TEST_F(SurfaceLoads, a_pressure_acts_on_its_face_alone_wherever_the_body_is) {
     EXPECT_EQ(pressed.loads[0].elements.size(), 50u);
     EXPECT_NEAR(total(pressed)[1], -7 * 0.5, 1e-12);
   }
-  const Problem water = of(box, R"({"near": [0, 0.4, 0.2]}}, "pressure": "=4.5-9*z") ");
-      EXPECT_EQ(water.loads.size(), 50u);
+  const Problem water = of(box, R"({"near": [0, 0.4, 0.2]}}, "pressure": "=4.5-9*z")");
+  EXPECT_EQ(water.loads.size(), 50u);
   EXPECT_NEAR(total(water)[0], 9 * 0.5 * 0.5 / 2 * 0.8, 1e-12);
 }
 
