@@ -137,7 +137,7 @@ Extrapolation extrapolated(const std::vector<double>& values, const std::vector<
   Extrapolation found{limit.limit, std::abs(limit.limit - figures.back()) / 2, limit.order};
   if (count > 3)
     if (const Richardson before = limit_of_three(count - 2); !std::isnan(before.order))
-      found.uncertainty = std::max(found.uncertainty, std::abs(limit.limit - before.limit));
+      found.uncertainty = std::abs(limit.limit - before.limit);
   return found;
 }
 

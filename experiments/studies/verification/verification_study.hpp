@@ -59,8 +59,8 @@ struct Extrapolation {
 };
 /// By Richardson's rule, from the three finest grids. An observed order below 1 counts as 1, the
 /// least that a lattice has (staircases, clamps at centres): the rule then takes the two finest.
-/// Uncertain by half of what the rule adds, or by the difference to the rule without the finest
-/// grid, if that is more. Without an order: the finest, uncertain by the largest difference of the
+/// Uncertain by the difference to the rule without the finest grid; if there is none, by half of
+/// what the rule adds. Without an order: the finest, uncertain by the largest difference of the
 /// three finest.
 Extrapolation extrapolated(const std::vector<double>& values, const std::vector<double>& figures);
 
