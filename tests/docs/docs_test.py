@@ -2,6 +2,10 @@
 import collections
 import concurrent.futures
 import json
+import pathlib
+import struct
+import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -36,6 +40,29 @@ class Columns(unittest.TestCase):
         self.assertGreater(len(listed), 100)
         self.assertEqual(pages.read_page(workplace.SOURCE, "results/columns.md"),
                          columns_page.page(listed), "run make pages")
+
+
+class Surfaces(unittest.TestCase):
+    """Scripts write the surfaces that are committed, up to the rounding of sines."""
+    def numbers(self, path):
+        """The corners of a binary STL file."""
+        content = pathlib.Path(path).read_bytes()
+        facets = struct.iter_unpack("<12fH", content[84:])
+        return [number for facet in facets for number in facet[3:12]]
+
+    def test_scripts_write_what_is_committed(self):
+        scenes = pathlib.Path(workplace.SOURCE) / "experiments" / "scenes"
+        for script in ("arm/make_arm.py", "verification/make_surfaces.py"):
+            with tempfile.TemporaryDirectory() as directory:
+                subprocess.run([sys.executable, scenes / script, directory], check=True)
+                written = list(pathlib.Path(directory).glob("*.stl"))
+                self.assertTrue(written)
+                for path in written:
+                    there = self.numbers((scenes / script).parent / path.name)
+                    here = self.numbers(path)
+                    self.assertEqual(len(here), len(there))
+                    largest = max(map(abs, there))
+                    self.assertLess(max(abs(a - b) for a, b in zip(here, there)), 1e-6 * largest)
 
 
 class Pages(unittest.TestCase):
