@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 namespace dss {
 
@@ -23,6 +24,51 @@ mu::Parser parser_of(const std::string& expression) {
   parser.SetExpr(expression);
   return parser;
 }
+
+/// An expression over the place. Its parsers refer to the numbers beside them.
+class PlaceExpression {
+public:
+  PlaceExpression(const std::string& text, const Parameters& parameters, const Fields& fields)
+      : text_(text), values_(fields.size()), whole_(parser_over(text, parameters)) {
+    for (const auto& [name, field] : fields) {
+      whole_.DefineVar(name, &values_[fields_.size()]);
+      fields_.push_back(parser_over(field, parameters));
+    }
+    evaluate(); // finds mistakes
+  }
+  PlaceExpression(const PlaceExpression&) = delete;
+
+  bool depends_on_place() const { return !whole_.GetUsedVar().empty(); }
+  double at(const Vec3& place) {
+    place_ = place;
+    const double value = evaluate();
+    if (!std::isfinite(value))
+      throw InputError(
+          fmt::format("\"={}\" is {} at [{:.6g}, {:.6g}, {:.6g}] m, not a finite number", text_,
+                      value, place[0], place[1], place[2]));
+    return value;
+  }
+
+private:
+  mu::Parser parser_over(const std::string& text, const Parameters& parameters) {
+    mu::Parser parser = parser_of(text);
+    for (const auto& [name, number] : parameters) parser.DefineConst(name, number);
+    constexpr std::array names{"x", "y", "z"};
+    for (std::size_t a = 0; a < names.size(); ++a)
+      if (!parameters.contains(names[a])) parser.DefineVar(names[a], &place_[a]);
+    return parser;
+  }
+  double evaluate() {
+    for (std::size_t n = 0; n < fields_.size(); ++n) values_[n] = fields_[n].Eval();
+    return whole_.Eval();
+  }
+
+  std::string text_;
+  Vec3 place_{};
+  std::vector<double> values_; ///< of the fields
+  std::vector<mu::Parser> fields_;
+  mu::Parser whole_;
+};
 
 } // namespace
 
@@ -42,32 +88,15 @@ double evaluate(const std::string& expression, const Parameters& parameters) {
 }
 
 std::function<double(const Vec3& place)> function_of_place(const std::string& expression,
-                                                           const Parameters& parameters) {
-  struct Function { // the parser refers to the place
-    mu::Parser parser;
-    Vec3 place{};
-  };
-  const auto function = std::make_shared<Function>();
+                                                           const Parameters& parameters,
+                                                           const Fields& fields) {
   try {
-    function->parser = parser_of(expression);
-    for (const auto& [name, number] : parameters) function->parser.DefineConst(name, number);
-    constexpr std::array names{"x", "y", "z"};
-    for (std::size_t a = 0; a < names.size(); ++a)
-      if (!parameters.contains(names[a])) function->parser.DefineVar(names[a], &function->place[a]);
-    function->parser.Eval(); // finds mistakes
-    if (function->parser.GetUsedVar().empty()) return {};
+    const auto function = std::make_shared<PlaceExpression>(expression, parameters, fields);
+    if (!function->depends_on_place()) return {};
+    return [function](const Vec3& place) { return function->at(place); };
   } catch (const mu::Parser::exception_type&) {
     return {};
   }
-  return [function, expression](const Vec3& place) {
-    function->place = place;
-    const double value = function->parser.Eval();
-    if (!std::isfinite(value))
-      throw InputError(
-          fmt::format("\"={}\" is {} at [{:.6g}, {:.6g}, {:.6g}] m, not a finite number",
-                      expression, value, place[0], place[1], place[2]));
-    return value;
-  };
 }
 
 } // namespace dss

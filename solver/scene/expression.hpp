@@ -16,11 +16,15 @@ using Parameters = std::map<std::string, double>;
 ///     file
 double evaluate(const std::string& expression, const Parameters& parameters);
 
-/// The function of an expression over named numbers and the coordinates x, y, z of a place [m]. A
-/// number of the same name hides a coordinate.
-/// @return none if the expression uses no coordinate, or is none
+/// Named expressions over parameters and the coordinates of a place.
+using Fields = std::map<std::string, std::string>;
+
+/// The function of an expression over named numbers, fields and the coordinates x, y, z of a place
+/// [m]. A number of the same name hides a coordinate.
+/// @return none if the expression uses neither coordinate nor field, or is none
 /// @throws InputError, the function, if its value is not finite
 std::function<double(const Vec3& place)> function_of_place(const std::string& expression,
-                                                           const Parameters& parameters);
+                                                           const Parameters& parameters,
+                                                           const Fields& fields);
 
 } // namespace dss

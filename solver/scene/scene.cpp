@@ -156,7 +156,7 @@ void read_tolerances(ObjectNode& root, Problem& problem) {
 /// Head of a scene, as `list` shows it, and the keys that do not describe the problem.
 SceneListing read_head(ObjectNode& root, const SceneText& text) {
   root.name_or("$schema", "");
-  root.find("parameters"); // already resolved
+  root.allow({"parameters", "fields"}); // already resolved
   if (const auto description = root.find("description")) description->text();
   return {root.require("scene").name(), root.require("title").text(), text.path, text.parameters};
 }

@@ -93,6 +93,11 @@ bool is_identifier(const std::string& name) {
                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
 }
 
+/// An expression without the sign that marks it.
+std::string without_sign(const std::string& text) {
+  return text.substr(text.starts_with('=') ? 1 : 0);
+}
+
 /// Reports parameters that cannot be evaluated: one of them has a fault, or they refer to each
 /// other.
 [[noreturn]] void fail_unresolved(SceneText& text, ObjectNode& names,
@@ -134,6 +139,27 @@ void resolve_parameters(SceneText& text) {
   }
 }
 
+/// "fields": names for functions of the place.
+void read_fields(SceneText& text) {
+  ObjectNode root{Node(text)};
+  const std::optional<Node> given = root.find("fields");
+  if (!given) return;
+  ObjectNode names(*given);
+  for (const auto& [name, node] : names.members()) {
+    if (!is_identifier(name) || text.parameters.contains(name) || name == "pi" || name == "x" ||
+        name == "y" || name == "z")
+      node.fail(fmt::format("\"{}\" cannot name a field; use letters, digits and _, and no name of "
+                            "a parameter, coordinate or constant",
+                            name));
+    const std::string expression = without_sign(node.text());
+    if (!function_of_place(expression, text.parameters, {}))
+      node.fail(fmt::format("\"={}\" is not an expression over the place x, y, z and the scene's "
+                            "parameters",
+                            expression));
+    text.fields[name] = expression;
+  }
+}
+
 std::vector<std::string> scene_names(const std::string& directory) {
   std::vector<std::string> names;
   std::error_code error;
@@ -141,11 +167,6 @@ std::vector<std::string> scene_names(const std::string& directory) {
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
-}
-
-/// An expression without the sign that marks it.
-std::string without_sign(const std::string& text) {
-  return text.substr(text.starts_with('=') ? 1 : 0);
 }
 
 } // namespace
@@ -200,7 +221,7 @@ double SceneText::evaluate(const std::string& text) const {
 }
 
 PlaceFunction SceneText::function_of(const std::string& text) const {
-  return function_of_place(without_sign(text), parameters);
+  return function_of_place(without_sign(text), parameters, fields);
 }
 
 std::string SceneText::changed_by(const std::string& pointer) const {
@@ -217,6 +238,7 @@ SceneText read_scene_text(const std::string& path, const std::vector<Override>& 
   for (const Override& change : overrides)
     text.overrides[apply(text.root, change)] = fmt::format("--set {}={}", change.key, change.value);
   resolve_parameters(text);
+  read_fields(text);
   return text;
 }
 

@@ -24,6 +24,7 @@ Override read_override(const std::string& key, const Node& value);
 /// "=expression" stands for a number; a text from --set needs no "=".
 struct SceneText : JsonFile {
   Parameters parameters; ///< resolved
+  Fields fields;         ///< functions of the place, by name
   /// JSON pointer -> the --set that changed this value.
   std::map<std::string, std::string> overrides;
 

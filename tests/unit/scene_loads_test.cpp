@@ -81,6 +81,13 @@ TEST_F(SceneLoads, parameters_hide_the_coordinates_of_a_place) {
   EXPECT_DOUBLE_EQ(bar.loads[0].force[1], 60);
 }
 
+TEST_F(SceneLoads, fields_name_functions_of_the_place) {
+  const Problem bar = with(R"("parameters": {"p": 2}, "fields": {"twice": "=p*x"},
+      "loads": [{"select": {"face": "-y"}, "pressure": "=twice+1"}]})");
+  ASSERT_EQ(bar.loads.size(), 4u);
+  EXPECT_DOUBLE_EQ(bar.loads[3].force[1], 10 * (2 * 7 + 1));
+}
+
 TEST_F(SceneLoads, mistakes_in_densities_of_a_place_have_their_line) {
   EXPECT_NE(refused([&] {
               with_load(R"("select": {"face": "-y"}, "pressure": "=1/(x-3)^2")");
