@@ -83,7 +83,7 @@ TEST_F(SceneLoads, parameters_hide_the_coordinates_of_a_place) {
 
 TEST_F(SceneLoads, fields_name_functions_of_the_place) {
   const Problem bar = with(R"("parameters": {"p": 2}, "fields": {"twice": "=p*x"},
-      "loads": [{"select": {"face": "-y"}, "pressure": "=twice+1"}]})");
+      "loads": [{"select": {"face": "-y"}, "pressure": "=twice+1"}])");
   ASSERT_EQ(bar.loads.size(), 4u);
   EXPECT_DOUBLE_EQ(bar.loads[3].force[1], 10 * (2 * 7 + 1));
 }
