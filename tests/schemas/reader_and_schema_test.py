@@ -26,7 +26,8 @@ except ImportError:
 
 
 # Objects whose keys the file chooses: parameters, fields, overrides, scales, steps by overrides.
-FREE_KEYS = re.compile(r"/(parameters|fields|set|scales|grids/\d+|weak(/\d+)?|steps_by_set|steps_for)$")
+FREE_KEYS = re.compile(
+    r"/(parameters|fields|set|scales|grids/\d+|weak(/\d+)?|steps_by_set|steps_for)$")
 # Their values may be any scalar.
 OVERRIDES = re.compile(r"/(set|grids/\d+|weak/\d+)/")
 # A build may lack this variant, which shipped studies name.
