@@ -17,7 +17,6 @@ namespace dss {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 constexpr double h = 0.01, nu = 0.3;
 using fixture::all_symmetries, fixture::Cell, fixture::numbers_of, fixture::Symmetry;
@@ -96,17 +95,11 @@ Problem transformed(const std::map<Cell, int>& cells, const Symmetry& by) {
 /// A state or its rates, turned or mirrored.
 std::vector<double> transformed(const std::vector<double>& fields, const Problem& from,
                                 const Problem& to, const Symmetry& by) {
-  const Matrix3d m = by.matrix(), axial = by.axial_matrix();
   const auto numbers = numbers_of(to);
   std::vector<double> out(fields.size());
   from.lattice.for_each_element([&](std::size_t e, const Row& row, int x) {
-    const double* f = &fields[e * field_count];
-    double* g = &out[numbers.at(by.of({x, row.y, row.z}, base_size)) * field_count];
-    const auto turn = [&](int first, const Matrix3d& with) {
-      Eigen::Map<Vector3d>(g + first) = with * Eigen::Map<const Vector3d>(f + first);
-    };
-    turn(ux, m), turn(vx, m), turn(qx, axial), turn(wx, axial);
-    g[qs] = f[qs];
+    const std::size_t number = numbers.at(by.of({x, row.y, row.z}, base_size));
+    fixture::transform(by, &fields[e * field_count], &out[number * field_count]);
   });
   return out;
 }
