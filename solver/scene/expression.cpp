@@ -15,12 +15,13 @@ namespace dss {
 
 namespace {
 
-/// The functions and constants of expressions.
-mu::Parser parser_of(const std::string& expression) {
+/// A parser with the functions and constants of expressions, and the named numbers.
+mu::Parser parser_of(const std::string& expression, const Parameters& parameters) {
   mu::Parser parser;
   parser.DefineFun("floor", static_cast<double (*)(double)>(std::floor));
   parser.DefineFun("ceil", static_cast<double (*)(double)>(std::ceil));
   parser.DefineConst("pi", std::numbers::pi);
+  for (const auto& [name, number] : parameters) parser.DefineConst(name, number);
   parser.SetExpr(expression);
   return parser;
 }
@@ -51,8 +52,7 @@ public:
 
 private:
   mu::Parser parser_over(const std::string& text, const Parameters& parameters) {
-    mu::Parser parser = parser_of(text);
-    for (const auto& [name, number] : parameters) parser.DefineConst(name, number);
+    mu::Parser parser = parser_of(text, parameters);
     constexpr std::array names{"x", "y", "z"};
     for (std::size_t a = 0; a < names.size(); ++a)
       if (!parameters.contains(names[a])) parser.DefineVar(names[a], &place_[a]);
@@ -75,9 +75,7 @@ private:
 double evaluate(const std::string& expression, const Parameters& parameters) {
   double value = 0;
   try {
-    mu::Parser parser = parser_of(expression);
-    for (const auto& [name, number] : parameters) parser.DefineConst(name, number);
-    value = parser.Eval();
+    value = parser_of(expression, parameters).Eval();
   } catch (const mu::Parser::exception_type& error) {
     throw InputError(fmt::format("\"={}\" is not an expression over the scene's parameters: {}",
                                  expression, error.GetMsg()));
@@ -87,9 +85,8 @@ double evaluate(const std::string& expression, const Parameters& parameters) {
   return value;
 }
 
-std::function<double(const Vec3& place)> function_of_place(const std::string& expression,
-                                                           const Parameters& parameters,
-                                                           const Fields& fields) {
+PlaceFunction function_of_place(const std::string& expression, const Parameters& parameters,
+                                const Fields& fields) {
   try {
     const auto function = std::make_shared<PlaceExpression>(expression, parameters, fields);
     if (!function->depends_on_place()) return {};

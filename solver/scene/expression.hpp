@@ -1,8 +1,7 @@
 #pragma once
 /// Expressions in scenes: "=floor(n/4)".
-#include "kernels/fields.hpp"
+#include "solver/json/node.hpp"
 
-#include <functional>
 #include <map>
 #include <string>
 
@@ -23,8 +22,7 @@ using Fields = std::map<std::string, std::string>;
 /// [m]. A number of the same name hides a coordinate.
 /// @return none if the expression uses neither coordinate nor field, or is none
 /// @throws InputError, the function, if its value is not finite
-std::function<double(const Vec3& place)> function_of_place(const std::string& expression,
-                                                           const Parameters& parameters,
-                                                           const Fields& fields);
+PlaceFunction function_of_place(const std::string& expression, const Parameters& parameters,
+                                const Fields& fields);
 
 } // namespace dss

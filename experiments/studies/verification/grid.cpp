@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <optional>
 
 namespace dss {
 namespace {
@@ -49,8 +50,10 @@ double figure_in(const Columns& columns, const VerifiedFigure& figure) {
     return std::size_t(name - columns.names.begin());
   };
   const std::size_t place = place_of(figure.column);
+  const std::optional<std::size_t> minus =
+      figure.minus.empty() ? std::nullopt : std::optional(place_of(figure.minus));
   const auto in = [&](const std::vector<double>& row) {
-    return figure.minus.empty() ? row[place] : row[place] - row[place_of(figure.minus)];
+    return row[place] - (minus ? row[*minus] : 0);
   };
   double value = in(columns.rows.back());
   for (const std::vector<double>& row : columns.rows)
