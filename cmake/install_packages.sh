@@ -5,7 +5,7 @@ set -eu
 packages="g++ cmake ninja-build pkg-config binutils
   libeigen3-dev libxsimd-dev libcli11-dev libfmt-dev nlohmann-json3-dev libmuparser-dev
   zlib1g-dev libpng-dev libpugixml-dev libhdf5-dev
-  libmetis-dev libgtest-dev libbenchmark-dev
+  libmetis-dev libsuitesparse-dev libopenblas0 libgtest-dev libbenchmark-dev
   libopenmpi-dev openmpi-bin libsimgrid-dev
   ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
   likwid

@@ -13,12 +13,14 @@ namespace {
 
 /// Options of `run` that the analysis uses, other than SCENE, --analysis and --set.
 std::vector<std::string> options_of(const std::string& analysis, const std::string& solver) {
-  if (analysis == "modal") return {"--modes", "--prestressed", "--model", "--output", "--json"};
+  if (analysis == "modal")
+    return {"--modes", "--prestressed", "--threads", "--model", "--output", "--json"};
   std::vector<std::string> known = {"--solver",  "--model", "--output",  "--state",
                                     "--picture", "--probe", "--history", "--json"};
+  if (solver != "cg") known.emplace_back("--threads");
   if (solver == "relaxation")
     for (const char* more : {"--masses", "--tolerance", "--variant", "--device", "--hybrid",
-                             "--threads", "--precision", "--integrator", "--steps"})
+                             "--precision", "--integrator", "--steps"})
       known.emplace_back(more);
   if (solver == "cg" || solver == "newton" || solver == "auto")
     known.emplace_back("--preconditioner");

@@ -1,8 +1,7 @@
 #include "solver/reference/dynamics.hpp"
 
-#include "solver/reference/linearised_law.hpp"
+#include "solver/reference/laws.hpp"
 #include "solver/reference/real_types.hpp"
-#include "solver/reference/small_law.hpp"
 
 #include <algorithm>
 
@@ -124,9 +123,7 @@ void Dynamics<T>::place(std::span<const T> state) {
 template <class T>
 Reaction<T> Dynamics<T>::link_reaction(const Motion<T>& i, const Motion<T>& j,
                                        const Link& link) const {
-  const LinkProperties<T>& properties = properties_[link.properties];
-  if (is_linearised()) return linearised_reaction(i, j, properties);
-  return has_vectors() ? small_reaction(i, j, properties) : reaction(i, j, properties);
+  return reaction_by(coordinates_.rotation(), i, j, properties_[link.properties]);
 }
 
 template <class T>
@@ -145,10 +142,7 @@ void Dynamics<T>::add_link_reactions() {
 
 template <class T>
 LinkStrain<T> Dynamics<T>::strain(const Motion<T>& i, const Motion<T>& j, const Link& link) const {
-  const LinkProperties<T>& properties = properties_[link.properties];
-  if (is_linearised()) return linearised_strain(i, j, properties);
-  const Vector<T> relative = has_vectors() ? Vector<T>(j.q.v - i.q.v) : relative_vector(i.q, j.q);
-  return link_strain(i, j, properties, relative);
+  return strain_by(coordinates_.rotation(), i, j, properties_[link.properties]);
 }
 
 template <class T>
@@ -174,11 +168,8 @@ template <class T>
 Reaction<T> Dynamics<T>::pressure_reaction_of(const Motion<T>& i, const Motion<T>& j,
                                               const Link& link,
                                               const LinkPressure<T>& pressure) const {
-  const LinkProperties<T>& properties = properties_[link.properties];
-  if (is_linearised()) return linearised_pressure_reaction(properties, pressure);
-  const RelativeRotation<T> relative =
-      has_vectors() ? RelativeRotation<T>{j.q.v - i.q.v, T(1)} : relative_rotation(i, j);
-  return pressure_reaction(i, j, properties, relative, pressure);
+  return pressure_reaction_by(coordinates_.rotation(), i, j, properties_[link.properties],
+                              pressure);
 }
 
 template <class T>

@@ -67,6 +67,9 @@ public:
     return has_pressure() && properties_[link.properties].area > 0;
   }
   int axis(const Link& link) const { return properties_[link.properties].axis; }
+  const LinkProperties<T>& properties(const Link& link) const {
+    return properties_[link.properties];
+  }
   LinkStrain<T> strain(const Motion<T>& i, const Motion<T>& j, const Link& link) const;
   /// As link_stretch (pressure.hpp), of any link.
   Vector<T> stretch(const Motion<T>& i, const Motion<T>& j, const Link& link) const;

@@ -1,7 +1,7 @@
 #include "solver/statics/eigenmodes.hpp"
 #include "solver/error.hpp"
 #include "solver/numerics/dense_eigen.hpp"
-#include "solver/statics/sparse_solver.hpp"
+#include "solver/statics/factors.hpp"
 
 #include <Eigen/Core>
 
@@ -137,8 +137,7 @@ Cut cut_below(const VectorXd& values, double shift) {
 long count_below(const SparseMatrix& stiffness, const SparseMatrix& mass, double value) {
   Factors factors;
   factors.compute(shifted(stiffness, mass, value));
-  if (factors.info() != Eigen::Success)
-    throw InputError("eigenvalues cannot be counted: a pivot is zero");
+  if (!factors.are_complete()) throw InputError("eigenvalues cannot be counted: a pivot is zero");
   return factors.negative_pivots();
 }
 
@@ -147,7 +146,7 @@ Eigenmodes lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
   const Index wanted = std::min<Index>(count, mass.rows());
   Factors factors;
   factors.compute(shifted(stiffness, mass, shift));
-  for (int attempt = 0; attempt < most_attempts && factors.info() == Eigen::Success; ++attempt) {
+  for (int attempt = 0; attempt < most_attempts && factors.are_complete(); ++attempt) {
     VectorXd inverse;
     Eigenmodes found;
     if (!BlockLanczos(factors, mass, first_block << attempt).find(wanted, inverse, found.shapes))

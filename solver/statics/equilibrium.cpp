@@ -28,26 +28,11 @@ double expected_iterations(const Problem& problem) {
   return 30.0 * longest;
 }
 
-/// Beyond these sizes, factors need more than about 10 GB. In a plane they grow almost in
-/// proportion to the unknowns, in space with the power 4/3.
-SolverKind affordable(const StaticSystem& system, SolverKind kind) {
-  const Problem& problem = system.problem();
-  const bool is_flat = double(problem.link_count()) < 2.2 * double(problem.lattice.element_count);
-  const Eigen::Index most = is_flat ? 1'500'000 : 150'000;
-  if (system.size() <= most) return kind;
-  if (kind == SolverKind::direct)
-    throw InputError(fmt::format(
-        "{}: {} unknowns are too many for factors; give --solver cg, relaxation or auto",
-        problem.name, system.size()));
-  return SolverKind::cg;
-}
-
 class Iteration {
 public:
   Iteration(StaticSystem& system, const EquilibriumOptions& options)
       : system_(system), options_(options),
-        solver_(affordable(system, options.solver), options.preconditioner,
-                expected_iterations(system.problem())),
+        solver_(options.solver, options.preconditioner, expected_iterations(system.problem())),
         edge_(shortest_edge(system.problem())) {}
 
   Equilibrium run(const StaticSystem::State& start) {

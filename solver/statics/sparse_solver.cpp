@@ -1,10 +1,13 @@
 #include "solver/statics/sparse_solver.hpp"
 
+#include "solver/memory.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace dss {
 namespace {
@@ -14,10 +17,12 @@ using Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
 
 // One multiplication of a factorisation takes as long as this number of multiplications of
-// conjugate gradients.
-constexpr double weight_of_factors = 3;
+// conjugate gradients: blocks run at the peak of the core, conjugate gradients at that of the
+// memory.
+constexpr double weight_of_factors = 0.1;
+/// Beyond that, orders of elimination take minutes, and conjugate gradients always less work.
+constexpr Index most_unknowns_to_analyse = 3'000'000;
 constexpr double cg_work = 8; ///< multiplications of an iteration for each entry of the lower half
-constexpr double zero_pivot_share = 1e-12;
 
 /// Inverses of diagonal blocks of six successive unknowns. Without clamps a block is an element.
 class BlockJacobi {
@@ -52,51 +57,31 @@ private:
 
 } // namespace
 
-double Factors::work() const {
-  double sum = 0;
-  for (Index column = 0; column < m_nonZerosPerCol.size(); ++column)
-    sum += double(m_nonZerosPerCol[column]) * double(m_nonZerosPerCol[column]);
-  return sum;
-}
-
-double Factors::nonzeros() const {
-  return double(m_nonZerosPerCol.cast<double>().sum()) + double(m_diag.size());
-}
-
-long Factors::negative_pivots() const { return long((m_diag.array() < 0).count()); }
-
-std::optional<Index> Factors::zero_pivot(const Matrix& lower) const {
-  const VectorXd diagonal = lower.diagonal();
-  const auto& place = permutationP().indices();
-  std::vector<Index> unknown(std::size_t(diagonal.size()));
-  for (Index n = 0; n < diagonal.size(); ++n) unknown[std::size_t(place[n])] = n;
-  for (Index k = 0; k < m_diag.size(); ++k) {
-    const Index n = unknown[std::size_t(k)];
-    if (std::abs(m_diag[k]) <= zero_pivot_share * std::abs(diagonal[n]))
-      return n; // a zero pivot leaves the later ones unset
-  }
-  return {};
-}
-
 std::string_view SparseSolver::name() const {
   if (is_direct()) return "direct";
   return preconditioner_ == Preconditioner::block_jacobi ? "cg, block Jacobi"
                                                          : "cg, incomplete Cholesky";
 }
 
+/// Analyses a matrix for factors, and decides what `automatic` is.
+void SparseSolver::choose(const Matrix& lower) {
+  const auto size = lower.rows();
+  if (is_automatic_ && size > most_unknowns_to_analyse) kind_ = SolverKind::cg;
+  if (kind_ == SolverKind::cg) return;
+  if (!factors_) factors_ = std::make_unique<Factors>();
+  if (!factors_->analyse(lower)) return;
+  if (!is_automatic_)
+    return require_memory(factors_->bytes(), fmt::format("factors of {} unknowns", size),
+                          "give --solver cg, relaxation or auto");
+  const double of_cg = cg_work * cg_iterations_ * double(lower.nonZeros());
+  const bool is_less = weight_of_factors * factors_->work() <= of_cg;
+  kind_ = is_less && factors_->bytes() <= available_memory() ? SolverKind::direct : SolverKind::cg;
+}
+
 void SparseSolver::prepare(const Matrix& lower) {
-  if (kind_ != SolverKind::cg && !is_analysed_) {
-    factors_.analyzePattern(lower);
-    is_analysed_ = true;
-    if (kind_ == SolverKind::automatic)
-      kind_ =
-          weight_of_factors * factors_.work() <= cg_work * cg_iterations_ * double(lower.nonZeros())
-              ? SolverKind::direct
-              : SolverKind::cg;
-  }
+  choose(lower);
   if (is_direct()) {
-    factors_.analyzePattern(lower); // entries may vanish or appear with the state
-    factors_.factorize(lower);
+    factors_->compute(lower);
   } else {
     lower_ = lower;
     make_preconditioner();
@@ -115,8 +100,8 @@ void SparseSolver::make_preconditioner() {
 
 std::optional<VectorXd> SparseSolver::solve(const VectorXd& right_hand_side, double reduction) {
   if (!is_direct()) return conjugate_gradients(right_hand_side, reduction);
-  if (factors_.info() != Eigen::Success) return {};
-  return factors_.solve(right_hand_side);
+  if (!factors_->are_complete()) return {};
+  return factors_->solve(right_hand_side);
 }
 
 std::optional<VectorXd> SparseSolver::conjugate_gradients(const VectorXd& b, double reduction) {

@@ -1,37 +1,20 @@
 #pragma once
 /// Symmetric sparse equations, by factors or by conjugate gradients.
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include "solver/statics/factors.hpp"
 
-#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 namespace dss {
 
-/// direct: factors L D L^T in an approximate minimum degree order. cg: preconditioned conjugate
-/// gradients. automatic: the one with less expected work. The order of elimination gives the work
-/// of the factors before they are computed.
+/// direct: factors. cg: preconditioned conjugate gradients. automatic: the one with less expected
+/// work, among those that fit in memory. The order of elimination gives the work and the memory of
+/// the factors before they are computed.
 enum class SolverKind { automatic, direct, cg };
 /// Preconditioner of conjugate gradients. block_jacobi has blocks of 6 x 6.
 enum class Preconditioner { incomplete_cholesky, block_jacobi };
-
-/// Eigen's factors, with access to Eigen's protected data.
-class Factors : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> {
-public:
-  /// Multiplications of a factorisation. Call analyzePattern first.
-  double work() const;
-  /// Number of negative pivots of the columns done. By Sylvester's law it is the number of negative
-  /// eigenvalues.
-  long negative_pivots() const;
-  /// Unknown whose pivot is zero, to rounding, compared with its diagonal entry; nothing if there
-  /// is none. It is a motion that takes no force.
-  std::optional<Eigen::Index> zero_pivot(const Eigen::SparseMatrix<double>& lower) const;
-  double nonzeros() const;
-};
 
 /// Solver for a sequence of symmetric matrices: prepare() each matrix, then solve().
 class SparseSolver {
@@ -40,7 +23,8 @@ public:
   explicit SparseSolver(SolverKind kind,
                         Preconditioner preconditioner = Preconditioner::incomplete_cholesky,
                         double cg_iterations = 1000)
-      : kind_(kind), preconditioner_(preconditioner), cg_iterations_(cg_iterations) {}
+      : kind_(kind), is_automatic_(kind == SolverKind::automatic), preconditioner_(preconditioner),
+        cg_iterations_(cg_iterations) {}
 
   /// Selects conjugate gradients with block Jacobi. For a singular matrix, whose incomplete factors
   /// would be singular too.
@@ -51,6 +35,7 @@ public:
 
   /// Computes the factors or the preconditioner of a matrix, given by its lower half. The first
   /// matrix decides what `automatic` is.
+  /// @throws InputError if factors were asked for and do not fit in memory
   void prepare(const Eigen::SparseMatrix<double>& lower);
   /// Solves the equations; call prepare first. Conjugate gradients end when the error, measured by
   /// the preconditioner, has fallen by `reduction`.
@@ -60,7 +45,7 @@ public:
 
   bool is_direct() const { return kind_ == SolverKind::direct; }
   std::string_view name() const;
-  const Factors& factors() const { return factors_; } ///< of the direct solver
+  const Factors& factors() const { return *factors_; } ///< of the direct solver
   long iterations() const {
     return iterations_;
   } ///< of conjugate gradients, in all solutions
@@ -70,15 +55,17 @@ public:
 
 private:
   using Apply = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+  void choose(const Eigen::SparseMatrix<double>& lower);
   std::optional<Eigen::VectorXd> conjugate_gradients(const Eigen::VectorXd& right_hand_side,
                                                      double reduction);
   void make_preconditioner();
 
   SolverKind kind_;
+  bool is_automatic_;
   Preconditioner preconditioner_;
   double cg_iterations_;
-  Factors factors_;
-  bool is_analysed_ = false, met_no_stiffness_ = false;
+  std::unique_ptr<Factors> factors_; ///< of the direct solver
+  bool met_no_stiffness_ = false;
   Eigen::SparseMatrix<double> lower_; ///< for conjugate gradients
   Apply precondition_;
   long iterations_ = 0;

@@ -3,12 +3,13 @@
 /// derivatives of these forces.
 ///
 /// Loads and the frame's acceleration are those at the end of the problem's run. Dampers have no
-/// effect. Forces come from the oracle's link laws in long double. So stiffnesses by differences
-/// keep ten digits, and no link formula exists twice.
+/// effect. Forces and their derivatives come from the oracle's link laws, so no link formula exists
+/// twice.
 #include "kernels/model.hpp"
 #include "solver/model/problem.hpp"
 #include "solver/numerics/linearised.hpp"
 #include "solver/reference/dynamics.hpp"
+#include "solver/reference/link_slope.hpp"
 
 #include <Eigen/SparseCore>
 
@@ -39,7 +40,7 @@ std::string dof_text(const Problem& problem, std::size_t dof);
 /// The equations of a static problem.
 class StaticSystem {
 public:
-  using Real = long double; // differences lose half of the digits
+  using Real = long double; ///< unbalanced forces are small differences of large ones
   using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
   /// Fields of all elements in the oracle's coordinates for the Rotation of the law. Velocities are
   /// zero.
@@ -72,10 +73,13 @@ public:
 
   /// Stiffness at rest, exact, from the matrices of the links (solver/numerics/linearised.hpp).
   SparseMatrix stiffness_at_rest() const;
-  /// Minus the derivative of the unbalanced forces at a state, by central differences, link by
-  /// link. Only the symmetric part: at an equilibrium under forces with a potential the derivative
+  /// Damping at rest, exact as well.
+  SparseMatrix damping_at_rest() const;
+  /// Minus the derivative of the unbalanced forces at a state, link by link, exact to rounding.
+  /// Only the symmetric part: at an equilibrium under forces with a potential the derivative
   /// is symmetric.
-  SparseMatrix tangent(const State& state) const;
+  /// @param variation  of displacements and velocities; default: displacements alone
+  SparseMatrix tangent(const State& state, const reference::Variation& variation = {}) const;
   /// Masses and moments of inertia about axes in space, with the elements turned as in `state`.
   SparseMatrix mass(const State& state) const;
 
@@ -92,10 +96,7 @@ private:
   using Link = reference::Dynamics<Real>::Link;
   void turn_fields(Real* fields, const reference::Vector<Real>& turn) const;
   Vector free_part(const std::vector<Real>& all) const;
-  template <class Value>
-  auto link_slope(const Link& link, const State& state, Value&& value) const;
-  Eigen::Matrix<double, 12, 12> link_stiffness(const Link& link, const State& state,
-                                               const reference::LinkPressure<Real>* pressure) const;
+  reference::MovingLink moving_link(const Link& link, const State& state) const;
   std::vector<PressureTerm> pressure_terms(const State& state) const;
 
   const Problem& problem_;

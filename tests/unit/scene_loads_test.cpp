@@ -137,12 +137,12 @@ TEST_F(SurfaceLoads, a_pressure_on_a_ball_has_its_projection_and_no_net_force) {
 
 TEST_F(SurfaceLoads, a_pressure_acts_on_its_face_alone_wherever_the_body_is) {
   const fixture::Facets box = fixture::box_facets({0, 0, 0}, {1, 0.8F, 0.5F});
-  struct Place {
+  struct MovedBody {
     std::string origin, near;
   };
   for (const auto& [origin, near] :
-       {Place{"", "[0.5, 0.8, 0.2]"},
-        Place{R"("origin": [3, -5, 1e4], )", "[3.5, -4.2, 10000.2]"}}) {
+       {MovedBody{"", "[0.5, 0.8, 0.2]"},
+        MovedBody{R"("origin": [3, -5, 1e4], )", "[3.5, -4.2, 10000.2]"}}) {
     const Problem pressed = of(box, R"({"near": )" + near + R"(}}, "pressure": 7)", origin);
     ASSERT_EQ(pressed.loads.size(), 1u) << origin;
     EXPECT_EQ(pressed.loads[0].face, 3);

@@ -97,6 +97,47 @@ TEST(Statics, tangent_of_a_loaded_state_is_the_slope_of_its_forces) {
   }
 }
 
+/// Sum over the free degrees of freedom.
+double work(const StaticSystem::Vector& forces, const Eigen::VectorXd& motion) {
+  return double(forces.dot(motion.cast<StaticSystem::Real>()));
+}
+
+// The matrix holds the symmetric part of the derivative, which alone does work on its own motion.
+TEST(Statics, tangent_of_a_moving_state_is_the_slope_by_displacements_and_velocities) {
+  for (const Rotation rotation : {Rotation::quaternion, Rotation::small, Rotation::linearised})
+    for (const Problem& problem :
+         {fixture::make_everything(), fixture::pressed(fixture::make_everything())}) {
+      constexpr double share = 1e-3;
+      StaticSystem system(problem, rotation);
+      const std::vector<double> fields = fixture::random_state(problem, 5, 2e-4, 0.1, 0.1);
+      auto state = system.inside(fields);
+      for (std::size_t n = 0; n < state.size(); ++n)
+        if (n % field_count >= vx && (n % field_count < qs || n % field_count > qz))
+          state[n] = fields[n];
+      std::mt19937_64 generator(3);
+      std::normal_distribution<double> normal;
+      const Eigen::VectorXd step =
+          1e-6 * Eigen::VectorXd::NullaryExpr(system.size(), [&] { return normal(generator); });
+      const auto moved = [&](double sign) {
+        auto there = state;
+        system.move(there, sign * share * step);
+        for (Eigen::Index n = 0; n < step.size(); ++n) {
+          const std::size_t dof = system.dofs().dof[std::size_t(n)];
+          const std::size_t field = dof % 6 < 3 ? vx + dof % 6 : wx + dof % 6 - 3;
+          there[dof / 6 * field_count + field] += sign * step[n];
+        }
+        return system.unbalanced(there);
+      };
+      const double slope = work((moved(-1) - moved(1)) / 2, step);
+      const SparseMatrix tangent = system.tangent(state, {share, 1});
+      const double expected = step.dot(tangent.selfadjointView<Eigen::Lower>() * step);
+      // Small rotations have pressures whose forces are not quite the gradient of an energy.
+      const bool is_gradient = rotation != Rotation::small || !problem.has_pressure();
+      EXPECT_NEAR(slope, expected, (is_gradient ? 1e-9 : 1e-3) * std::abs(expected))
+          << name(rotation);
+    }
+}
+
 TEST(Statics, bar_under_an_end_load_stretches_by_one_gap_a_link) {
   constexpr int n = 7;
   for (const LinkLaw law : laws) {

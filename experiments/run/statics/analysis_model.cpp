@@ -3,6 +3,7 @@
 #include "solver/error.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
+#include "solver/statics/factors.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -40,6 +41,12 @@ Model smallest_linear(const Problem& problem) {
   return *std::ranges::find_if(models, [&](Model model) {
     return is_linear(model) && why_no_degrees(model, problem).empty();
   });
+}
+
+void use_threads_for_factors(int threads) {
+  if (threads < 1 || threads > 1024)
+    throw InputError(fmt::format("--threads {}: give 1 to 1024", threads));
+  if (threads > 1) set_factor_threads(threads);
 }
 
 AnalysisModel static_model(const RunRequest& run, const Scene& scene, const std::string& solver) {

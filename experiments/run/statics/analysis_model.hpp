@@ -23,6 +23,11 @@ AnalysisModel static_model(const RunRequest& run, const Scene& scene, const std:
 /// The linear model of least work that has the degrees of freedom.
 Model smallest_linear(const Problem& problem);
 
+/// Gives factors so many threads. The library that makes them is loaded now only if there are
+/// several.
+/// @throws InputError for a number that makes no sense, or if the library is missing
+void use_threads_for_factors(int threads);
+
 /// Model of natural modes: --model, or the scene's; "auto" means the spatial model.
 /// @throws InputError as static_model
 Model modal_model(const RunRequest& run, const Scene& scene);

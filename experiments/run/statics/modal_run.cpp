@@ -16,6 +16,7 @@ constexpr int most_modes = 1000;
 AnalysisResult solve_modal(const RunRequest& run, const AnalysisRequest& request) {
   if (request.modes < 1 || request.modes > most_modes)
     throw InputError(fmt::format("--modes {}: give 1 to {}", request.modes, most_modes));
+  use_threads_for_factors(run.threads);
   const Scene scene = load_scene(run.scene, run.overrides);
   const Model model = modal_model(run, scene);
   if (request.is_prestressed && is_linear(model))

@@ -45,7 +45,7 @@ std::string out_of_plane(const Problem& problem, double loads, const std::vector
     const SparseMatrix tangent = across.tangent(across.inside(fields));
     Factors factors;
     factors.compute(tangent);
-    if (factors.info() != Eigen::Success || factors.zero_pivot(tangent))
+    if (!factors.are_complete() || factors.zero_pivot(tangent))
       return "out of its plane, into which nothing pushes it, some motion takes no force";
     if (factors.negative_pivots() > 0)
       return "out of its plane, into which nothing pushes it, it is not stable";
@@ -161,6 +161,7 @@ void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& re
 
 AnalysisResult solve_static(const RunRequest& run, const AnalysisRequest& request) {
   const std::string solver = request.solver;
+  if (solver != "relaxation") use_threads_for_factors(run.threads);
   if (request.masses != "scaled" && request.masses != "scene")
     throw InputError(fmt::format("--masses {}: unknown; {}", request.masses,
                                  nearest_name(request.masses, names_of("MASSES"))));
