@@ -154,8 +154,9 @@ Method smoothed_verlet() {
                   "times the growth)");
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 Method implicit_midpoint() {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   return {.name = "implicit_midpoint",
           .family = Method::Family::implicit_midpoint,
           .order = 2,
@@ -172,7 +173,64 @@ Method implicit_midpoint() {
                   "that it does not resolve are slowed down and hardly damped"};
 }
 
+/// Newmark's method with beta = 1/4 and gamma = 1/2 (average acceleration), which is the
+/// trapezoidal rule. N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.
+Method newmark() {
+  return {.name = "newmark",
+          .family = Method::Family::diagonally_implicit,
+          .order = 2,
+          .stages = 2,
+          .node = {0, 1},
+          .beta = {0, 0.5},
+          .alpha = {{}, {0.5}},
+          .imaginary_limit = infinity,
+          .real_limit = infinity,
+          .is_symplectic = true,
+          .keeps_energy_bounded = true,
+          .note = "average acceleration, the trapezoidal rule: one solution a step; any step is "
+                  "stable, but modes that it does not resolve are slowed down and hardly damped"};
+}
+
+/// L-stable method of order 4 with five stages. E. Hairer, G. Wanner, Solving Ordinary Differential
+/// Equations II, table IV.6.5.
+Method sdirk4() {
+  return {.name = "sdirk4",
+          .family = Method::Family::diagonally_implicit,
+          .order = 4,
+          .stages = 5,
+          .node = {1. / 4, 3. / 4, 11. / 20, 1. / 2, 1},
+          .beta = {1. / 4, 1. / 4, 1. / 4, 1. / 4, 1. / 4},
+          .alpha = {{},
+                    {1. / 2},
+                    {17. / 50, -1. / 25},
+                    {371. / 1360, -137. / 2720, 15. / 544},
+                    {25. / 24, -49. / 48, 125. / 16, -85. / 12}},
+          .imaginary_limit = infinity,
+          .real_limit = infinity,
+          .is_symplectic = false,
+          .keeps_energy_bounded = false,
+          .note = "five solutions a step with one matrix; any step is stable, and modes that it "
+                  "does not resolve are damped out"};
+}
+
 } // namespace
+
+Method generalized_alpha(double radius) {
+  return {.name = "generalized_alpha",
+          .family = Method::Family::generalized_alpha,
+          .order = 2,
+          .stages = 2,
+          .node = {0, 1 / (1 + radius)},
+          .beta = {0, 1},
+          .alpha = {{}, {}},
+          .imaginary_limit = infinity,
+          .real_limit = infinity,
+          .is_symplectic = false,
+          .keeps_energy_bounded = false,
+          .note = "one solution a step; any step is stable, and modes that it does not resolve "
+                  "lose a fifth of their amplitude in each",
+          .rate_share = (3 - radius) / (2 * (1 + radius))};
+}
 
 // The seventh stage evaluates f at y_{n+1}. Its weights are those of table II.5.2 minus those of
 // the fourth-order method there.
@@ -253,7 +311,8 @@ const std::vector<Method>& methods() {
 }
 
 const std::vector<Method>& implicit_methods() {
-  static const std::vector<Method> all = {implicit_midpoint()};
+  static const std::vector<Method> all = {implicit_midpoint(), newmark(), generalized_alpha(0.8),
+                                          sdirk4()};
   return all;
 }
 
@@ -268,6 +327,17 @@ std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const Method* method : all_methods()) names.emplace_back(method->name);
   return names;
+}
+
+double implicit_share(const Method& method) {
+  switch (method.family) {
+  case Method::Family::diagonally_implicit:
+    return method.beta.back();
+  case Method::Family::generalized_alpha:
+    return method.node[1] * method.rate_weight() / method.rate_share;
+  default:
+    return 0.5;
+  }
 }
 
 const Method* find_method(std::string_view name) {

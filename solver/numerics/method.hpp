@@ -7,7 +7,7 @@
 
 namespace dss {
 
-/// A one-step method with `stages` force evaluations a step (implicit_midpoint: in each iteration).
+/// A one-step method with `stages` force evaluations a step (implicit: in each iteration).
 /// README.md explains the families.
 ///
 /// Family runge_kutta, in increment form: Y_0 = y_n and, for s = 0 .. stages - 1,
@@ -28,20 +28,39 @@ namespace dss {
 ///     v_{n+1} = v_n + h a(x_n, v_n),   x_{n+1} = x_n + h v_{n+1}
 ///
 /// Family implicit_midpoint: y_{n+1} = y_n + h f(t_n + h/2, (y_n + y_{n+1}) / 2).
+///
+/// Family diagonally_implicit, Runge-Kutta methods whose stages depend on themselves and on earlier
+/// ones, all implicit stages with the same beta:
+///     Y_s = y_n + h sum_{m<s} alpha[s][m] k_m + h beta[s] k_s,   k_s = f(t_n + node[s] h, Y_s)
+///     y_{n+1} = Y_{stages-1}
+/// A first stage with beta = 0 takes k_0 from the last stage of the step before.
+///
+/// Family generalized_alpha, with a rate r_n that the method keeps (r_0 = f(t_0, y_0)), c =
+/// node[1], a = rate_share and g = 1/2 + a - c:
+///     y_{n+1} = y_n + h ((1 - g) r_n + g r_{n+1})
+///     (1 - a) r_n + a r_{n+1} = f(t_n + c h, y_n + c (y_{n+1} - y_n))
 struct Method {
-  enum class Family { runge_kutta, leapfrog, symplectic_euler, implicit_midpoint };
+  enum class Family {
+    runge_kutta,
+    leapfrog,
+    symplectic_euler,
+    implicit_midpoint,
+    diagonally_implicit,
+    generalized_alpha
+  };
   std::string_view name;
   Family family;
   int order;
   int stages;
   std::vector<double> node; ///< one for each stage
   std::vector<double> beta; ///< one for each stage
-  /// One row for each stage. Row s has s + 1 numbers; the first is not used.
+  /// One row for each stage. runge_kutta: row s has s + 1 numbers; the first is not used.
+  /// diagonally_implicit: s numbers.
   std::vector<std::vector<double>> alpha;
   /// Largest stable h |lambda| on the imaginary axis (undamped); infinite for implicit methods.
   double imaginary_limit;
   double real_limit;  ///< largest stable h |lambda| on the negative real axis
-  bool is_symplectic; ///< a step of an undamped problem is a symplectic map
+  bool is_symplectic; ///< a step of an undamped linear problem is a symplectic map
   /// The energy of an undamped problem without gyroscopic terms has no trend over any number of
   /// steps.
   bool keeps_energy_bounded;
@@ -49,8 +68,14 @@ struct Method {
   /// Steps are tried first, then accepted or rejected (step_control.hpp).
   bool has_error_stage = false;
   double smoothing = 0; ///< leapfrog: share of the last correction that a prediction keeps, below 1
+  double rate_share = 0; ///< generalized_alpha: a
 
-  bool is_implicit() const { return family == Family::implicit_midpoint; }
+  bool is_implicit() const {
+    return family == Family::implicit_midpoint || family == Family::diagonally_implicit ||
+           family == Family::generalized_alpha;
+  }
+  /// generalized_alpha: g.
+  double rate_weight() const { return 0.5 + rate_share - node[1]; }
   /// Velocities live half a step before positions.
   bool is_staggered() const { return family == Family::leapfrog; }
   /// Explicit with one stage. Updates velocities, then positions from the new velocities.
@@ -65,18 +90,27 @@ struct Method {
 /// (2.7), (2.8).
 Method rkc2(int stages);
 
+/// The generalized-alpha method for equations of first order, with the amplification `radius` (0 to
+/// 1) of the fastest undamped modes in a step. Source: K. E. Jansen, C. H. Whiting, G. M. Hulbert,
+/// Comput. Methods Appl. Mech. Engrg. 190 (2000) 305-319.
+Method generalized_alpha(double radius);
+
 /// The method dopri5 with an error stage, for adaptive steps. E is the difference between the
 /// results of fifth and fourth order.
 const Method& dopri5_adaptive();
 
 /// All explicit methods. Every variant has them. rkc2 is listed with five stages.
 const std::vector<Method>& methods();
-/// Methods that solve equations in every step. Only the variant `reference` has them.
+/// Methods that solve equations in every step. The variants `reference` and `sparse` have them.
+/// generalized_alpha is listed with the radius 0.8.
 const std::vector<Method>& implicit_methods();
 /// Explicit methods, then implicit methods.
 std::vector<const Method*> all_methods();
 /// Names of all methods, in the order of all_methods().
 std::vector<std::string> method_names();
+/// The part of a step that an implicit stage spans: Y = base + this h f(Y). All implicit stages of
+/// a method have the same.
+double implicit_share(const Method& method);
 /// Finds an explicit or implicit method; nullptr if the name is unknown.
 const Method* find_method(std::string_view name);
 

@@ -103,6 +103,8 @@ double spectral_radius(const Method& method, double h, double omega, double rate
     return spectral_radius(step);
   }
   case Method::Family::implicit_midpoint:
+  case Method::Family::diagonally_implicit:
+  case Method::Family::generalized_alpha:
     return 1; // at most 1, for every mode that no load excites
   case Method::Family::runge_kutta:
     break;
@@ -125,7 +127,7 @@ double mode_step_limit(const Method& method, double omega, double rate, double e
 
 double root_step_limit(const Method& method, std::complex<double> root, double enough) {
   const double scale = std::abs(root);
-  if (scale == 0) return infinite;
+  if (scale == 0 || method.is_implicit()) return infinite;
   const StabilityFunction function(method);
   return first_exit([&](double h) { return function(h * root / scale); }, method.stages,
                     enough * scale) /

@@ -10,8 +10,8 @@ namespace dss {
 /// A growth below this a step counts as none: a million steps do not show it.
 constexpr double unseen_growth = 1e-12;
 
-/// Amplification |R(z)| of a Runge-Kutta method for y' = lambda y, z = h lambda. It runs the
-/// method's own table from y = 1.
+/// Amplification |R(z)| of an explicit Runge-Kutta method for y' = lambda y, z = h lambda. It runs
+/// the method's own table from y = 1.
 double amplification(const Method& method, std::complex<double> z);
 
 /// Spectral radius of one step of an explicit method on the mode x'' + rate x' + omega^2 x = 0.
@@ -30,6 +30,7 @@ double mode_step_limit(const Method& method, double omega, double rate,
                        double enough = std::numeric_limits<double>::infinity());
 
 /// Step limit of a Runge-Kutta method on y' = root y; root [1/s] has no positive real part.
+/// Infinite for implicit methods.
 double root_step_limit(const Method& method, std::complex<double> root,
                        double enough = std::numeric_limits<double>::infinity());
 

@@ -48,15 +48,41 @@ void ImplicitMidpoint<T>::restart() {
 }
 
 template <class T>
+std::optional<std::size_t> ImplicitMidpoint<T>::solve_or_worst(Dynamics<T>& dynamics,
+                                                               std::span<const T> state,
+                                                               std::span<const double> signals) {
+  if (solve(dynamics, state, signals)) return std::nullopt;
+  // The change of the last step may be too far off as a first guess. No better guess is known than
+  // zero.
+  restart();
+  if (solve(dynamics, state, signals)) return std::nullopt;
+  return worst_element();
+}
+
+template <class T>
 std::optional<std::size_t> ImplicitMidpoint<T>::step(Dynamics<T>& dynamics, std::span<T> state,
                                                      std::span<const double> signals) {
-  if (!solve(dynamics, state, signals)) {
-    // The change of the last step may be too far off as a first guess. No better guess is known
-    // than zero.
-    restart();
-    if (!solve(dynamics, state, signals)) return worst_element();
-  }
+  if (const auto worst = solve_or_worst(dynamics, state, signals)) return worst;
   finish(dynamics, state);
+  return std::nullopt;
+}
+
+template <class T>
+std::optional<std::size_t> ImplicitMidpoint<T>::stage(Dynamics<T>& dynamics,
+                                                      std::span<const T> base,
+                                                      std::span<const double> signals,
+                                                      std::span<T> reached, std::span<T> slope) {
+  if (const auto worst = solve_or_worst(dynamics, base, signals)) return worst;
+  for (std::size_t e = 0; e < gyration_.size(); ++e) {
+    place_middle(dynamics, base, e);
+    const T* mid = mid_.data() + e * field_count;
+    T* rates = slope.data() + e * field_count;
+    for (int axis = 0; axis < 3; ++axis) rates[ux + axis] = mid[vx + axis];
+    for (int d = 0; d < unknowns; ++d) rates[field_of(d)] = change_[place_of(e, d)] / dt_;
+    set_orientation_fields(
+        rates, dynamics.coordinates().rate(orientation_fields(mid), {mid[wx], mid[wy], mid[wz]}));
+  }
+  std::ranges::copy(mid_, reached.begin());
   return std::nullopt;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Equations of a step of the implicit midpoint rule, and Newton's iteration for them.
+/// Equations of a step of the implicit midpoint rule, or of a stage of any diagonally implicit
+/// method, and Newton's iteration for them.
 #include "solver/reference/dynamics.hpp"
 
 #include <Eigen/SparseLU>
@@ -35,6 +36,13 @@ public:
   std::optional<std::size_t> step(Dynamics<T>& dynamics, std::span<T> state,
                                   std::span<const double> signals);
 
+  /// Solves Y = base + dt/2 f(Y), the first half of such a step.
+  /// @param reached, slope  Y and f(Y), field_count numbers an element
+  /// @return as step; then `reached` and `slope` are unchanged
+  std::optional<std::size_t> stage(Dynamics<T>& dynamics, std::span<const T> base,
+                                   std::span<const double> signals, std::span<T> reached,
+                                   std::span<T> slope);
+
   /// Number of Jacobians factorised since the restart.
   long factorisations() const { return factorisations_; }
   std::size_t bytes() const;
@@ -42,6 +50,8 @@ public:
 private:
   using Unknowns = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
+  std::optional<std::size_t> solve_or_worst(Dynamics<T>& dynamics, std::span<const T> state,
+                                            std::span<const double> signals);
   bool solve(Dynamics<T>& dynamics, std::span<const T> state, std::span<const double> signals);
   void place_middle(const Dynamics<T>& dynamics, std::span<const T> state, std::size_t e);
   void find_residual(Dynamics<T>& dynamics, std::span<const T> state,

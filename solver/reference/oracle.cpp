@@ -38,8 +38,9 @@ Oracle<T>::Oracle(const Problem& problem, const Method& method, double dt, Rotat
       slopes_(std::size_t(method.stages), std::vector<T>(state_.size())), trial_(state_.size()) {
   if (method.family == Method::Family::runge_kutta) weights_ = butcher_rows<T>(method);
   if (method.is_in_place()) half_step_.resize(6 * problem.lattice.element_count);
-  if (method.family == Method::Family::implicit_midpoint)
-    implicit_ = std::make_unique<reference::ImplicitMidpoint<T>>(problem, dt);
+  if (method.is_implicit())
+    implicit_ =
+        std::make_unique<reference::ImplicitMidpoint<T>>(problem, 2 * implicit_share(method) * dt);
 }
 
 template <class T>
@@ -55,7 +56,7 @@ void Oracle<T>::write(std::span<const double> fields, std::size_t first) {
         f, dynamics_.coordinates().write(e, reference::orientation_fields(f)));
   }
   step_count_ = 0;
-  is_leapfrog_started_ = false;
+  is_leapfrog_started_ = has_rate_ = false;
   if (implicit_) implicit_->restart();
 }
 
@@ -118,7 +119,7 @@ std::optional<Breakdown> Oracle<T>::step_once(long step, const SignalSource& sig
   if (method_.family == Method::Family::runge_kutta) runge_kutta_step(step, signals);
   if (method_.is_in_place()) leapfrog_step(step, signals);
   if (implicit_)
-    if (const auto element = implicit_->step(dynamics_, state_, signals(step, 0)))
+    if (const auto element = implicit_step(step, signals))
       return Breakdown{step, *element, "Newton's iteration finds no state"};
   ++step_count_;
   std::vector<T>& reached = method_.is_in_place() ? trial_ : state_;
@@ -152,6 +153,74 @@ void Oracle<T>::runge_kutta_step(long step, const SignalSource& signals) {
   const T h = T(dt_);
   find_slopes(h, [&](std::size_t stage) { return signals(step, int(stage)); });
   for (std::size_t n = 0; n < state_.size(); ++n) state_[n] = moved(slopes_.size(), n, h);
+}
+
+template <class T>
+std::optional<std::size_t> Oracle<T>::implicit_step(long step, const SignalSource& signals) {
+  switch (method_.family) {
+  case Method::Family::diagonally_implicit:
+    return diagonally_implicit_step(step, signals);
+  case Method::Family::generalized_alpha:
+    return generalized_alpha_step(step, signals);
+  default:
+    return implicit_->step(dynamics_, state_, signals(step, 0));
+  }
+}
+
+/// Makes the last slope that of the present state, unless the last step did so.
+template <class T>
+void Oracle<T>::start_rate(std::span<const double> signals) {
+  if (!has_rate_) dynamics_.rates(state_, signals, slopes_.back());
+  has_rate_ = true;
+}
+
+template <class T>
+std::optional<std::size_t> Oracle<T>::diagonally_implicit_step(long step,
+                                                               const SignalSource& signals) {
+  const T h = T(dt_);
+  const bool is_first_explicit = method_.beta[0] == 0;
+  if (is_first_explicit) {
+    start_rate(signals(step, 0));
+    slopes_[0] = slopes_.back();
+  }
+  std::vector<T> reached(state_.size());
+  for (std::size_t s = is_first_explicit ? 1 : 0; s < slopes_.size(); ++s) {
+    for (std::size_t n = 0; n < state_.size(); ++n) {
+      T slope = 0;
+      for (std::size_t m = 0; m < s; ++m) slope += T(method_.alpha[s][m]) * slopes_[m][n];
+      trial_[n] = state_[n] + h * slope;
+    }
+    if (const auto element =
+            implicit_->stage(dynamics_, trial_, signals(step, int(s)), reached, slopes_[s])) {
+      has_rate_ = false;
+      return element;
+    }
+  }
+  state_ = reached;
+  return std::nullopt;
+}
+
+/// The stage Y = y_n + node (y_{n+1} - y_n) with the new rate eliminated.
+template <class T>
+std::optional<std::size_t> Oracle<T>::generalized_alpha_step(long step,
+                                                             const SignalSource& signals) {
+  const T h = T(dt_), node = T(method_.node[1]), a = T(method_.rate_share),
+          g = T(method_.rate_weight());
+  start_rate(signals(step, 0));
+  std::vector<T>& rate = slopes_.back();
+  for (std::size_t n = 0; n < state_.size(); ++n)
+    trial_[n] = state_[n] + node * h * (T(1) - g - g * (T(1) - a) / a) * rate[n];
+  std::vector<T> reached(state_.size()), slope(state_.size());
+  if (const auto element = implicit_->stage(dynamics_, trial_, signals(step, 1), reached, slope)) {
+    has_rate_ = false;
+    return element;
+  }
+  for (std::size_t n = 0; n < state_.size(); ++n) {
+    const T next = (slope[n] - (T(1) - a) * rate[n]) / a;
+    state_[n] += h * ((T(1) - g) * rate[n] + g * next);
+    rate[n] = next;
+  }
+  return std::nullopt;
 }
 
 template <class T>
@@ -239,14 +308,23 @@ void Oracle<T>::finish_leapfrog(std::span<const double> signals) {
 }
 
 /// Restarts coordinates that are near their singularity. Only between steps, because the stages of
-/// a step share the bases.
+/// a step share the bases. A rate that the method keeps differs from that of the state by O(h). The
+/// difference is carried over to the new coordinates.
 template <class T>
 void Oracle<T>::reframe(std::vector<T>& state) {
-  if (!dynamics_.coordinates().has_bases()) return;
+  auto& coordinates = dynamics_.coordinates();
+  if (!coordinates.has_bases()) return;
   for (std::size_t e = 0; e < dynamics_.element_count(); ++e) {
-    auto c = reference::orientation_fields(&state[e * field_count]);
-    dynamics_.coordinates().reframe(e, c);
-    reference::set_orientation_fields(&state[e * field_count], c);
+    T* y = &state[e * field_count];
+    auto c = reference::orientation_fields(y);
+    const reference::Vector<T> w = {y[wx], y[wy], y[wz]}, before = coordinates.rate(c, w).v;
+    coordinates.reframe(e, c);
+    reference::set_orientation_fields(y, c);
+    if (!has_rate_) continue;
+    T* kept = &slopes_.back()[e * field_count];
+    auto rate = reference::orientation_fields(kept);
+    rate.v += coordinates.rate(c, w).v - before;
+    reference::set_orientation_fields(kept, rate);
   }
 }
 

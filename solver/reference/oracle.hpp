@@ -80,6 +80,11 @@ private:
   template <class Signals>
   void find_slopes(T h, const Signals& signals_of);
   void runge_kutta_step(long step, const SignalSource& signals);
+  /// A step of an implicit method. @return the element of a Breakdown
+  std::optional<std::size_t> implicit_step(long step, const SignalSource& signals);
+  std::optional<std::size_t> diagonally_implicit_step(long step, const SignalSource& signals);
+  std::optional<std::size_t> generalized_alpha_step(long step, const SignalSource& signals);
+  void start_rate(std::span<const double> signals);
   void start_leapfrog(std::span<const double> signals);
   void leapfrog_step(long step, const SignalSource& signals);
   void finish_leapfrog(std::span<const double> signals);
@@ -93,12 +98,14 @@ private:
   long step_count_ = 0;
   std::vector<T> state_; ///< y_n
   std::vector<double> signal_row_;
-  /// Runge-Kutta: k_1, k_2, ...; leapfrog: the derivative.
+  /// Runge-Kutta: k_1, k_2, ...; diagonally implicit: k_0, ...; generalized alpha: the kept rate;
+  /// leapfrog: the derivative.
   std::vector<std::vector<T>> slopes_;
   std::vector<T> trial_;     ///< state of a stage; leapfrog: (x_n, p_n)
   std::vector<T> half_step_; ///< leapfrog: velocities at n - 1/2, six an element
   bool is_leapfrog_started_ = false;
-  std::unique_ptr<reference::ImplicitMidpoint<T>> implicit_; ///< only for that method
+  std::unique_ptr<reference::ImplicitMidpoint<T>> implicit_; ///< only for implicit methods
+  bool has_rate_ = false; ///< the first slope, or the rate, of the next step is known
   /// Butcher table: row s gives Y_s = y + h sum_j weights[s][j] k_j; the last row gives the step.
   std::vector<std::vector<T>> weights_;
 };
