@@ -42,8 +42,8 @@ endfunction()
 #   ISA      folder of variants/isa whose packs are used (default: scalar); without SOURCES the
 #            module consists of the row engine (variants/engine)
 #   MARCH    as in the compiler's -march=; without it, that of ISA
-#   BY_NAME  auto never chooses it, because it computes by other variants or on devices; the module
-#            itself tells whether it can run
+#   BY_NAME  auto never chooses it, because it computes by other variants, on devices or by other
+#            methods; the module itself tells whether it can run
 #   NEEDS    CPU features that are checked before the module is opened; those that MARCH and -m...
 #            in OPTIONS let the compiler use are added
 function(dss_add_variant name)

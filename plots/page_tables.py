@@ -239,8 +239,37 @@ def problem_table(results, problem):
     return [grids["refined"].iloc[0], "elements", *names], lines
 
 
+def implicit_table(results):
+    """The cheapest explicit and the cheapest implicit run within a tolerance.
+
+    What comes before the steps (factors, rows) counts too.
+    """
+    frame = results.table("implicit", "scene", "set", "variant", "integrator", "steps",
+                          "error_max", "measured_wall_s", "first_step_s", "status")
+    frame = frame[frame["status"] == "ok"].copy()
+    frame["whole_s"] = frame["measured_wall_s"] + frame["first_step_s"]
+    lines = []
+    for (scene, size), rows in frame.groupby(["scene", "set"], sort=False):
+        for tolerance in (1e-2, 1e-3):
+            within = rows[rows["error_max"] <= tolerance].sort_values("whole_s")
+            is_implicit = within["variant"] == "sparse"
+            cheapest = [part.iloc[0] for part in (within[~is_implicit], within[is_implicit])
+                        if len(part)]
+            if len(cheapest) < 2:
+                continue
+            runs = [f"`{row['integrator']}`, {int(row['steps'])} steps: "
+                    f"{row['first_step_s']:.2g} + {row['measured_wall_s']:.2g} s"
+                    for row in cheapest]
+            ratio = cheapest[0]["whole_s"] / cheapest[1]["whole_s"]
+            lines.append([f"`{scene.split('/')[-1]}` {size}", f"{tolerance:.0e}", *runs,
+                          f"{ratio:.2g}"])
+    return ["scene", "error at most", "cheapest explicit run: start + steps",
+            "cheapest implicit run: start + steps", "explicit over implicit"], lines
+
+
 TABLES = {"chain": chain_table, "continuum": continuum_table, "first": first_table,
           "geometry": geometry_table, "goals": goals_table, "gpu": gpu_table,
-          "machine": machine_table, "mix": mix_table, "models": models_table,
-          "networks": network_table, "problem": problem_table, "schedules": schedules_table,
-          "sizes": sizes_table, "statics": statics_table, "verification": verification_table}
+          "implicit": implicit_table, "machine": machine_table, "mix": mix_table,
+          "models": models_table, "networks": network_table, "problem": problem_table,
+          "schedules": schedules_table, "sizes": sizes_table, "statics": statics_table,
+          "verification": verification_table}

@@ -78,7 +78,7 @@ Listing method_listing() {
                     {"real limit", fmt::format("{:.4g}", method->real_limit)},
                     {"symplectic", method->is_symplectic ? "yes" : "no"},
                     {"energy", method->keeps_energy_bounded ? "bounded" : "drifts"},
-                    {"variants", method->is_implicit() ? "reference" : "all"},
+                    {"variants", method->is_implicit() ? "reference, sparse" : "all but sparse"},
                     {"note", std::string(method->note)}});
   return list;
 }

@@ -57,10 +57,12 @@ bool is_threaded(const VariantStatus& status) {
   return status.is_usable() && load_variant(status.name).is_threaded;
 }
 
-/// True if a variant can compute a part, or cannot be opened. Variants with all features are the
-/// oracle's loop, which computes whole problems only.
+/// True if a variant can compute a part, or cannot be opened. Those with implicit methods compute
+/// whole problems only.
 bool can_distribute(const VariantStatus& status) {
-  return !status.is_usable() || !load_variant(status.name).has_all;
+  if (!status.is_usable()) return true;
+  const Plugin& plugin = load_variant(status.name);
+  return !plugin.has_all && !plugin.is_implicit;
 }
 
 /// Problems that grow with the ranks. A parameter is multiplied by ranks^(1 / power). The number of

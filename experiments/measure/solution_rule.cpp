@@ -1,4 +1,5 @@
 #include "experiments/measure/solution_rule.hpp"
+#include "experiments/measure/study_names.hpp"
 #include "solver/numerics/method.hpp"
 
 namespace dss {
@@ -8,6 +9,14 @@ SolutionRule read_solution_rule(ObjectNode& object) {
   const auto node = object.find("solution");
   if (!node) return rule;
   ObjectNode solution(*node);
+  if (const auto variant = solution.find("variant")) {
+    rule.variant = variant->text();
+    if (rule.variant != "auto") known_variant(rule.variant, *variant);
+  }
+  if (const auto model = solution.find("model")) {
+    rule.model = model_in(*model);
+    if (rule.variant.empty()) model->fail("only a variant has models; give \"variant\" too");
+  }
   if (const auto integrator = solution.find("integrator"))
     rule.integrator = integrator->known_name("integrator", method_names());
   rule.tolerance = solution.positive_or("tolerance", rule.tolerance);

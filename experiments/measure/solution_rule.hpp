@@ -8,7 +8,8 @@
 
 namespace dss {
 
-/// Reads "solution": {"integrator", "tolerance", "most_steps"}; each key may be absent.
+/// Reads "solution": {"variant", "model", "integrator", "tolerance", "most_steps"}; each key may be
+/// absent.
 /// @throws InputError with the place
 SolutionRule read_solution_rule(ObjectNode& object);
 

@@ -214,7 +214,7 @@ class Errors(ProgramTest):
             entry["variant"]
             for entry in json.loads(dssbench("list", "variants", "--json").stdout)
             if entry["status"] == "usable"
-            and entry["variant"] not in ("mpi", "hybrid", "opencl", "opencl-rhs")
+            and entry["variant"] not in ("mpi", "hybrid", "opencl", "opencl-rhs", "sparse")
         ]
         known = json.loads(
             dssbench("stability", "two_elements", "--predict", "--integrator", "all", "--json",

@@ -61,6 +61,23 @@ TEST_F(Pair, ASolutionIsAsCloseToTheClosedFormAsItSays) {
   }
 }
 
+TEST_F(Pair, AVariantFindsTheSameSolution) {
+  SolutionRule rule{"rk4", 1e-9, 1e6};
+  rule.variant = "auto";
+  const Solution solution = find_solution(scene.problem, *find_method("rk4"), rule, times, {});
+  EXPECT_LE(solution.error, 1e-9);
+  EXPECT_LT(largest_error(solution.states), std::max(3 * solution.error, 1e-12));
+  EXPECT_NE(rule.key(), SolutionRule({"rk4", 1e-9, 1e6}).key());
+}
+
+TEST_F(Pair, ASolutionIsRefusedToAVariantThatDoesNotSuffice) {
+  SolutionRule rule{"newmark", 1e-6, 1e6};
+  rule.variant = "scalar";
+  EXPECT_THROW(find_solution(scene.problem, *find_method("newmark"), rule, times, {}), InputError);
+  rule = {"rk4", 1e-6, 1e6, "auto", Model::bending};
+  EXPECT_THROW(find_solution(scene.problem, *find_method("rk4"), rule, times, {}), InputError);
+}
+
 TEST_F(Pair, ASolutionStopsAtItsMostStepsAndSaysHowFarItCame) {
   const Solution solution =
       find_solution(scene.problem, *find_method("rk4"), {"rk4", 1e-16, 500}, times, {});

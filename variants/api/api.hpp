@@ -90,9 +90,10 @@ struct Plugin {
   /// Measures a device, which is named as for --device.
   DeviceCeilings (*ceilings)(const std::string& device) = nullptr;
   bool is_compensated = true; ///< has Precision::f32c
-  /// Has implicit methods and every Rotation too. Other variants have explicit methods and
-  /// quaternions.
+  /// Has all methods and every Rotation. Other variants have quaternions, and the explicit methods
+  /// or, with is_implicit, the implicit ones.
   bool has_all = false;
+  bool is_implicit = false;        ///< has the implicit methods and f64 alone
   bool has_pressure = false;       ///< computes elements with a pressure (Problem::has_pressure)
   bool has_rotating_frame = false; ///< computes in one (Problem::has_rotating_frame)
   bool has_mass_ratios = false;    ///< elements may differ in mass (Problem::has_mass_ratios)
@@ -107,7 +108,7 @@ struct Plugin {
 
 /// Raise this with every change of Plugin, Executor or a type that they receive (Method, Problem,
 /// Model).
-constexpr int plugin_abi = 18;
+constexpr int plugin_abi = 19;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

@@ -135,7 +135,8 @@ std::string module_path(const VariantStatus& variant) {
 std::vector<std::string> usable_variants() {
   std::vector<std::string> names;
   for (const VariantStatus& variant : asked_variants())
-    if (variant.is_usable()) names.push_back(variant.name);
+    if (variant.is_usable() && !load_variant(variant.name).is_implicit)
+      names.push_back(variant.name);
   return names;
 }
 

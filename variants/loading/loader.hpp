@@ -34,7 +34,7 @@ std::vector<VariantStatus> listed_variants();
 /// Path of a variant's module, whether or not the file exists: beside the program if that is
 /// installed, else in the build tree. An outside variant has its own path.
 std::string module_path(const VariantStatus& variant);
-/// Names of the variants that can run here (asked_variants).
+/// Names of the variants with explicit methods that can run here (asked_variants).
 std::vector<std::string> usable_variants();
 
 /// Opens a variant. The result stays valid until the program ends.

@@ -31,7 +31,6 @@ std::string why_not_bounded(const Problem& problem, Model model, double toleranc
 } // namespace
 
 std::string why_no_watch(const Method& method) {
-  // implicit methods run on the oracle, which gives no access between its steps
   return method.is_implicit() ? "its method is implicit" : "";
 }
 

@@ -35,7 +35,8 @@ struct ModelChoice {
 ModelChoice choose_model(const Problem& problem, double tolerance,
                          const std::string& no_watch = {});
 
-/// Reason why runs of the method cannot be watched; empty if they can.
+/// Reason why runs of the method cannot be watched; empty if they can. Promotions of implicit
+/// methods are not built.
 std::string why_no_watch(const Method& method);
 
 /// One line that says why the model is proven exact for the problem. Requires that `why_not_exact`

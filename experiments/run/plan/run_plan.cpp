@@ -253,22 +253,6 @@ void require_outputs_writable(const RunRequest& request) {
     if (!path.empty()) require_writable(path);
 }
 
-std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Precision precision,
-                               const Method& method, Rotation rotation) {
-  if (const char* const missing = missing_term(plugin, problem)) return Lack{problem.name, missing};
-  if (precision == Precision::f32c && !plugin.is_compensated)
-    return Lack{"--precision f32c", "has f64 and f32 alone"};
-  if (plugin.rotation != Rotation::quaternion && rotation != plugin.rotation)
-    return Lack{fmt::format("--rotation {}", name(rotation)),
-                fmt::format("has {} alone", name(plugin.rotation))};
-  if (plugin.has_all) return {};
-  if (method.is_implicit())
-    return Lack{fmt::format("--integrator {}", method.name), "has the explicit methods alone"};
-  if (rotation != Rotation::quaternion)
-    return Lack{fmt::format("--rotation {}", name(rotation)), "has quaternions alone"};
-  return {};
-}
-
 Precision require_precision_name(const std::string& name) {
   if (const auto precision = find_precision(name)) return *precision;
   throw InputError(fmt::format("--precision {}: unknown precision; {}", name,
@@ -372,9 +356,8 @@ RunPlan plan_run(const RunRequest& request) {
   require_devices(request, plan);
   if (const auto lack =
           what_lacks(*plan.plugin, problem, plan.precision, *plan.method, plan.rotation))
-    throw InputError(
-        fmt::format("{}: variant {} {}; give {}", lack->asked_by, plan.plugin->name, lack->what,
-                    plan.plugin->has_all ? "another --variant" : "--variant reference"));
+    throw InputError(fmt::format("{}: variant {} {}; give {}", lack->asked_by, plan.plugin->name,
+                                 lack->what, lack->remedy));
   require_sensible(request, plan);
   if (const std::string why = why_series_too_short(problem, double(plan.steps) * plan.dt);
       !why.empty())

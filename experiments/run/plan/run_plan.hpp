@@ -2,6 +2,7 @@
 /// Turns a request into a plan. All mistakes in the request are found here, before anything is
 /// computed.
 #include "experiments/run/model/model_choice.hpp"
+#include "experiments/run/plan/lack.hpp"
 #include "experiments/run/plan/probe.hpp"
 #include "experiments/run/plan/run_request.hpp"
 #include "experiments/run/state/oracle_state.hpp"
@@ -47,15 +48,6 @@ RunPlan plan_run(const RunRequest& request);
 
 /// Requires that the files of a request can be written. @throws InputError
 void require_outputs_writable(const RunRequest& request);
-
-/// A feature that a variant does not have but the run needs.
-struct Lack {
-  std::string asked_by; ///< "--rotation tait_bryan", or the name of the scene
-  std::string what;     ///< what the variant has instead: "has quaternions alone"
-};
-/// Finds the first feature that `plugin` does not have; empty if it has all.
-std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Precision precision,
-                               const Method& method, Rotation rotation);
 
 /// Finds a precision by name. @throws InputError with the nearest known name
 Precision require_precision_name(const std::string& name);

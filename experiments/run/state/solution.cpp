@@ -1,8 +1,15 @@
 #include "experiments/run/state/solution.hpp"
+#include "experiments/run/plan/lack.hpp"
 #include "experiments/run/state/accuracy.hpp"
+#include "experiments/run/state/state_access.hpp"
 #include "experiments/run/state/state_file.hpp"
+#include "solver/cores.hpp"
+#include "solver/error.hpp"
+#include "solver/model/sufficiency/sufficiency.hpp"
+#include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
+#include "variants/loading/loader.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,17 +36,26 @@ States extrapolated(const States& coarse, const States& fine, int order) {
 }
 
 /// Makes three runs, each with twice the steps of the one before, and extrapolates them.
-Solution solution_of_three(const Problem& problem, const Method& method, const SavedTimes& times,
-                           long steps_between) {
+Solution solution_of_three(const Problem& problem, const Method& method, const SolutionRule& rule,
+                           const SavedTimes& times, long steps_between) {
   std::array<States, 3> runs;
   for (std::size_t r = 0; r < runs.size(); ++r)
-    runs[r] = oracle_states(problem, method, times, steps_between << r);
+    runs[r] = rule.variant.empty()
+                  ? oracle_states(problem, method, times, steps_between << r)
+                  : variant_states(problem, method, rule, times, steps_between << r);
   Solution solution{"", times, 0, times.interval() / double(steps_between << 2), {}};
   solution.states = extrapolated(runs[1], runs[2], method.order);
   const States coarser = extrapolated(runs[0], runs[1], method.order);
   solution.error =
       accuracy_of(problem, solution.states, coarser).max / (std::exp2(method.order + 1) - 1);
   return solution;
+}
+
+[[noreturn]] void fail_not_finite(const Problem& problem, const Method& method,
+                                  std::string_view who, double dt, double t, std::size_t element) {
+  throw UnstableError(
+      fmt::format("{}: {} ({}, dt = {:g} s) is not finite after t = {:g} s, element {}",
+                  problem.name, who, method.name, dt, t, element));
 }
 
 } // namespace
@@ -53,11 +69,52 @@ std::vector<std::vector<double>> oracle_states(const Problem& problem, const Met
   std::vector<std::vector<double>> states;
   for (long k = 0; k < times.count; ++k) {
     if (const auto breakdown = oracle.advance(steps_between))
-      throw UnstableError(fmt::format(
-          "{}: the oracle ({}, dt = {:g} s) is not finite after t = {:g} s, element {}",
-          problem.name, method.name, dt, double(k) * times.interval(), breakdown->element));
+      fail_not_finite(problem, method, "the oracle", dt, double(k) * times.interval(),
+                      breakdown->element);
     oracle.read(state);
     states.push_back(state);
+  }
+  return states;
+}
+
+std::string SolutionRule::key() const {
+  return fmt::format("{} to {:g}{}", integrator, tolerance,
+                     variant.empty() ? "" : fmt::format(" by {} {}", variant, name(model)));
+}
+
+/// @throws InputError if the variant, or the model, does not suffice
+static const Plugin& sufficient_variant(const Problem& problem, const Method& method,
+                                        const SolutionRule& rule) {
+  const Plugin& plugin = load_variant(rule.variant);
+  if (const auto lack = what_lacks(plugin, problem, Precision::f64, method, plugin.rotation))
+    throw InputError(fmt::format("solution: {}: variant {} {}; give another one", lack->asked_by,
+                                 plugin.name, lack->what));
+  if (const std::string why = why_not(rule.model, problem); !why.empty())
+    throw InputError(
+        fmt::format("solution: model {}: {}: {}", name(rule.model), problem.name, why));
+  return plugin;
+}
+
+std::vector<std::vector<double>> variant_states(const Problem& problem, const Method& method,
+                                                const SolutionRule& rule, const SavedTimes& times,
+                                                long steps_between) {
+  constexpr long most_rows = 256; // of signals at once
+  const double dt = times.interval() / double(steps_between);
+  const Plugin& plugin = sufficient_variant(problem, method, rule);
+  const auto executor = plugin.create(
+      {problem, method, rule.model, Precision::f64, dt, plugin.is_threaded ? usable_cores() : 1});
+  write_initial_state(*executor, problem);
+  std::vector<std::vector<double>> states;
+  for (long k = 0, step = 0; k < times.count; ++k) {
+    while (step < (k + 1) * steps_between) {
+      const long steps = std::min(most_rows, (k + 1) * steps_between - step);
+      const Outcome outcome =
+          executor->advance(steps, signal_rows(problem, method, dt, step, steps));
+      if (!outcome.is_finite)
+        fail_not_finite(problem, method, plugin.name, dt, double(step) * dt, outcome.element);
+      step += steps;
+    }
+    states.push_back(whole_state(*executor, problem.lattice.element_count));
   }
   return states;
 }
@@ -70,7 +127,7 @@ Solution find_solution(const Problem& problem, const Method& method, const Solut
   const auto steps_of_finest = [&](long steps) { return 4 * steps * times.count; };
   long steps = times.steps_between(std::min(first_part_of_limit * limit.dt, times.interval()));
   while (true) {
-    const Solution solution = solution_of_three(problem, method, times, steps);
+    const Solution solution = solution_of_three(problem, method, rule, times, steps);
     if (note)
       note(fmt::format("solution of {}: {} steps of {:.3g} s, estimated error {:.1e}", problem.name,
                        steps_of_finest(steps), solution.dt, solution.error));

@@ -64,15 +64,20 @@ private:
     return signals;
   }
 
+  static const std::vector<Method>& methods_of(const Plugin& plugin) {
+    return plugin.is_implicit ? implicit_methods() : methods();
+  }
+
   /// Methods that are verified. All methods: in double precision, on variants with kernels of their
-  /// own or with all features, for the common models. Otherwise only the brief ones: devices would
-  /// compile for long, and other precisions have the same coefficients.
+  /// own or with all features, for the common models; on variants with implicit methods. Otherwise
+  /// only the brief ones: devices would compile for long, and other precisions have the same
+  /// coefficients.
   std::vector<const Method*> verified_methods(const Plugin& plugin) const {
     std::vector<const Method*> chosen;
-    for (const Method& method : methods())
+    for (const Method& method : methods_of(plugin))
       if ((precision_ == Precision::f64 && (plugin.kernels != nullptr || plugin.has_all) &&
            is_common()) ||
-          is_brief(method))
+          plugin.is_implicit || is_brief(method))
         chosen.push_back(&method);
     return chosen;
   }
@@ -96,12 +101,13 @@ private:
   std::string why_skipped(const Plugin& plugin) const {
     try {
       if (const auto lack =
-              what_lacks(plugin, problem_, precision_, methods().front(), plugin.rotation))
+              what_lacks(plugin, problem_, precision_, methods_of(plugin).front(), plugin.rotation))
         return lack->what;
       if (precision_ == Precision::f32c && plugin.devices != nullptr)
         return "left to tests/equivalence: programs of their own for every scene take minutes to "
                "compile";
-      if (!is_common() && plugin.kernels == nullptr && !plugin.has_all && !is_outside(plugin))
+      if (!is_common() && plugin.kernels == nullptr && !plugin.has_all && !plugin.is_implicit &&
+          !is_outside(plugin))
         return "left to tests/equivalence: this variant computes by the kernels of others, or "
                "compiles them for every "
                "scene";
@@ -151,7 +157,8 @@ private:
   }
 
   void evaluation(const Plugin& plugin) {
-    const auto executor = plugin.create(setup_of(plugin, methods().front(), problem_.dt, 1));
+    const auto executor =
+        plugin.create(setup_of(plugin, methods_of(plugin).front(), problem_.dt, 1));
     executor->write(0, random_);
     std::vector<double> rates(random_.size(), std::numeric_limits<double>::quiet_NaN());
     executor->derivative(first_signals(), rates);

@@ -33,9 +33,9 @@ Solution kept_solution(const AdviseStudy& study, const AdviseStudy::Case& of,
                        const std::string& directory,
                        const std::function<void(const std::string&)>& note) {
   const SolutionRule& rule = study.solution;
-  const std::string key = fmt::format(
-      "advise {} {} {}, {} times to {:.17g} s, {} to {:g}", of.scene, set_text(of.set),
-      scene_digest(of.loaded), of.times.count, of.times.end, rule.integrator, rule.tolerance);
+  const std::string key =
+      fmt::format("advise {} {} {}, {} times to {:.17g} s, {}", of.scene, set_text(of.set),
+                  scene_digest(of.loaded), of.times.count, of.times.end, rule.key());
   const std::string path =
       fmt::format("{}/{:016x}.solution", directory, std::hash<std::string>{}(key));
   if (std::filesystem::exists(path))

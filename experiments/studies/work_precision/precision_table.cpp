@@ -53,7 +53,8 @@ std::vector<std::string> columns() {
                                   "measured_wall_low_s",
                                   "measured_wall_high_s",
                                   "half_width",
-                                  "converged"};
+                                  "converged",
+                                  "first_step_s"};
   all.insert(all.end(), error_columns().begin(), error_columns().end());
   all.insert(all.end(), {"below_reference", "pareto", "state_digest", "status", "reason"});
   return all;
@@ -71,6 +72,7 @@ void put_point(const Cell& cell, const SavedTimes& times, const CellSample* samp
     const std::string text = sample == nullptr ? "" : text_in(sample->last, column);
     return text.empty() ? otherwise : text;
   };
+  row["first_step_s"] = recorded("first_step_s", "");
   row["order"] = fmt::format("{}", method->order);
   row["stages"] = recorded("stages", fmt::format("{}", method->stages));
   if (cell.rtol > 0) {

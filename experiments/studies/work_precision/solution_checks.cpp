@@ -11,8 +11,8 @@ std::vector<std::string> SolutionChecks::options(const Cell& cell, long) {
   const CellAccuracy& of = study_.accuracy_of(cell);
   const Scene scene = load_scene(cell.scene, cell.set);
   const std::string key =
-      fmt::format("{} {} at {} times to {:.17g} s, {} to {:g}", cell.scene, scene_key(cell, scene),
-                  of.times.count, of.times.end, rule.integrator, rule.tolerance);
+      fmt::format("{} {} at {} times to {:.17g} s, {}", cell.scene, scene_key(cell, scene),
+                  of.times.count, of.times.end, rule.key());
   const auto make = [&](const std::string& path) {
     Solution solution =
         find_solution(scene.problem, require_method(rule.integrator), rule, of.times, note_);

@@ -1,0 +1,47 @@
+"""The variant `sparse` by the command line."""
+import json
+import unittest
+
+from program import ProgramTest, dssbench
+
+PLATE = ("run", "plate_paper", "--set", "n=10", "--steps", "40", "--variant", "sparse")
+
+
+class Sparse(ProgramTest):
+    def record(self, *arguments):
+        result = dssbench(*arguments, "--json", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_it_runs_each_implicit_method_beyond_the_limit_of_explicit_ones(self):
+        for method in ("newmark", "generalized_alpha", "implicit_midpoint", "sdirk4"):
+            record = self.record(*PLATE, "--model", "membrane", "--integrator", method, "--dt",
+                                 "1e-5")
+            self.assertEqual((record["variant"], record["status"]), ("sparse", "ok"))
+            self.assertIn("sparse factors: ", record["schedule"])
+            other = self.record("run", "plate_paper", "--set", "n=10", "--steps", "40", "--model",
+                                "membrane", "--variant", "reference", "--integrator", method,
+                                "--dt", "1e-5")
+            self.assertAlmostEqual(
+                record["max_displacement_m"] / other["max_displacement_m"], 1, delta=1e-9)
+
+    def test_what_it_does_not_compute_is_refused_in_a_line_that_says_what_would_do(self):
+        newmark = (*PLATE, "--integrator", "newmark", "--model", "membrane")
+        self.assert_refused(2, ["rk4", "implicit methods alone", "--integrator newmark"], *PLATE,
+                            "--model", "membrane")
+        self.assert_refused(2, ["f32", "f64 alone"], *newmark,
+                            "--precision", "f32")
+        self.assert_refused(2, ["--checkpoint", "sparse"], *newmark,
+                            "--checkpoint", self.path("c"))
+        self.assert_refused(2, ["--rtol", "newmark"], *newmark, "--rtol",
+                            "1e-6")
+
+    def test_other_variants_do_not_take_it_for_a_part(self):
+        result = dssbench("run", "plate_paper", "--set", "n=10", "--model", "membrane",
+                          "--hybrid", "sparse,avx2", "--steps", "4")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("variant sparse has whole problems", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
