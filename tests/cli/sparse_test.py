@@ -37,10 +37,10 @@ class Sparse(ProgramTest):
                             "1e-6")
 
     def test_other_variants_do_not_take_it_for_a_part(self):
-        result = dssbench("run", "plate_paper", "--set", "n=10", "--model", "membrane",
-                          "--hybrid", "sparse,avx2", "--steps", "4")
-        self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertIn("variant sparse has whole problems", result.stderr)
+        self.assert_refused(2, ["newmark", "variant mpi has the explicit methods alone", "sparse"],
+                            *PLATE, "--integrator", "newmark", "--ranks", "2")
+        self.assert_refused(2, ["sparse"], "run", "plate_paper", "--set", "n=10", "--steps", "4",
+                            "--hybrid", "sparse,scalar")
 
 
 if __name__ == "__main__":

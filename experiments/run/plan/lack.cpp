@@ -23,7 +23,7 @@ std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Pre
                 "--integrator newmark"};
   if (method.is_implicit() && !plugin.is_implicit)
     return Lack{fmt::format("--integrator {}", method.name), "has the explicit methods alone",
-                "--variant sparse or reference"};
+                "--variant reference or sparse"};
   if (rotation != Rotation::quaternion)
     return Lack{fmt::format("--rotation {}", name(rotation)), "has quaternions alone", other};
   return {};
