@@ -7,7 +7,7 @@
 namespace dss {
 
 bool is_brief(const Method& method) {
-  return method.name == "rk4" || method.name == "smoothed_verlet";
+  return method.name == "rk4" || method.name == "smoothed_verlet" || method.name == "newmark";
 }
 
 double verified_step(const Problem& problem, const Method& method) {

@@ -5,8 +5,8 @@
 
 namespace dss {
 
-/// True for the methods of brief checks: the paper's method, and the leapfrog method whose
-/// prediction has all its terms.
+/// True for the methods of brief checks: the paper's method, the leapfrog method whose prediction
+/// has all its terms, and an implicit method.
 bool is_brief(const Method& method);
 
 /// The scene's step, or a shorter one if the method needs it. A method without a stable step grows

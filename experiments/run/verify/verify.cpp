@@ -69,15 +69,15 @@ private:
   }
 
   /// Methods that are verified. All methods: in double precision, on variants with kernels of their
-  /// own or with all features, for the common models; on variants with implicit methods. Otherwise
-  /// only the brief ones: devices would compile for long, and other precisions have the same
-  /// coefficients.
+  /// own or with all features, for the common models. Otherwise only the brief ones: devices would
+  /// compile for long, the oracle solves the equations of implicit steps slowly, and other
+  /// precisions have the same coefficients.
   std::vector<const Method*> verified_methods(const Plugin& plugin) const {
     std::vector<const Method*> chosen;
     for (const Method& method : methods_of(plugin))
       if ((precision_ == Precision::f64 && (plugin.kernels != nullptr || plugin.has_all) &&
            is_common()) ||
-          plugin.is_implicit || is_brief(method))
+          is_brief(method))
         chosen.push_back(&method);
     return chosen;
   }
