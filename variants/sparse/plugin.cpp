@@ -33,8 +33,8 @@ std::unique_ptr<Stages> stages_of(const Setup& setup) {
 class SparseExecutor final : public Executor {
 public:
   explicit SparseExecutor(const Setup& setup)
-      : setup_(required(setup)), threads_(set_factor_threads(setup.threads)),
-        stages_(stages_of(setup)), step_(setup.method, setup.dt, *stages_) {
+      : setup_(required(setup)), stages_(stages_of(setup)),
+        step_(setup.method, setup.dt, *stages_) {
     const std::vector<double> rest(setup.problem.lattice.element_count * field_count, 0);
     stages_->write(0, rest, state_);
   }
@@ -64,7 +64,7 @@ public:
     return {true, steps, 0};
   }
   std::string schedule() const override { return stages_->text(); }
-  int workers() const override { return threads_; }
+  int workers() const override { return 1; }
   std::size_t bytes() const override {
     const auto columns = double(setup_.method.stages + 2);
     return std::size_t(stages_->bytes() + columns * sizeof(double) * double(state_.size()));
@@ -78,7 +78,6 @@ private:
   }
 
   const Setup setup_;
-  int threads_;
   std::unique_ptr<Stages> stages_;
   ImplicitStep step_;
   Stages::Vector state_;
@@ -92,7 +91,7 @@ constexpr Plugin plugin = {.abi = plugin_abi,
                            .name = DSS_VARIANT,
                            .isa = DSS_ISA,
                            .has_fma = false,
-                           .is_threaded = true,
+                           .is_threaded = false,
                            .is_distributed = false,
                            .create = create,
                            .kernels = nullptr,
