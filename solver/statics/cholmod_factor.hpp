@@ -35,7 +35,6 @@ public:
   /// Memory while a matrix is factorised, even if it is not positive definite; infinite if there is
   /// no factor.
   double bytes(const Matrix& lower) const;
-  bool has_order() const { return factor_ != nullptr; }
   bool is_cholesky() const { return factor_->is_super || factor_->is_ll; } ///< L L^T
   bool is_complete() const { return factor_->minor == factor_->n; }
   /// Unknown of each pivot.

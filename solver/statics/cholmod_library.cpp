@@ -67,6 +67,19 @@ const Opened& opened() {
   return library;
 }
 
+/// What the library's OpenMP allows. Null if it has none.
+struct OpenMp {
+  int (*get_levels)();
+  void (*set_levels)(int);
+};
+
+/// Found once, since every solution asks.
+const OpenMp& its_openmp() {
+  static const OpenMp found{opened().optional<int (*)()>("omp_get_max_active_levels"),
+                            opened().optional<void (*)(int)>("omp_set_max_active_levels")};
+  return found;
+}
+
 int threads = 1; ///< of the library and its BLAS
 
 CholmodLibrary load() {
@@ -111,15 +124,14 @@ int use_cholmod_threads(int count) {
 }
 
 CholmodLoops::CholmodLoops() {
-  const auto get = opened().optional<int (*)()>("omp_get_max_active_levels");
-  const auto set = opened().optional<void (*)(int)>("omp_set_max_active_levels");
-  if (threads > 1 || get == nullptr || set == nullptr) return;
-  levels_ = get();
-  set(0);
+  const OpenMp& openmp = its_openmp();
+  if (threads > 1 || openmp.get_levels == nullptr || openmp.set_levels == nullptr) return;
+  levels_ = openmp.get_levels();
+  openmp.set_levels(0);
 }
 
 CholmodLoops::~CholmodLoops() {
-  if (levels_ >= 0) opened().optional<void (*)(int)>("omp_set_max_active_levels")(levels_);
+  if (levels_ >= 0) its_openmp().set_levels(levels_);
 }
 
 } // namespace dss

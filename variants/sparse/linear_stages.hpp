@@ -21,8 +21,7 @@ public:
   /// Forgets what is held.
   void restart() { first_.clear(); }
   /// @param held  fields of all elements in the oracle's coordinates, free ones zero; the first
-  /// call
-  ///     after a restart counts
+  ///     call after a restart takes them
   /// @return valid until the next call
   const Eigen::VectorXd& at(std::span<const double> held, std::span<const double> signals);
 

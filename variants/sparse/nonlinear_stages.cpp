@@ -15,13 +15,12 @@ constexpr int most_iterations = 40;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// New factors pay if a correction is more than this fraction of the one before.
 constexpr double slow = 0.2;
-std::size_t first_not_finite(const Eigen::VectorXd& fields) {
-  Eigen::Index n = 0;
-  while (n + 1 < fields.size() && std::isfinite(fields[n])) ++n;
-  return std::size_t(n) / field_count;
-}
 
-std::size_t rate_field_of(std::size_t dof) { return dof % 6 < 3 ? vx + dof % 6 : wx + dof % 6 - 3; }
+/// Place of the rate of a degree of freedom (6 element + 0 .. 5) in a column of fields.
+Eigen::Index rate_place(std::size_t dof) {
+  const std::size_t axis = dof % 6;
+  return Eigen::Index(dof / 6 * field_count + (axis < 3 ? vx + axis : wx + axis - 3));
+}
 
 /// Whether what is left after a correction is below rounding: it is about ratio / (1 - ratio) times
 /// the correction if corrections fall by `ratio`. Or corrections fall no longer, and are rounding.
@@ -78,9 +77,7 @@ void NonlinearStages::place(const Vector& base) {
   reached_ = base;
   const FreeDofs& dofs = system_.dofs();
   for (Eigen::Index n = 0; n < dofs.size(); ++n) {
-    const std::size_t dof = dofs.dof[std::size_t(n)];
-    reached_[Eigen::Index(dof / 6 * field_count + rate_field_of(dof))] +=
-        share_ * accelerations_[n];
+    reached_[rate_place(dofs.dof[std::size_t(n)])] += share_ * accelerations_[n];
   }
   for (std::size_t e = 0; e < gyration_.size(); ++e) {
     double* own = reached_.data() + e * field_count;
@@ -134,7 +131,7 @@ bool NonlinearStages::iterate(const Vector& base, std::span<const double> signal
     place(base);
     find_slope(reached_, signals, slope);
     if (!slope.allFinite()) {
-      worst_ = first_not_finite(slope);
+      worst_ = element_of(first_not_finite(slope));
       return false;
     }
     if (!has_factors_) {
@@ -144,8 +141,7 @@ bool NonlinearStages::iterate(const Vector& base, std::span<const double> signal
     Vector missing(accelerations_.size());
     for (Eigen::Index n = 0; n < missing.size(); ++n) {
       const std::size_t dof = system_.dofs().dof[std::size_t(n)];
-      missing[n] =
-          slope[Eigen::Index(dof / 6 * field_count + rate_field_of(dof))] - accelerations_[n];
+      missing[n] = slope[rate_place(dof)] - accelerations_[n];
     }
     const Vector residual = mass_.selfadjointView<Eigen::Lower>() * missing;
     worst_ = largest_of(residual);
@@ -179,7 +175,7 @@ void NonlinearStages::finish(const Vector& base, Vector& slope) {
   }
   for (Eigen::Index n = 0; n < accelerations_.size(); ++n) {
     const std::size_t dof = system_.dofs().dof[std::size_t(n)];
-    slope[Eigen::Index(dof / 6 * field_count + rate_field_of(dof))] = accelerations_[n];
+    slope[rate_place(dof)] = accelerations_[n];
   }
 }
 

@@ -59,7 +59,8 @@ public:
       if (const auto element =
               step_.advance(state_, signals.subspan(std::size_t(step) * rows, rows)))
         return {false, step, *element, "Newton's iteration finds no state"};
-      if (!std::isfinite(state_.sum())) return {false, step, first_non_finite()};
+      if (!std::isfinite(state_.sum()))
+        return {false, step, stages_->element_of(first_not_finite(state_))};
     }
     return {true, steps, 0};
   }
@@ -71,12 +72,6 @@ public:
   }
 
 private:
-  std::size_t first_non_finite() const {
-    Eigen::Index n = 0;
-    while (n + 1 < state_.size() && std::isfinite(state_[n])) ++n;
-    return stages_->element_of(n);
-  }
-
   const Setup setup_;
   std::unique_ptr<Stages> stages_;
   ImplicitStep step_;

@@ -2,12 +2,20 @@
 /// Equations of implicit stages.
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 
 namespace dss {
+
+/// The first number that is not finite; the last number if all are.
+inline Eigen::Index first_not_finite(const Eigen::VectorXd& numbers) {
+  Eigen::Index n = 0;
+  while (n + 1 < numbers.size() && std::isfinite(numbers[n])) ++n;
+  return n;
+}
 
 /// The equations Y = Y* + s f(t, Y) of a problem, s being a fixed share of the step. States and
 /// slopes f are columns of numbers, whose meaning a derived class knows.
