@@ -9,9 +9,9 @@ from program import dssbench, why_no_variant
 from runs import RunTest, members_of
 
 # Five members of a bracket, of two lengths; the last one has another step.
-SETS = [{}, {"loads/0/force/2": -300}, {"run.steps": 500}, {"bodies/0/constants/rho": 1800},
+SETS = [{}, {"loads/0/force/2": -300}, {"run.steps": 200}, {"bodies/0/constants/rho": 1800},
         {"run.dt": 1e-7}]
-BRACKET = ("l_bracket", "--model", "spatial", "--set", "run.steps=600")
+BRACKET = ("l_bracket", "--model", "spatial", "--set", "run.steps=240")
 
 
 def digests(record):
@@ -23,7 +23,7 @@ class SavedEnsembles(RunTest):
         super().setUp()
         self.of = (*BRACKET, "--ensemble", self.members(*SETS))
 
-    def save(self, *arguments, every=550, code=0):
+    def save(self, *arguments, every=220, code=0):
         return super().save(*arguments, every=every, code=code)
 
     def test_members_go_on_elsewhere_with_the_bits_of_the_whole(self):
@@ -38,11 +38,11 @@ class SavedEnsembles(RunTest):
             whole = self.save(*run)
             standing = self.head("c.ckpt.previous")["standing"]
             self.assertEqual({(own["step"], own["is_done"]) for own in standing},
-                             {(500, True), (550, False)})
+                             {(200, True), (220, False)})
             for place in places:
                 again = self.run_json(*run, *place, "--restart", "c.ckpt.previous")
                 self.assertEqual(digests(again), digests(whole), (method, place))
-                self.assertEqual(again["resumed_step"], 550)
+                self.assertEqual(again["resumed_step"], 220)
 
     def test_lanes_and_single_members_go_on_for_one_another(self):
         if why_no_variant("opencl") is not None:
@@ -84,7 +84,7 @@ class SavedEnsembles(RunTest):
                                  [m[key] for m in members_of(whole)], key)
         self.assertEqual(len(set(digests(whole))), 3)
         # A checkpoint of a run that went on from one has what a longer run needs.
-        sets = [{"run.steps": 700}] + sets[1:]
+        sets = [{"run.steps": 300}] + sets[1:]
         longer = (*BRACKET, "--ensemble", self.members(*sets), "--force")
         self.assertEqual(digests(self.run_json(*longer, "--restart", "c.ckpt.previous", code=3)),
                          digests(self.run_json(*longer, code=3)))

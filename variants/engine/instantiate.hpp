@@ -80,8 +80,7 @@ struct RowKernels {
   static constexpr bool has_pressed_functions =
       P::axes == 3 && P::is_common && kind == LaneKind::neighbours;
   static constexpr bool has_own_functions =
-      !has_plain_rows &&
-      (has_all_kernels ||
+      ((has_all_kernels && !has_plain_rows) ||
        (model == Model::spatial && kind == LaneKind::neighbours && !terms.is_full())) &&
       kind != LaneKind::filled && (!terms.has_pressure || has_pressed_functions) &&
       (is_single || is_ensemble ? P::is_common && !terms.is_full() : P::is_common || has_packs);

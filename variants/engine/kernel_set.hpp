@@ -31,15 +31,15 @@ inline constexpr std::array compiled_terms{
 };
 
 /// False with DSS_FEWER_KERNELS: only the models planar and spatial, whose rows are damped, or
-/// full. Of these, only spatial rows of single runs that are not full have functions of their own
-/// for actions.
+/// full.
 #ifdef DSS_FEWER_KERNELS
 inline constexpr bool has_all_kernels = false;
 #else
 inline constexpr bool has_all_kernels = true;
 #endif
 
-/// True with DSS_PLAIN_ROWS: no rows of this variant have functions of their own for actions.
+/// True with DSS_PLAIN_ROWS. Then, and with DSS_FEWER_KERNELS, only spatial rows of single runs that
+/// are not full have functions of their own for actions.
 #ifdef DSS_PLAIN_ROWS
 inline constexpr bool has_plain_rows = true;
 #else
