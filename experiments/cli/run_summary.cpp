@@ -109,6 +109,10 @@ void print_summary(const RunResult& result) {
                result.adaptive->rtol, result.adaptive->atol, result.steps, result.least_step_s,
                result.largest_step_s, result.rejected_steps, result.end_s);
   fmt::print("time to the first step {:.3g} s\n", result.first_step_s);
+  if (result.factors.count > 0)
+    fmt::print("{} factorisation{} in {:.3g} s, {:.3g} MB\n", result.factors.count,
+               result.factors.count == 1 ? "" : "s", result.factors.time_s,
+               1e-6 * result.factors.bytes);
   print_device(result);
   fmt::print("largest displacement {:.6g} m, energy {}, state {:016x}\n", result.max_displacement_m,
              result.energy_j ? fmt::format("{:.6g} J", *result.energy_j)

@@ -6,7 +6,7 @@
 #include "kernels/model.hpp"
 #include "solver/decomposition/decomposition.hpp"
 #include "solver/model/sufficiency/sufficiency.hpp"
-#include "solver/numerics/method.hpp"
+#include "solver/scene/method_name.hpp"
 #include "variants/api/distribution.hpp"
 #include "variants/loading/loader.hpp"
 
@@ -62,7 +62,7 @@ bool is_threaded(const VariantStatus& status) {
 bool can_distribute(const VariantStatus& status) {
   if (!status.is_usable()) return true;
   const Plugin& plugin = load_variant(status.name);
-  return !plugin.has_all && !plugin.is_implicit;
+  return !plugin.solves_equations();
 }
 
 /// Problems that grow with the ranks. A parameter is multiplied by ranks^(1 / power). The number of
@@ -144,7 +144,11 @@ Block read_block(ObjectNode& object, const Sets& scale_sets, const CellRules& ru
   block.models = object.known_names_or("models", "model", model_names(), {"spatial"});
   block.precisions =
       object.known_names_or("precisions", "precision", names_of("PRECISION"), {"f64"});
-  block.integrators = object.known_names_or("integrators", "integrator", method_names(), {"rk4"});
+  block.integrators = {"rk4"};
+  if (const auto integrators = object.find("integrators")) {
+    block.integrators.clear();
+    for (const Node& item : integrators->list()) block.integrators.push_back(method_name_in(item));
+  }
   read_ranks(object, rules.cores, block);
   block.members = {1};
   if (const auto ensemble = object.find("ensemble")) {

@@ -1,6 +1,6 @@
 #include "experiments/measure/solution_rule.hpp"
 #include "experiments/measure/study_names.hpp"
-#include "solver/numerics/method.hpp"
+#include "solver/scene/method_name.hpp"
 
 namespace dss {
 
@@ -18,7 +18,7 @@ SolutionRule read_solution_rule(ObjectNode& object) {
     if (rule.variant.empty()) model->fail("only a variant has models; give \"variant\" too");
   }
   if (const auto integrator = solution.find("integrator"))
-    rule.integrator = integrator->known_name("integrator", method_names());
+    rule.integrator = method_name_in(*integrator);
   rule.tolerance = solution.positive_or("tolerance", rule.tolerance);
   rule.most_steps = solution.positive_or("most_steps", rule.most_steps);
   solution.finish();

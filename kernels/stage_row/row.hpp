@@ -110,7 +110,7 @@ struct RowPressure {
 /// Neighbour rows are already aligned with it.
 template <class T>
 struct RowTask {
-  static constexpr int most_increments = 6;
+  static constexpr int most_increments = 10;
   row_action action = plain_stage;
   bool is_last = false; ///< last stage of a step: its velocities are checked
   int packs = 0;

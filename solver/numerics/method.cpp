@@ -1,41 +1,14 @@
-#include "solver/numerics/method.hpp"
+#include "solver/numerics/butcher_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dss {
 namespace {
 
 // Built on first use: methods() may be called before the static objects of this file exist.
-
-/// Times of the stages: the result of the table for y' = 1.
-std::vector<double> nodes_of(const std::vector<std::vector<double>>& alpha,
-                             const std::vector<double>& beta) {
-  std::vector<double> node{0};
-  for (std::size_t s = 0; s + 1 < beta.size(); ++s) {
-    double sum = beta[s];
-    for (std::size_t m = 1; m <= s; ++m) sum += alpha[s][m] * node[m];
-    node.push_back(sum);
-  }
-  return node;
-}
-
-/// Increment form of a Butcher table whose row s gives Y_{s+1} - y = h sum_j rows[s][j] k_j; the
-/// last row gives y_{n+1} - y. k_m is taken from Y_{m+1}, starting with the last m, so rows[s][s]
-/// must not be 0.
-void set_butcher(const std::vector<std::vector<double>>& rows, Method& method) {
-  for (std::size_t s = 0; s < rows.size(); ++s) {
-    std::vector<double> rest = rows[s], alpha(s + 1);
-    for (std::size_t m = s; m > 0; --m) {
-      alpha[m] = rest[m - 1] / rows[m - 1][m - 1];
-      for (std::size_t j = 0; j < m; ++j) rest[j] -= alpha[m] * rows[m - 1][j];
-    }
-    method.beta.push_back(rows[s][s]);
-    method.alpha.push_back(std::move(alpha));
-  }
-  method.node = nodes_of(method.alpha, method.beta);
-}
 
 /// Classical RK4 without a running sum (DESIGN.md section 3):
 ///   y1 = y + h/2 k1,  y2 = y + h/2 k2,  y3 = y + h k3
@@ -72,36 +45,6 @@ Method midpoint() {
           .keeps_energy_bounded = false,
           .note = "two force evaluations a step; an undamped mode grows by (h omega)^4 / 8 a step, "
                   "whatever the step"};
-}
-
-/// Method of Dormand and Prince, order 5 (J. Comput. Appl. Math. 6 (1980) 19-26; Hairer, Norsett,
-/// Wanner I, table II.5.2). The last row is the step.
-const std::vector<std::vector<double>>& dopri5_rows() {
-  static const std::vector<std::vector<double>> rows = {
-      {1. / 5},
-      {3. / 40, 9. / 40},
-      {44. / 45, -56. / 15, 32. / 9},
-      {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
-      {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
-      {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}};
-  return rows;
-}
-
-Method dopri5() {
-  Method method{.name = "dopri5",
-                .family = Method::Family::runge_kutta,
-                .order = 5,
-                .stages = 6,
-                .node = {},
-                .beta = {},
-                .alpha = {},
-                .imaginary_limit = 0.9971890106932,
-                .real_limit = 3.306567892634,
-                .is_symplectic = false,
-                .keeps_energy_bounded = false,
-                .note = "six force evaluations a step"};
-  set_butcher(dopri5_rows(), method);
-  return method;
 }
 
 Method symplectic_euler() {
@@ -226,28 +169,10 @@ Method generalized_alpha(double radius) {
           .imaginary_limit = infinity,
           .real_limit = infinity,
           .is_symplectic = false,
-          .keeps_energy_bounded = false,
+          .keeps_energy_bounded = radius == 1,
           .note = "one solution a step; any step is stable, and modes that it does not resolve "
-                  "lose a fifth of their amplitude in each",
+                  "keep a part of their amplitude in each: 0.8, or R of generalized_alpha:R",
           .rate_share = (3 - radius) / (2 * (1 + radius))};
-}
-
-// The seventh stage evaluates f at y_{n+1}. Its weights are those of table II.5.2 minus those of
-// the fourth-order method there.
-const Method& dopri5_adaptive() {
-  static const Method adaptive = [] {
-    Method method = dopri5();
-    std::vector<std::vector<double>> rows = dopri5_rows();
-    rows.push_back(
-        {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40});
-    method.stages = int(rows.size());
-    method.has_error_stage = true;
-    method.note = "seven force evaluations a step that is tried";
-    method.beta.clear(), method.alpha.clear();
-    set_butcher(rows, method);
-    return method;
-  }();
-  return adaptive;
 }
 
 // T_j are Chebyshev polynomials, w0 = 1 + epsilon / s^2, w1 = T_s'(w0) / T_s''(w0),
@@ -304,9 +229,13 @@ Method rkc2(int stages) {
 }
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all = {rk4(),      velocity_verlet(),  smoothed_verlet(),
-                                          midpoint(), symplectic_euler(), dopri5(),
-                                          rkc2(5)};
+  static const std::vector<Method> all = [] {
+    std::vector<Method> list = {rk4(), velocity_verlet(), smoothed_verlet(), midpoint(),
+                                symplectic_euler()};
+    for (Method& method : butcher_methods()) list.push_back(std::move(method));
+    list.push_back(rkc2(5));
+    return list;
+  }();
   return all;
 }
 
@@ -314,19 +243,6 @@ const std::vector<Method>& implicit_methods() {
   static const std::vector<Method> all = {implicit_midpoint(), newmark(), generalized_alpha(0.8),
                                           sdirk4()};
   return all;
-}
-
-std::vector<const Method*> all_methods() {
-  std::vector<const Method*> all;
-  for (const auto* kind : {&methods(), &implicit_methods()})
-    for (const Method& method : *kind) all.push_back(&method);
-  return all;
-}
-
-std::vector<std::string> method_names() {
-  std::vector<std::string> names;
-  for (const Method* method : all_methods()) names.emplace_back(method->name);
-  return names;
 }
 
 double implicit_share(const Method& method) {
@@ -338,12 +254,6 @@ double implicit_share(const Method& method) {
   default:
     return 0.5;
   }
-}
-
-const Method* find_method(std::string_view name) {
-  for (const Method* method : all_methods())
-    if (method->name == name) return method;
-  return nullptr;
 }
 
 } // namespace dss

@@ -111,7 +111,12 @@ std::vector<std::string> method_names();
 /// The part of a step that an implicit stage spans: Y = base + this h f(Y). All implicit stages of
 /// a method have the same.
 double implicit_share(const Method& method);
-/// Finds an explicit or implicit method; nullptr if the name is unknown.
+/// Finds an explicit or implicit method; nullptr if the name is unknown. `generalized_alpha:R` is
+/// that method with the radius R, and has that name.
 const Method* find_method(std::string_view name);
+/// What names with a radius begin with.
+inline constexpr std::string_view with_radius = "generalized_alpha:";
+/// Why find_method finds nothing, and what would be right; empty if it finds a method.
+std::string why_no_method(std::string_view name);
 
 } // namespace dss

@@ -7,6 +7,7 @@
 #include "solver/scene/constants.hpp"
 #include "solver/scene/geometry.hpp"
 #include "solver/scene/loads.hpp"
+#include "solver/scene/method_name.hpp"
 #include "solver/scene/terms.hpp"
 
 #include <fmt/format.h>
@@ -98,7 +99,7 @@ void read_run(const Node& node, Scene& scene) {
   scene.problem.dt = run.require("dt").positive();
   scene.problem.steps = run.require("steps").whole(1);
   const auto integrator = run.find("integrator"), model = run.find("model");
-  scene.integrator = integrator ? integrator->known_name("integrator", method_names()) : "rk4";
+  scene.integrator = integrator ? method_name_in(*integrator) : "rk4";
   scene.problem.integrator = scene.integrator;
   scene.asked_model = model ? model->known_name("model", model_names_and_auto()) : "auto";
   scene.model = scene.asked_model == "auto" ? name(Model::spatial) : scene.asked_model;

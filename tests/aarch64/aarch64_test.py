@@ -19,7 +19,7 @@ EMULATOR = ("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu")
 HERE, THERE = ("avx2", "avx512"), ("scalar", "neon")
 PLATE = ("plate_paper", "--set", "n=10")
 METHODS = ("rk4", "velocity_verlet", "smoothed_verlet", "midpoint", "symplectic_euler", "dopri5",
-           "rkc2")
+           "verner8", "rkc2")
 STEPS = "100"
 SMALL = {"plate_paper": {"set": {"n": 6}, "steps": 20}, "two_bodies": {"steps": 20}}
 

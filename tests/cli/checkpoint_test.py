@@ -30,7 +30,7 @@ class Checkpoints(RunTest):
 
     def test_continued_runs_have_the_bits_of_the_whole(self):
         methods = ("rk4", "velocity_verlet", "smoothed_verlet", "symplectic_euler", "dopri5",
-                   "rkc2", "midpoint")
+                   "rkc2", "midpoint", "verner8")
         for number, method in enumerate(methods):
             precision = ("f64", "f32", "f32c")[number % 3]
             of_run = (*PLATE, "--integrator", method, "--precision", precision, "--dt", "4e-7")

@@ -1,5 +1,6 @@
 """The variant `sparse` by the command line."""
 import json
+import pathlib
 import unittest
 
 from program import ProgramTest, dssbench
@@ -24,6 +25,28 @@ class Sparse(ProgramTest):
                                 "--dt", "1e-5")
             self.assertAlmostEqual(
                 record["max_displacement_m"] / other["max_displacement_m"], 1, delta=1e-9)
+
+    def test_the_radius_of_generalized_alpha_is_part_of_its_name(self):
+        run = (*PLATE, "--model", "membrane", "--dt", "1e-4", "--integrator")
+        records = [self.record(*run, f"generalized_alpha{radius}") for radius in ("", ":0.8", ":0")]
+        self.assertEqual([record["integrator"] for record in records],
+                         ["generalized_alpha", "generalized_alpha:0.8", "generalized_alpha:0"])
+        digests = [record["state_digest"] for record in records]
+        self.assertEqual(digests[0], digests[1])
+        self.assertNotEqual(digests[0], digests[2])
+        scene = self.scene_of("plate_paper", integrator="generalized_alpha:0.8")
+        own = self.record("run", scene, *PLATE[2:], "--model", "membrane", "--dt", "1e-4")
+        self.assertEqual(own["state_digest"], digests[0])
+        self.assert_refused(2, ["generalized_alpha:2", "from 0 to 1"], *run, "generalized_alpha:2")
+        wrong = self.scene_of("plate_paper", integrator="generalized_alpha:x")
+        self.assert_refused(2, ["/run/integrator", "from 0 to 1"], "run", wrong)
+
+    def scene_of(self, name, **run):
+        """A copy of a shipped scene with other values of its "run"."""
+        path = pathlib.Path(__file__).parents[2] / "experiments" / "scenes" / f"{name}.json"
+        scene = json.loads(path.read_text(encoding="utf-8"))
+        scene["run"] |= run
+        return self.write(f"{name}.json", json.dumps(scene))
 
     def test_what_it_does_not_compute_is_refused_in_a_line_that_says_what_would_do(self):
         newmark = (*PLATE, "--integrator", "newmark", "--model", "membrane")

@@ -208,9 +208,10 @@ private:
 
 void expect_order(const Errors& coarse, const Errors& fine, const Method& method,
                   std::string_view who) {
+  const double within = method.order > 5 ? 0.25 : 0.05; // longer steps show the next terms
   for (std::size_t g = 0; g < coarse.size(); ++g)
     if (coarse[g] != 0) {
-      EXPECT_NEAR(std::log2(coarse[g] / fine[g]), method.order, 0.05)
+      EXPECT_NEAR(std::log2(coarse[g] / fine[g]), method.order, within)
           << who << ' ' << method.name << " group " << g;
     }
 }
@@ -221,7 +222,8 @@ TEST_P(EveryModel, follows_a_manufactured_motion_at_the_order_of_each_method) {
   const ManufacturedMotion motion(problem_for(GetParam()), GetParam());
   constexpr double end = 0.02;
   for (const Method* method : all_methods()) {
-    const long steps = method->order > 2 ? 40 : 160; // above rounding; below the first terms
+    // above rounding; below the first terms
+    const long steps = method->order > 5 ? 20 : method->order > 2 ? 40 : 160;
     const ManufacturedRun coarse(motion, *method, end, steps),
         fine(motion, *method, end, 2 * steps);
     expect_order(coarse.of_oracle(), fine.of_oracle(), *method, "oracle");

@@ -36,7 +36,7 @@ SCENES = [
 ]
 SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "experiments" / "scenes"
 METHODS = ["rk4", "velocity_verlet", "smoothed_verlet", "midpoint", "symplectic_euler", "dopri5",
-           "rkc2"]
+           "verner8", "rkc2"]
 PRECISIONS = ["f64", "f32", "f32c"]
 UNSTABLE = 3
 # Reasons why a combination cannot run at all: not faults.

@@ -177,7 +177,7 @@ struct Arbitrary<dss::test::RandomScene> {
         },
         random_json(),
         one_of<std::string>({"rk4", "velocity_verlet", "smoothed_verlet", "midpoint",
-                             "symplectic_euler", "dopri5", "rkc2"}),
+                             "symplectic_euler", "dopri5", "verner8", "rkc2"}),
         one_of<std::string>({"spatial", "small", "linear"}), one_of<double>({0.1, 0.5}),
         gen::inRange(1, 30), gen::inRange(1, 6), one_of<int>({0, 1, 2, 3, 40}));
   }

@@ -5,6 +5,7 @@
 #include "experiments/run/plan/names.hpp"
 #include "experiments/studies/failures/failure_case.hpp"
 #include "solver/io/atomic_file.hpp"
+#include "solver/numerics/method.hpp"
 #include "solver/scene/selection.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +19,17 @@ std::string definition(const std::string& name, const std::vector<std::string>& 
                      fmt::join(values, "\", \""));
 }
 
+/// Methods, and the one that takes a radius.
+std::string method_definition() {
+  return fmt::format(R"(    "method": {{
+      "anyOf": [
+        {{"enum": ["{}"]}},
+        {{"type": "string", "pattern": "^{}(0(\\.[0-9]+)?|1(\\.0+)?)$"}}
+      ]
+    }})",
+                     fmt::join(names_of("INTEGRATOR"), "\", \""), with_radius);
+}
+
 std::string names_schema() {
   const std::vector<std::string> definitions = {
       definition("analysis", names_of("ANALYSIS")),
@@ -26,7 +38,7 @@ std::string names_schema() {
       definition("field", {field_names.begin(), field_names.end()}),
       definition("halo", names_of("HALO")),
       definition("memory_level", memory_levels),
-      definition("method", names_of("INTEGRATOR")),
+      method_definition(),
       definition("metric", atlas_metrics()),
       definition("model", model_names()),
       definition("precision", names_of("PRECISION")),

@@ -17,13 +17,16 @@ namespace {
 using Table = std::vector<std::vector<double>>;
 
 Table butcher_table(const Method& method) {
-  Table w(std::size_t(method.stages) + 1, std::vector<double>(std::size_t(method.stages)));
+  using Row = std::vector<long double>; // large coefficients cancel
+  std::vector<Row> w(std::size_t(method.stages) + 1, Row(std::size_t(method.stages)));
   for (std::size_t s = 0; s < std::size_t(method.stages); ++s) {
     for (std::size_t m = 1; m <= s; ++m)
       for (std::size_t j = 0; j < m; ++j) w[s + 1][j] += method.alpha[s][m] * w[m][j];
     w[s + 1][s] += method.beta[s];
   }
-  return w;
+  Table table;
+  for (const Row& row : w) table.emplace_back(row.begin(), row.end());
+  return table;
 }
 
 TEST(Methods, are_found_by_their_own_unique_name_and_unknown_names_are_not) {
@@ -33,11 +36,28 @@ TEST(Methods, are_found_by_their_own_unique_name_and_unknown_names_are_not) {
     EXPECT_EQ(find_method(method.name), &method);
   }
   for (const char* name : {"rk4", "velocity_verlet", "smoothed_verlet", "midpoint",
-                           "symplectic_euler", "dopri5", "rkc2"})
+                           "symplectic_euler", "dopri5", "verner8", "rkc2"})
     EXPECT_EQ(names.count(name), 1u) << name;
   EXPECT_EQ(find_method("smoothed_verlet")->real_limit, 1.75); // of smoothing 3/4
   EXPECT_EQ(find_method("rk5"), nullptr);
   EXPECT_EQ(find_method(""), nullptr);
+}
+
+TEST(Methods, may_be_named_with_a_radius) {
+  const Method *half = find_method("generalized_alpha:0.5"),
+               *listed = find_method("generalized_alpha:0.8");
+  ASSERT_NE(half, nullptr);
+  EXPECT_EQ(half->name, "generalized_alpha:0.5");
+  EXPECT_EQ(half->node[1], 2. / 3);
+  EXPECT_EQ(half->rate_share, 2.5 / 3);
+  EXPECT_EQ(find_method("generalized_alpha:0.5"), half); // executors refer to it
+  EXPECT_EQ(listed->node, find_method("generalized_alpha")->node);
+  for (const char* wrong : {"", "x", "1.01", "-0.1", "nan", "inf", "0.5 ", "0.5:0.5", ".5", "1.",
+                            "5e-1", "-0", "0.1.2"}) {
+    const std::string name = std::string(with_radius) + wrong;
+    EXPECT_EQ(find_method(name), nullptr) << name;
+    EXPECT_NE(why_no_method(name).find("from 0 to 1"), std::string::npos) << name;
+  }
 }
 
 TEST(Methods, evaluate_each_stage_at_the_time_that_its_state_stands_for) {

@@ -65,7 +65,7 @@ constexpr std::size_t plugin_layout = [] {
        {sizeof(Setup), sizeof(Ensemble), sizeof(Problem), sizeof(Body), sizeof(Lattice),
         sizeof(Row), sizeof(Method), sizeof(Outcome), sizeof(StepMaxima), sizeof(PartSetup),
         sizeof(Part), sizeof(Distribution), sizeof(HaloLayout), sizeof(RankInfo), sizeof(Traffic),
-        sizeof(DeviceUse), sizeof(HybridInfo), sizeof(CompiledKernel)})
+        sizeof(DeviceUse), sizeof(HybridInfo), sizeof(FactorInfo), sizeof(CompiledKernel)})
     layout = layout * 1009 + size;
   return layout;
 }();
@@ -104,11 +104,15 @@ struct Plugin {
   /// Rotation of a run that asks for none.
   Rotation rotation = Rotation::quaternion;
   std::size_t layout = plugin_layout;
+
+  /// Has implicit methods. Then it computes whole problems alone, and does not give out what its
+  /// methods keep.
+  bool solves_equations() const { return has_all || is_implicit; }
 };
 
 /// Raise this with every change of Plugin, Executor or a type that they receive (Method, Problem,
 /// Model).
-constexpr int plugin_abi = 19;
+constexpr int plugin_abi = 20;
 using PluginEntry = const Plugin* (*)();
 constexpr const char* plugin_symbol = "dss_plugin";
 

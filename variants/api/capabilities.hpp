@@ -109,6 +109,21 @@ public:
   virtual HybridInfo hybrid_info() const = 0;
 };
 
+/// What the factors of a matrix took.
+struct FactorInfo {
+  long count = 0;    ///< factorisations
+  double time_s = 0; ///< of all
+  double bytes = 0;  ///< memory while the last one ran
+};
+
+/// Computing by the factors of a matrix.
+class MatrixFactors {
+public:
+  virtual ~MatrixFactors() = default;
+  /// Since the executor was made.
+  virtual FactorInfo factor_info() const = 0;
+};
+
 /// @throws std::logic_error if the executor has no adaptive steps
 inline StepTrials& adaptive(Executor& executor) {
   if (StepTrials* trials = executor.step_trials()) return *trials;
@@ -168,6 +183,12 @@ inline void work_alone(Executor& executor, bool is_alone) {
 inline std::vector<double> gather(Executor& executor, double value) {
   RankGroup* ranks = executor.rank_group();
   return ranks == nullptr ? std::vector<double>{value} : ranks->gather(value);
+}
+
+/// Nothing was factorised without the capability.
+inline FactorInfo factor_info(Executor& executor) {
+  const MatrixFactors* factors = executor.matrix_factors();
+  return factors == nullptr ? FactorInfo{} : factors->factor_info();
 }
 
 inline HybridInfo hybrid_info(Executor& executor) {

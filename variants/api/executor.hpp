@@ -14,6 +14,7 @@ class DeviceWork;
 class RankGroup;
 class HybridMembers;
 class MemberOutcomes;
+class MatrixFactors;
 
 /// Result of advance(): either finite, or the step and element that failed first. A step fails when
 /// the state is not finite, or when an implicit method could not solve the step's equations.
@@ -59,6 +60,7 @@ public:
   virtual RankGroup* rank_group() { return nullptr; }
   virtual HybridMembers* hybrid_members() { return nullptr; }
   virtual MemberOutcomes* member_outcomes() { return nullptr; }
+  virtual MatrixFactors* matrix_factors() { return nullptr; }
 };
 
 } // namespace dss

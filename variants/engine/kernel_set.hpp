@@ -38,7 +38,7 @@ inline constexpr bool has_all_kernels = false;
 inline constexpr bool has_all_kernels = true;
 #endif
 
-/// True with DSS_PLAIN_ROWS. Then, and with DSS_FEWER_KERNELS, only spatial rows of single runs that
+/// True with DSS_PLAIN_ROWS. Then, as with DSS_FEWER_KERNELS, only spatial rows of single runs that
 /// are not full have functions of their own for actions.
 #ifdef DSS_PLAIN_ROWS
 inline constexpr bool has_plain_rows = true;

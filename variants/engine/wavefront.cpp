@@ -191,7 +191,7 @@ bool WavefrontStep<T, W>::note_failures(const RowStage& stage) {
 /// Tasks are read once a pass, so those of a large body are out of the cache by then.
 template <class T, int W>
 void WavefrontStep<T, W>::fetch(const RowStage& next) {
-  static_assert(sizeof(RowStage) <= 6 * Memory::line);
+  static_assert(sizeof(RowStage) <= 7 * Memory::line);
   for (std::size_t byte = 0; byte < sizeof(RowStage); byte += Memory::line)
     simd::fetch(reinterpret_cast<const char*>(&next) + byte);
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <type_traits>
 
 namespace dss::opencl {
 
@@ -66,6 +67,7 @@ int DeviceProblem<T, W>::add(const RowTask<T>& task, int r, row_action action, i
     row.lower_z = lower(row.in, r, lattice_row.lower_z, fields);
   }
   row.base = offset(task.base), row.out = offset(task.out);
+  static_assert(std::extent_v<decltype(row.alpha)> == RowTask<T>::most_increments);
   for (std::size_t m = 0; m < std::size(task.alpha); ++m)
     row.increment[m] = offset(task.increment[m]), row.alpha[m] = task.alpha[m];
   row.published = offset(published);

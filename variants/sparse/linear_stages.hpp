@@ -64,6 +64,7 @@ public:
   }
   std::string text() const override;
   double bytes() const override;
+  FactorInfo factor_info() const override { return info_; }
 
 private:
   double share_;
@@ -74,7 +75,7 @@ private:
   std::vector<double> held_; ///< fields in the oracle's coordinates; free ones are zero
   LinearLoads loads_;
   Factors factors_;
-  double factorisation_s_ = 0;
+  FactorInfo info_;
 };
 
 } // namespace dss

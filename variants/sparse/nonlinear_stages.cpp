@@ -93,8 +93,7 @@ bool NonlinearStages::renew_factors() {
   const StaticSystem::State state(reached_.begin(), reached_.end());
   mass_ = system_.mass(state);
   const SparseMatrix matrix = mass_ + share_ * system_.tangent(state, {share_, 1});
-  factorisation_s_ += factorise_step(matrix, factors_);
-  ++factorisations_;
+  factorise_step(matrix, factors_, info_);
   return has_factors_ = factors_.are_complete();
 }
 
@@ -197,8 +196,7 @@ std::optional<std::size_t> NonlinearStages::solve(const Vector& base,
 }
 
 std::string NonlinearStages::text() const {
-  return fmt::format("sparse factors: {} unknowns, Newton; {} made in {:.3g} s", system_.size(),
-                     factorisations_, factorisation_s_);
+  return fmt::format("sparse factors: {} unknowns, Newton", system_.size());
 }
 
 double NonlinearStages::bytes() const {

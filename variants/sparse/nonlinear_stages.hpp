@@ -29,6 +29,7 @@ public:
   std::size_t element_of(Eigen::Index n) const override { return std::size_t(n) / field_count; }
   std::string text() const override;
   double bytes() const override;
+  FactorInfo factor_info() const override { return info_; }
 
 private:
   bool iterate(const Vector& base, std::span<const double> signals, Vector& slope);
@@ -50,8 +51,7 @@ private:
   SparseMatrix mass_;            ///< where the factors are from
   Factors factors_;
   bool has_factors_ = false;
-  long factorisations_ = 0;
-  double factorisation_s_ = 0;
+  FactorInfo info_;
 };
 
 } // namespace dss

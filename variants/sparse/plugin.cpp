@@ -30,7 +30,7 @@ std::unique_ptr<Stages> stages_of(const Setup& setup) {
                                            share);
 }
 
-class SparseExecutor final : public Executor {
+class SparseExecutor final : public Executor, public MatrixFactors {
 public:
   explicit SparseExecutor(const Setup& setup)
       : setup_(required(setup)), stages_(stages_of(setup)),
@@ -70,6 +70,8 @@ public:
     const auto columns = double(setup_.method.stages + 2);
     return std::size_t(stages_->bytes() + columns * sizeof(double) * double(state_.size()));
   }
+  MatrixFactors* matrix_factors() override { return this; }
+  FactorInfo factor_info() const override { return stages_->factor_info(); }
 
 private:
   const Setup setup_;

@@ -1,5 +1,7 @@
 #pragma once
 /// Equations of implicit stages.
+#include "variants/api/capabilities.hpp"
+
 #include <Eigen/Core>
 
 #include <cmath>
@@ -40,6 +42,7 @@ public:
   /// What was solved, for the record.
   virtual std::string text() const = 0;
   virtual double bytes() const = 0;
+  virtual FactorInfo factor_info() const = 0;
 };
 
 } // namespace dss

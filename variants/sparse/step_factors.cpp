@@ -8,14 +8,16 @@
 
 namespace dss {
 
-double factorise_step(const Factors::Matrix& lower, Factors& factors) {
+void factorise_step(const Factors::Matrix& lower, Factors& factors, FactorInfo& info) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   if (factors.analyse(lower))
     require_memory(factors.bytes(), fmt::format("factors of {} unknowns", lower.rows()),
                    "give another --variant");
   factors.compute(lower);
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  info.time_s += std::chrono::duration<double>(Clock::now() - start).count();
+  info.bytes = factors.bytes();
+  ++info.count;
 }
 
 } // namespace dss

@@ -36,7 +36,7 @@ void require_sound_checkpoints(const RunRequest& request, const RunPlan& plan) {
     refuse("a run that is repeated for its time has none; leave --samples and --repeat-for out");
   if (!request.reference.empty())
     refuse("errors against a solution are of the whole run; leave --reference out");
-  if (plan.plugin->has_all || plan.plugin->is_implicit) refuse_saving(request, plan.plugin->name);
+  if (plan.plugin->solves_equations()) refuse_saving(request, plan.plugin->name);
 }
 
 void refuse_saving(const RunRequest& request, std::string_view variant) {

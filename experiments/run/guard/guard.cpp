@@ -35,7 +35,7 @@ std::string name_of_number(int number, const Method& method) {
 /// @return empty, or why the variant cannot be a witness
 std::string why_no_witness(const Plugin& plugin, const RunPlan& plan, bool has_fma) {
   if (plugin.is_distributed) return "it computes by other variants on ranks";
-  if (plugin.has_all || plugin.is_implicit) return "it does not give out what its methods keep";
+  if (plugin.solves_equations()) return "it does not give out what its methods keep";
   if (plugin.has_fma != has_fma)
     return fmt::format("it {} multiply-adds, the run {}",
                        plugin.has_fma ? "fuses" : "does not fuse", has_fma ? "does" : "does not");
@@ -82,8 +82,7 @@ void require_sound_guard(const RunRequest& request, const RunPlan& plan) {
   if (request.samples > 1 || request.repeat_for > 0)
     refuse("--guard: a run that is repeated for its time has none; leave --samples and "
            "--repeat-for out");
-  if (plan.plugin->has_all || plan.plugin->is_implicit)
-    refuse_variant(guard_option, plan.plugin->name);
+  if (plan.plugin->solves_equations()) refuse_variant(guard_option, plan.plugin->name);
   const Plugin& computes =
       plan.plugin->is_distributed ? load_variant(plan.distribution.variant) : *plan.plugin;
   if (request.guard_variant != "auto")

@@ -6,8 +6,7 @@ namespace dss {
 
 std::optional<Lack> what_lacks(const Plugin& plugin, const Problem& problem, Precision precision,
                                const Method& method, Rotation rotation) {
-  const std::string other =
-      plugin.has_all || plugin.is_implicit ? "another --variant" : "--variant reference";
+  const std::string other = plugin.solves_equations() ? "another --variant" : "--variant reference";
   if (const char* const missing = missing_term(plugin, problem))
     return Lack{problem.name, missing, other};
   if (precision == Precision::f32c && !plugin.is_compensated)

@@ -267,8 +267,7 @@ double require_model_tolerance(double tolerance) {
 
 const Method& require_method(const std::string& name) {
   if (const Method* method = find_method(name)) return *method;
-  throw InputError(fmt::format("--integrator {}: unknown integrator; {}", name,
-                               nearest_name(name, method_names())));
+  throw InputError(fmt::format("--integrator {}: {}", name, why_no_method(name)));
 }
 
 double require_stable(const Problem& problem, const Method& method, double dt, bool is_forced,

@@ -26,6 +26,10 @@ Json of_hybrid(R r, const T& value) {
   return r.hybrid.members.empty() ? Json() : Json(value);
 }
 template <class T>
+Json by_factors(R r, const T& value) {
+  return r.factors.count == 0 ? Json() : Json(value);
+}
+template <class T>
 Json of_state(R r, const T& value) {
   const bool has_end = r.status == "ok" || r.status == "wrong";
   return has_end ? Json(value) : Json();
@@ -215,6 +219,14 @@ const RunField fields[] = {
      [](R r) { return Json(r.sample_s()); }},
     {"first_step_s", "first_step_s", "s", "making the executor, and the very first step",
      [](R r) { return Json(r.first_step_s); }, median},
+    {"factorisations", "factorisations", "",
+     "factorisations of a matrix, from making the executor to the end of the first run",
+     [](R r) { return by_factors(r, r.factors.count); }, last},
+    {"factor_s", "factor_s", "s",
+     "time of these factorisations: linear models have theirs in first_step_s, others in wall_s",
+     [](R r) { return by_factors(r, r.factors.time_s); }, median},
+    {"factor_bytes", "factor_bytes", "B", "memory while the last factorisation ran",
+     [](R r) { return by_factors(r, r.factors.bytes); }, last},
     {"cpu_s", "cpu_s", "s",
      "CPU time of all threads while the steps advance: wall_s, and making the loads' values",
      [](R r) { return Json(r.usage.cpu_s / double(r.runs)); }},

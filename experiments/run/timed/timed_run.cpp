@@ -59,6 +59,7 @@ void TimedRun::run() {
               result_);
   result_.usage = of_all_ranks(*executor_, result_.usage);
   result_.hybrid = hybrid_info(*executor_);
+  result_.factors = factor_info(*executor_);
   result_.device_use = since(used_by_looks_, since(used_before, device_use(*executor_)));
   if (const std::string written = series_.finish(); !written.empty())
     result_.files.push_back(written);

@@ -106,7 +106,7 @@ private:
       if (precision_ == Precision::f32c && plugin.devices != nullptr)
         return "left to tests/equivalence: programs of their own for every scene take minutes to "
                "compile";
-      if (!is_common() && plugin.kernels == nullptr && !plugin.has_all && !plugin.is_implicit &&
+      if (!is_common() && plugin.kernels == nullptr && !plugin.solves_equations() &&
           !is_outside(plugin))
         return "left to tests/equivalence: this variant computes by the kernels of others, or "
                "compiles them for every "

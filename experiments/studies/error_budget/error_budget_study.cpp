@@ -5,7 +5,7 @@
 #include "experiments/run/plan/names.hpp"
 #include "kernels/model.hpp"
 #include "solver/error.hpp"
-#include "solver/numerics/method.hpp"
+#include "solver/scene/method_name.hpp"
 
 #include <algorithm>
 
@@ -50,7 +50,7 @@ BudgetScene read_scene(const Node& node, double shorten) {
   budget.variant = object.name_or("variant", "auto");
   budget.set = one_set(object, "set");
   if (const auto integrator = object.find("integrator"))
-    budget.integrator = integrator->known_name("integrator", method_names());
+    budget.integrator = method_name_in(*integrator);
   budget.dt = object.positive_or("dt", 0);
   budget.times = read_saved_times(object, shorten);
   budget.precisions = object.known_names_or("precisions", "precision", names_of("PRECISION"), {});

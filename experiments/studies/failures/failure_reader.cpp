@@ -1,6 +1,7 @@
 #include "experiments/measure/study_file.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "experiments/studies/failures/failure_case.hpp"
+#include "solver/scene/method_name.hpp"
 #include "solver/scene/scene.hpp"
 #include "variants/loading/loader.hpp"
 
@@ -32,6 +33,8 @@ std::vector<std::string> chosen_list(ObjectNode& object, const std::string& key,
       for (const std::string& name : names_in(methods())) list.push_back(name);
     else if (key == "methods" && item.json() == "all")
       list.insert(list.end(), known.begin(), known.end());
+    else if (key == "methods")
+      list.push_back(method_name_in(item));
     else
       list.push_back(item.known_name(key.substr(0, key.size() - 1).c_str(), known));
   }

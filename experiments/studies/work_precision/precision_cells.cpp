@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -12,13 +13,14 @@ namespace {
 
 constexpr long most_halvings = 1000; // 2^1000 is a double
 
-/// Step limits of all methods on a cell's problem [s], by name; found once in this process.
+/// Step limits of explicit methods on a cell's problem [s], by name; found once in this process.
 const std::map<std::string_view, double>& step_limits(const Cell& cell) {
   static std::map<std::string, std::map<std::string_view, double>> known;
   const auto [place, is_new] = known.try_emplace(fmt::format("{} {}", cell.scene, cell.set_text()));
   if (!is_new) return place->second;
   const Scene scene = load_scene(cell.scene, cell.set);
-  const std::vector<const Method*> all = all_methods();
+  std::vector<const Method*> all;
+  for (const Method& method : methods()) all.push_back(&method);
   const std::vector<StabilityLimit> limits = stable_steps(scene.problem, all);
   for (std::size_t n = 0; n < all.size(); ++n) place->second[all[n]->name] = limits[n].dt;
   return place->second;
@@ -82,7 +84,9 @@ std::vector<Cell> with_steps(const Node& node, const std::vector<Cell>& cells,
     study.accuracy[cell.key()] = of;
   };
   for (Cell cell : cells) {
-    const CellAccuracy of{times, step_limits(cell).at(require_method(cell.integrator).name)};
+    const Method& method = require_method(cell.integrator);
+    const CellAccuracy of{times, method.is_implicit() ? std::numeric_limits<double>::infinity()
+                                                      : step_limits(cell).at(method.name)};
     // rkc2's stages are fitted to each step, and so is its limit.
     const CellAccuracy of_step{times, cell.integrator == "rkc2" ? 0 : of.step_limit};
     for (const long count : step_counts(accuracy, of, study.precision_scale.halvings)) {

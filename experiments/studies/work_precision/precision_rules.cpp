@@ -1,6 +1,6 @@
 #include "experiments/studies/work_precision/precision_rules.hpp"
 #include "experiments/run/plan/names.hpp"
-#include "solver/numerics/method.hpp"
+#include "solver/scene/method_name.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -11,7 +11,7 @@ namespace {
 Contender read_contender(const Node& node) {
   ObjectNode object(node);
   const Contender contender{
-      object.require("integrator").known_name("integrator", method_names()),
+      method_name_in(object.require("integrator")),
       object.require("precision").known_name("precision", names_of("PRECISION")),
       object.positive_or("dt", 0)};
   object.finish();

@@ -54,7 +54,10 @@ std::vector<std::string> columns() {
                                   "measured_wall_high_s",
                                   "half_width",
                                   "converged",
-                                  "first_step_s"};
+                                  "first_step_s",
+                                  "factorisations",
+                                  "factor_s",
+                                  "factor_bytes"};
   all.insert(all.end(), error_columns().begin(), error_columns().end());
   all.insert(all.end(), {"below_reference", "pareto", "state_digest", "status", "reason"});
   return all;
@@ -72,7 +75,8 @@ void put_point(const Cell& cell, const SavedTimes& times, const CellSample* samp
     const std::string text = sample == nullptr ? "" : text_in(sample->last, column);
     return text.empty() ? otherwise : text;
   };
-  row["first_step_s"] = recorded("first_step_s", "");
+  for (const char* column : {"first_step_s", "factorisations", "factor_s", "factor_bytes"})
+    row[column] = recorded(column, "");
   row["order"] = fmt::format("{}", method->order);
   row["stages"] = recorded("stages", fmt::format("{}", method->stages));
   if (cell.rtol > 0) {

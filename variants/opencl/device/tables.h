@@ -10,7 +10,7 @@ typedef struct {
   long in, upper_y, upper_z;
   long carry_y, carry_z, from_y, from_z; /* for vectors: carry buffers */
   long lower_y, lower_z;                 /* for items: input of the lower rows */
-  long base, out, increment[6];
+  long base, out, increment[10];
   long published;      /* where the new state is also stored */
   long rest;           /* as in RowTask */
   long inverse_ratios; /* as in RowTask; -1: none */
@@ -21,7 +21,7 @@ typedef struct {
   int state_fields; /* of the fields, those without pressures, which are of another state */
   int sweep;        /* of a pass */
   int is_last, low, increments; /* as in RowTask */
-  NUMBER beta, alpha[6];
+  NUMBER beta, alpha[10];
 } row_stage;
 
 /* As Applied::Pattern and Applied (kernels/stage_row/row.hpp). */
