@@ -56,7 +56,7 @@ struct RunResult {
   RankInfo ranks;
   DeviceUse device_use; ///< of rank 0, during the timed steps
   HybridInfo hybrid;
-  FactorInfo factors; ///< up to the end of the run
+  FactorInfo factors;                               ///< up to the end of the run
   double messages_per_step = 0, bytes_per_step = 0; ///< sent by all ranks
   double communication_share = 0;                   ///< share of the wall time, mean over the ranks
   std::size_t elements = 0, links = 0, bytes = 0;

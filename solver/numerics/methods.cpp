@@ -1,3 +1,4 @@
+/// Methods that are written as formulas, and the lists of all.
 #include "solver/numerics/butcher_tables.hpp"
 
 #include <algorithm>
