@@ -79,9 +79,12 @@ struct RowKernels {
   /// Rows with pressures are many, so only those of solids and plates have such functions.
   static constexpr bool has_pressed_functions =
       P::axes == 3 && P::is_common && kind == LaneKind::neighbours;
+  /// Builds that compile fast keep them where tests need them: in one variant of packs.
+  static constexpr bool has_few_functions = model == Model::spatial &&
+                                            kind == LaneKind::neighbours && terms.is_damped &&
+                                            !terms.is_oblong && simd::lanes<double> == 4;
   static constexpr bool has_own_functions =
-      ((has_all_kernels && !has_plain_rows) ||
-       (model == Model::spatial && kind == LaneKind::neighbours && !terms.is_full())) &&
+      ((has_all_kernels && !has_plain_rows) || has_few_functions) &&
       kind != LaneKind::filled && (!terms.has_pressure || has_pressed_functions) &&
       (is_single || is_ensemble ? P::is_common && !terms.is_full() : P::is_common || has_packs);
   /// The rest of the actions: in line in common damped rows, else called for each pack.

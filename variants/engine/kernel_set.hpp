@@ -38,8 +38,8 @@ inline constexpr bool has_all_kernels = false;
 inline constexpr bool has_all_kernels = true;
 #endif
 
-/// True with DSS_PLAIN_ROWS. Then, as with DSS_FEWER_KERNELS, only spatial rows of single runs that
-/// are not full have functions of their own for actions.
+/// True with DSS_PLAIN_ROWS. Then, as with DSS_FEWER_KERNELS, few rows have functions of their own
+/// for actions (instantiate.hpp).
 #ifdef DSS_PLAIN_ROWS
 inline constexpr bool has_plain_rows = true;
 #else
