@@ -20,7 +20,7 @@ void read_stage(const Node& node, ChainStage& stage) {
   if (const auto integrator = object.find("integrator")) {
     stage.integrator = integrator->name();
     const Method* method = find_method(stage.integrator);
-    if (method == nullptr || method->has_error_stage)
+    if (method == nullptr || method->has_error_stage || method->is_exponential)
       integrator->fail("is not a method of equal steps; `dssbench list methods` shows all");
   }
   stage.steps_an_interval = object.whole_or("steps_an_interval", 1, stage.steps_an_interval);
