@@ -267,9 +267,44 @@ def implicit_table(results):
             "cheapest implicit run: start + steps", "explicit over implicit"], lines
 
 
-TABLES = {"chain": chain_table, "continuum": continuum_table, "first": first_table,
-          "geometry": geometry_table, "goals": goals_table, "gpu": gpu_table,
-          "implicit": implicit_table, "machine": machine_table, "mix": mix_table,
-          "models": models_table, "networks": network_table, "problem": problem_table,
-          "schedules": schedules_table, "sizes": sizes_table, "statics": statics_table,
-          "verification": verification_table}
+def run_text(row, is_named):
+    """Time and evaluations an element of a run; empty without one."""
+    if row is None:
+        return ""
+    name = f" (`{row['integrator']}`)" if is_named else ""
+    evaluations = row["evaluations"] / row["elements"]
+    counted = f", {evaluations:.0f} evaluations" if evaluations > 0 else ""
+    return f"{1e3 * row['measured_wall_s']:.3g} ms{name}{counted}"
+
+
+def exponential_table(results):
+    """The cheapest run within a tolerance: of other methods, of faber and of chebyshev."""
+    frame = results.table("exponential", "scene", "set", "integrator", "steps", "error_max",
+                          "evaluations", "elements", "measured_wall_s", "status")
+    frame = frame[frame["status"] == "ok"].copy()
+    exact = ("faber", "chebyshev")
+    lines = []
+    for (scene, size), rows in frame.groupby(["scene", "set"], sort=False):
+        overrides = str(size).split()
+        words = [word for word in overrides if word.startswith("n=")]
+        words += ["undamped"] * (len(overrides) > len(words))
+        for tolerance in (1e-2, 1e-4, 1e-6, 1e-9):
+            within = rows[rows["error_max"] <= tolerance].sort_values("measured_wall_s")
+            kinds = [within[~within["integrator"].isin(exact)],
+                     *(within[within["integrator"] == name] for name in exact)]
+            cheapest = [part.iloc[0] if len(part) else None for part in kinds]
+            others, faber = cheapest[:2]
+            ratio = ("" if others is None or faber is None else
+                     f"{others['measured_wall_s'] / faber['measured_wall_s']:.2g}")
+            lines.append([f"`{scene.split('/')[-1]}` {', '.join(words)}", f"{tolerance:.0e}",
+                          *(run_text(row, row is others) for row in cheapest), ratio])
+    return ["scene", "error at most", "other methods", "`faber`", "`chebyshev`",
+            "others over `faber`"], lines
+
+
+TABLES = {"chain": chain_table, "continuum": continuum_table,
+          "exponential": exponential_table, "first": first_table, "geometry": geometry_table,
+          "goals": goals_table, "gpu": gpu_table, "implicit": implicit_table,
+          "machine": machine_table, "mix": mix_table, "models": models_table,
+          "networks": network_table, "problem": problem_table, "schedules": schedules_table,
+          "sizes": sizes_table, "statics": statics_table, "verification": verification_table}

@@ -68,18 +68,26 @@ Listing study_listing() {
   return list;
 }
 
+std::string variants_of(const Method& method) {
+  if (method.is_implicit()) return "reference, sparse";
+  return method.has_leaps() ? "all but reference, sparse" : "all but sparse";
+}
+
 Listing method_listing() {
   Listing list = Listing::array();
-  for (const Method* method : all_methods())
-    list.push_back({{"method", std::string(method->name)},
-                    {"order", fmt::format("{}", method->order)},
-                    {"stages", fmt::format("{}", method->stages)},
-                    {"imaginary limit", fmt::format("{:.4g}", method->imaginary_limit)},
-                    {"real limit", fmt::format("{:.4g}", method->real_limit)},
-                    {"symplectic", method->is_symplectic ? "yes" : "no"},
-                    {"energy", method->keeps_energy_bounded ? "bounded" : "drifts"},
-                    {"variants", method->is_implicit() ? "reference, sparse" : "all but sparse"},
-                    {"note", std::string(method->note)}});
+  std::vector<const Method*> methods = all_methods();
+  for (const Method& method : exponential_methods()) methods.push_back(&method);
+  for (const Method* method : methods)
+    list.push_back(
+        {{"method", std::string(method->name)},
+         {"order", fmt::format("{}", method->order)},
+         {"stages", method->is_exponential ? "as needed" : fmt::format("{}", method->stages)},
+         {"imaginary limit", fmt::format("{:.4g}", method->imaginary_limit)},
+         {"real limit", fmt::format("{:.4g}", method->real_limit)},
+         {"symplectic", method->is_symplectic ? "yes" : "no"},
+         {"energy", method->keeps_energy_bounded ? "bounded" : "drifts"},
+         {"variants", variants_of(*method)},
+         {"note", std::string(method->note)}});
   return list;
 }
 

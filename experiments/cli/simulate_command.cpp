@@ -3,6 +3,7 @@
 #include "experiments/cli/commands.hpp"
 #include "experiments/run/cluster/simulation.hpp"
 #include "experiments/run/plan/context.hpp"
+#include "experiments/run/plan/exponential.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "solver/error.hpp"
@@ -121,8 +122,8 @@ int simulate_scene(const SimulateArguments& arguments) {
   require_sound_output(std::move(inputs), arguments.json);
   const Scene scene = load_scene(arguments.scene, overrides);
   const Precision precision = require_precision_name(arguments.precision);
-  const Method& method = require_method(arguments.integrator.empty() ? scene.problem.integrator
-                                                                     : arguments.integrator);
+  const Method& method = require_stepwise(require_method(
+      arguments.integrator.empty() ? scene.problem.integrator : arguments.integrator));
   require_strategy(arguments.halo);
   const SimulatedProblem what{scene.problem, method, find_model(scene.model).value(), precision};
   const Simulated result = simulated(arguments, what);

@@ -85,6 +85,11 @@ void make_spline(Signal& signal) {
   for (std::size_t k = n; k-- > 1;) signal.bends[k - 1] -= upper[k - 1] * signal.bends[k];
 }
 
+std::vector<double> kinks(const Signal& signal) {
+  if (signal.kind == Signal::Kind::ramp) return {signal.duration};
+  return signal.times; // of tables and splines
+}
+
 bool is_zero_always(const Signal& signal) {
   if (signal.kind == Signal::Kind::constant) return signal.amplitude + signal.offset == 0;
   const bool has_no_values =

@@ -40,6 +40,9 @@ SignalMotion motion_of(const Signal& signal, double t);
 /// Makes a table a spline through its points. With less than three points it is linear.
 void make_spline(Signal& signal);
 
+/// Times after 0 at which a signal, or a derivative of it, jumps [s].
+std::vector<double> kinks(const Signal& signal);
+
 /// True if the signal is 0 at every time.
 bool is_zero_always(const Signal& signal);
 

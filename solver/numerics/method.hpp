@@ -1,6 +1,9 @@
 #pragma once
 /// Time integration methods as data. One engine runs all of them (variants/engine); the oracle runs
 /// them in classical form.
+#include "solver/numerics/signal_polynomial.hpp"
+
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +42,10 @@ namespace dss {
 /// node[1], a = rate_share and g = 1/2 + a - c:
 ///     y_{n+1} = y_n + h ((1 - g) r_n + g r_{n+1})
 ///     (1 - a) r_n + a r_{n+1} = f(t_n + c h, y_n + c (y_{n+1} - y_n))
+///
+/// Family leaps, for undamped linear problems: the exact solution for loads that are polynomials of
+/// degree 4 in each step (leap_weights.hpp). All steps of a call are one leap. It is a sum
+/// over the states of a method in place, whose steps are of the problem's fastest motion.
 struct Method {
   enum class Family {
     runge_kutta,
@@ -46,7 +53,8 @@ struct Method {
     symplectic_euler,
     implicit_midpoint,
     diagonally_implicit,
-    generalized_alpha
+    generalized_alpha,
+    leaps
   };
   std::string_view name;
   Family family;
@@ -57,7 +65,8 @@ struct Method {
   /// One row for each stage. runge_kutta: row s has s + 1 numbers; the first is not used.
   /// diagonally_implicit: s numbers.
   std::vector<std::vector<double>> alpha;
-  /// Largest stable h |lambda| on the imaginary axis (undamped); infinite for implicit methods.
+  /// Largest stable h |lambda| on the imaginary axis (undamped); infinite for implicit and
+  /// exponential ones.
   double imaginary_limit;
   double real_limit;  ///< largest stable h |lambda| on the negative real axis
   bool is_symplectic; ///< a step of an undamped linear problem is a symplectic map
@@ -69,11 +78,21 @@ struct Method {
   bool has_error_stage = false;
   double smoothing = 0; ///< leapfrog: share of the last correction that a prediction keeps, below 1
   double rate_share = 0; ///< generalized_alpha: a
+  /// For linear models: exact to rounding if loads are polynomials of degree 4 in each step.
+  bool is_exponential = false;
+  /// Not empty: the signals of stage s are sums of those at five points of the step
+  /// (signal_polynomial.hpp) with the weights signal_weights[s], and not those at its node.
+  std::vector<std::array<double, signal_points>> signal_weights{};
 
   bool is_implicit() const {
     return family == Family::implicit_midpoint || family == Family::diagonally_implicit ||
            family == Family::generalized_alpha;
   }
+  bool has_leaps() const { return family == Family::leaps; }
+  /// Made for a problem and a step (`fitted` in stability.hpp).
+  bool is_fitted() const { return name == "rkc2" || (is_exponential && !has_leaps()); }
+  /// Every step is stable.
+  bool is_unlimited() const { return is_implicit() || is_exponential; }
   /// generalized_alpha: g.
   double rate_weight() const { return 0.5 + rate_share - node[1]; }
   /// Velocities live half a step before positions.
@@ -104,14 +123,16 @@ const std::vector<Method>& methods();
 /// Methods that solve equations in every step. The variants `reference` and `sparse` have them.
 /// generalized_alpha is listed with the radius 0.8.
 const std::vector<Method>& implicit_methods();
-/// Explicit methods, then implicit methods.
+/// Methods of linear models (is_exponential). `faber` has no stages before it is `fitted`.
+const std::vector<Method>& exponential_methods();
+/// Explicit methods, then implicit methods; not the exponential ones.
 std::vector<const Method*> all_methods();
-/// Names of all methods, in the order of all_methods().
+/// Names of all methods, in the order of all_methods(), then exponential_methods().
 std::vector<std::string> method_names();
 /// The part of a step that an implicit stage spans: Y = base + this h f(Y). All implicit stages of
 /// a method have the same.
 double implicit_share(const Method& method);
-/// Finds an explicit or implicit method; nullptr if the name is unknown. `generalized_alpha:R` is
+/// Finds a method of any list; nullptr if the name is unknown. `generalized_alpha:R` is
 /// that method with the radius R, and has that name.
 const Method* find_method(std::string_view name);
 /// What names with a radius begin with.

@@ -48,6 +48,7 @@ std::vector<const Method*> all_methods() {
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const Method* method : all_methods()) names.emplace_back(method->name);
+  for (const Method& method : exponential_methods()) names.emplace_back(method.name);
   return names;
 }
 
@@ -55,6 +56,8 @@ const Method* find_method(std::string_view name) {
   if (name.starts_with(with_radius)) return method_with_radius(name);
   for (const Method* method : all_methods())
     if (method->name == name) return method;
+  for (const Method& method : exponential_methods())
+    if (method.name == name) return &method;
   return nullptr;
 }
 

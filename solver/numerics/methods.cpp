@@ -1,5 +1,6 @@
 /// Methods that are written as formulas, and the lists of all.
 #include "solver/numerics/butcher_tables.hpp"
+#include "solver/numerics/faber.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -157,6 +158,25 @@ Method sdirk4() {
                   "does not resolve are damped out"};
 }
 
+/// The order is that of signals that are no polynomials.
+Method chebyshev() {
+  return {.name = "chebyshev",
+          .family = Method::Family::leaps,
+          .order = 5,
+          .stages = 4,
+          .node = {0, 0.25, 0.5, 0.75}, // of signals: the points of signal_polynomial.hpp
+          .beta = {0, 0, 0, 0},
+          .alpha = {{}, {}, {}, {}},
+          .imaginary_limit = infinity,
+          .real_limit = 0,
+          .is_symplectic = false,
+          .keeps_energy_bounded = true,
+          .note = "undamped linear models, exact for loads that are polynomials of degree 4 in a "
+                  "step: leaps of many steps, each as many force evaluations as velocity_verlet "
+                  "needs at its limit",
+          .is_exponential = true};
+}
+
 } // namespace
 
 Method generalized_alpha(double radius) {
@@ -243,6 +263,11 @@ const std::vector<Method>& methods() {
 const std::vector<Method>& implicit_methods() {
   static const std::vector<Method> all = {implicit_midpoint(), newmark(), generalized_alpha(0.8),
                                           sdirk4()};
+  return all;
+}
+
+const std::vector<Method>& exponential_methods() {
+  static const std::vector<Method> all = {chebyshev(), faber({}, 0)};
   return all;
 }
 

@@ -202,7 +202,7 @@ struct Modes::Piece {
     return coupled.dof.size() > (is_symmetric ? most_symmetric_unknowns : most_damped_unknowns);
   }
   ExactLimit step_limit(const Method& method) {
-    if (method.is_implicit()) return {};
+    if (method.is_unlimited()) return {};
     if (method.family != Method::Family::runge_kutta)
       return limit_of_flipping_mode(coupled, method);
     if (!has_single_modes) {

@@ -18,6 +18,22 @@ void append_row(const Problem& problem, double t, std::vector<double>& rows) {
   rows.insert(rows.end(), turn.acceleration.begin(), turn.acceleration.end());
 }
 
+/// Rows of the stages of a step whose signals are polynomials.
+void append_weighted(const Problem& problem, const Method& method, double t, double dt,
+                     std::vector<double>& rows) {
+  std::vector<double> points;
+  for (int p = 0; p < signal_points; ++p)
+    append_row(problem, t + double(p) / signal_parts * dt, points);
+  const std::size_t width = points.size() / signal_points;
+  for (const auto& weights : method.signal_weights)
+    for (std::size_t column = 0; column < width; ++column) {
+      double sum = points[column]; // a constant signal stays what it is
+      for (std::size_t p = 1; p < weights.size(); ++p)
+        sum += weights[p] * (points[p * width + column] - points[column]);
+      rows.push_back(sum);
+    }
+}
+
 } // namespace
 
 std::vector<double> signals_at(const Problem& problem, double t) {
@@ -30,9 +46,13 @@ std::vector<double> signal_rows(const Problem& problem, const Method& method, do
                                 long first_step, long steps) {
   std::vector<double> rows;
   rows.reserve((std::size_t(steps) * std::size_t(method.stages) + 1) * signal_count(problem));
-  for (long n = 0; n < steps; ++n)
-    for (int s = 0; s < method.stages; ++s)
-      append_row(problem, (double(first_step + n) + method.node[std::size_t(s)]) * dt, rows);
+  for (long n = 0; n < steps; ++n) {
+    const double step = double(first_step + n);
+    if (!method.signal_weights.empty())
+      append_weighted(problem, method, step * dt, dt, rows);
+    else
+      for (const double node : method.node) append_row(problem, (step + node) * dt, rows);
+  }
   append_row(problem, double(first_step + steps) * dt, rows);
   return rows;
 }

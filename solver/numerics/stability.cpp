@@ -1,6 +1,7 @@
 #include "solver/numerics/stability.hpp"
 
 #include "solver/error.hpp"
+#include "solver/numerics/faber.hpp"
 #include "solver/numerics/spectrum.hpp"
 
 #include <fmt/format.h>
@@ -66,19 +67,42 @@ Spectrum finite_bound(const Problem& problem) {
   return bound;
 }
 
+bool is_large(const Problem& problem) {
+  return problem.lattice.element_count > sharp_stability_elements;
+}
+
+Method fitted_faber(const Problem& problem, double dt) {
+  const Spectrum spectrum = found_spectrum(problem);
+  Method method = faber(spectrum, dt);
+  if (method.stages > 0) return method;
+  constexpr double shorter = 1.25;
+  double least = dt / shorter;
+  while (faber(spectrum, least).stages == 0 && least > 0) least /= shorter;
+  throw InputError(
+      fmt::format("{}: a step of {:g} s would take more than {} stages of {}, or round "
+                  "too much; give --dt {:.2g} or less",
+                  problem.name, dt, most_faber_stages, method.name, 0.95 * least));
+}
+
 } // namespace
+
+Spectrum found_spectrum(const Problem& problem) {
+  const Spectrum bound = finite_bound(problem);
+  if (is_large(problem)) return bound;
+  Spectrum found = krylov_spectrum(problem);
+  found.omega_max = std::min(found.omega_max, bound.omega_max);
+  found.damping = std::min(found.damping, bound.damping);
+  return found;
+}
 
 std::vector<StabilityLimit> stable_steps(const Problem& problem,
                                          std::span<const Method* const> methods) {
-  const Spectrum bound = finite_bound(problem);
-  const bool is_large = problem.lattice.element_count > sharp_stability_elements;
-  Spectrum found = is_large ? bound : krylov_spectrum(problem);
-  found.omega_max = std::min(found.omega_max, bound.omega_max);
-  found.damping = std::min(found.damping, bound.damping);
+  const Spectrum found = found_spectrum(problem);
   const std::string how =
-      is_large ? fmt::format("bound from single links (more than {} elements: no sharp figure)",
-                             sharp_stability_elements)
-               : fmt::format("Krylov iteration, {} products", found.products);
+      is_large(problem)
+          ? fmt::format("bound from single links (more than {} elements: no sharp figure)",
+                        sharp_stability_elements)
+          : fmt::format("Krylov iteration, {} products", found.products);
   Modes modes(problem);
   std::vector<StabilityLimit> limits;
   for (const Method* method : methods)
@@ -100,7 +124,8 @@ StabilityLimit stable_step(const Problem& problem, const Method& method, bool sh
 }
 
 Method fitted(const Problem& problem, const Method& method, double dt) {
-  if (method.name != "rkc2") return method;
+  if (!method.is_fitted()) return method;
+  if (method.is_exponential) return fitted_faber(problem, dt);
   constexpr int most_stages = 200, tried = 12;
   const Spectrum bound = finite_bound(problem);
   if (const Method longest = rkc2(most_stages); longest.real_limit < dt * bound.damping)

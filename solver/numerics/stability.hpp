@@ -4,6 +4,7 @@
 #include "solver/model/problem.hpp"
 #include "solver/numerics/method.hpp"
 #include "solver/numerics/modes.hpp"
+#include "solver/numerics/spectrum.hpp"
 #include "solver/numerics/step_growth.hpp"
 
 #include <span>
@@ -44,7 +45,12 @@ StabilityLimit stable_step(const Problem& problem, const Method& method, bool sh
 std::vector<StabilityLimit> stable_steps(const Problem& problem,
                                          std::span<const Method* const> methods);
 
-/// The method as it is run with a step dt [s]: rkc2 with the fewest stages whose limit on the
+/// The spectrum: found by a Krylov iteration for at most sharp_stability_elements, else its bound.
+/// @throws InputError as stable_step
+Spectrum found_spectrum(const Problem& problem);
+
+/// The method as it is run with a step dt [s]: faber as the step and the problem need it
+/// (InputError if it cannot be that long); rkc2 with the fewest stages whose limit on the
 /// problem allows dt, every other method unchanged. If no number of stages up to 200 suffices, the
 /// number that its damping needs, at most 200; stable_step then refuses the step.
 Method fitted(const Problem& problem, const Method& method, double dt);

@@ -105,6 +105,7 @@ double spectral_radius(const Method& method, double h, double omega, double rate
   case Method::Family::implicit_midpoint:
   case Method::Family::diagonally_implicit:
   case Method::Family::generalized_alpha:
+  case Method::Family::leaps:
     return 1; // at most 1, for every mode that no load excites
   case Method::Family::runge_kutta:
     break;
@@ -114,7 +115,7 @@ double spectral_radius(const Method& method, double h, double omega, double rate
 
 double mode_step_limit(const Method& method, double omega, double rate, double enough) {
   const double scale = std::max(omega, rate);
-  if (scale == 0 || method.is_implicit()) return infinite;
+  if (scale == 0 || method.is_unlimited()) return infinite;
   const double w = omega / scale, c = rate / scale;
   const auto exit_of = [&](const auto& radius) {
     return first_exit(radius, method.stages, enough * scale) / scale;
@@ -127,7 +128,7 @@ double mode_step_limit(const Method& method, double omega, double rate, double e
 
 double root_step_limit(const Method& method, std::complex<double> root, double enough) {
   const double scale = std::abs(root);
-  if (scale == 0 || method.is_implicit()) return infinite;
+  if (scale == 0 || method.is_unlimited()) return infinite;
   const StabilityFunction function(method);
   return first_exit([&](double h) { return function(h * root / scale); }, method.stages,
                     enough * scale) /

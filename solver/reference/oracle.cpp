@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace dss {
 namespace {
@@ -36,6 +37,7 @@ Oracle<T>::Oracle(const Problem& problem, const Method& method, double dt, Rotat
     : problem_(problem), method_(method), dt_(dt), dynamics_(problem, rotation),
       state_(problem.lattice.element_count * field_count, T(0)), signal_row_(signal_count(problem)),
       slopes_(std::size_t(method.stages), std::vector<T>(state_.size())), trial_(state_.size()) {
+  if (method.is_exponential) throw std::logic_error("the oracle has no exponential methods");
   if (method.family == Method::Family::runge_kutta) weights_ = butcher_rows<T>(method);
   if (method.is_in_place()) half_step_.resize(6 * problem.lattice.element_count);
   if (method.is_implicit())

@@ -56,6 +56,16 @@ TEST(signal, a_table_is_linear_between_its_points_and_constant_outside) {
   EXPECT_EQ(signal(9), -4);
 }
 
+TEST(signal, kinks_are_where_a_ramp_ends_and_at_the_points_of_a_table) {
+  Signal signal = of_kind(Signal::Kind::ramp);
+  signal.duration = 2;
+  EXPECT_EQ(kinks(signal), std::vector<double>{2});
+  signal = of_kind(Signal::Kind::table);
+  signal.times = {1, 2, 4};
+  EXPECT_EQ(kinks(signal), signal.times);
+  EXPECT_TRUE(kinks(of_kind(Signal::Kind::harmonic)).empty());
+}
+
 TEST(signal_rows, hold_the_values_at_every_stage_and_at_the_end) {
   const Problem problem = fixture::make_everything();
   const Method& method = *find_method("rk4");

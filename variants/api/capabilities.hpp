@@ -124,6 +124,14 @@ public:
   virtual FactorInfo factor_info() const = 0;
 };
 
+/// Counting evaluations of the forces of all elements, where steps do not tell.
+class EvaluationCount {
+public:
+  virtual ~EvaluationCount() = default;
+  /// Since the executor was made.
+  virtual double evaluations() const = 0;
+};
+
 /// @throws std::logic_error if the executor has no adaptive steps
 inline StepTrials& adaptive(Executor& executor) {
   if (StepTrials* trials = executor.step_trials()) return *trials;
@@ -189,6 +197,12 @@ inline std::vector<double> gather(Executor& executor, double value) {
 inline FactorInfo factor_info(Executor& executor) {
   const MatrixFactors* factors = executor.matrix_factors();
   return factors == nullptr ? FactorInfo{} : factors->factor_info();
+}
+
+/// Negative if steps tell.
+inline double evaluations(Executor& executor) {
+  const EvaluationCount* count = executor.evaluation_count();
+  return count == nullptr ? -1 : count->evaluations();
 }
 
 inline HybridInfo hybrid_info(Executor& executor) {

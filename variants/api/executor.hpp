@@ -15,6 +15,7 @@ class RankGroup;
 class HybridMembers;
 class MemberOutcomes;
 class MatrixFactors;
+class EvaluationCount;
 
 /// Result of advance(): either finite, or the step and element that failed first. A step fails when
 /// the state is not finite, or when an implicit method could not solve the step's equations.
@@ -61,6 +62,7 @@ public:
   virtual HybridMembers* hybrid_members() { return nullptr; }
   virtual MemberOutcomes* member_outcomes() { return nullptr; }
   virtual MatrixFactors* matrix_factors() { return nullptr; }
+  virtual EvaluationCount* evaluation_count() { return nullptr; }
 };
 
 } // namespace dss

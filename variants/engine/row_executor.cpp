@@ -401,6 +401,8 @@ std::size_t RowExecutor<T>::bytes() const {
 }
 
 std::unique_ptr<Executor> create_row_executor(const Setup& setup) {
+  if (setup.method.stages == 0 || setup.method.has_leaps()) // make_executor has others for them
+    throw std::logic_error(fmt::format("{} is not a table of stages", setup.method.name));
   if (is_single(setup.precision)) return std::make_unique<RowExecutor<float>>(setup);
   return std::make_unique<RowExecutor<double>>(setup);
 }

@@ -1,6 +1,7 @@
 #include "variants/engine/staged.hpp"
 
 #include "solver/error.hpp"
+#include "solver/memory.hpp"
 #include "variants/engine/packs.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +24,9 @@ StagedRows<T, W>::StagedRows(PackedRows<T, W>& packed, const Method& method, dou
       failed_(cuts_.size() - 1), storage_(storage),
       updates_(stage_updates<T>(method, storage, W, {&dt, 1})), extra_links_(packed) {
   const int copies = method.stages + int(method.has_error_stage || is_swapped_);
+  require_memory(double(copies) * double(packed.readable_packs() * pack_size_) * sizeof(T),
+                 fmt::format("{} states, one a stage, of a body computed stage by stage", copies),
+                 "give another --integrator, or a shorter --dt for faber");
   for (int m = 0; m < copies; ++m)
     stages_.emplace_back(packed.readable_packs() * pack_size_, packed.memory);
   for (std::size_t t = 0; t + 1 < cuts_.size(); ++t) carry_.emplace_back(packed);

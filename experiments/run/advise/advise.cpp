@@ -106,12 +106,11 @@ private:
     std::vector<Candidate> all;
     for (const Model model : models_)
       for (const Precision precision : precisions)
-        for (const Method& method : methods()) {
-          if (!first_steps_.contains(method.name)) continue;
+        for (const auto& [name, steps] : first_steps_) {
+          const Method& method = *find_method(name);
+          if (method.is_exponential && !is_linear(model)) continue;
           Candidate candidate;
-          candidate.configuration = {
-              model, &*find_method(method.name), precision, first_steps_.at(method.name), {}, "",
-              1};
+          candidate.configuration = {model, &method, precision, steps, {}, "", 1};
           candidate.configuration = costs_->placed(candidate.configuration);
           candidate.time_s = costs_->run_time(candidate.configuration);
           all.push_back(candidate);

@@ -5,6 +5,7 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "variants/isa/denormals.hpp"
+#include "variants/leaps/leap_executor.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -20,10 +21,10 @@ public:
   Process(const Workbench& bench, const Configuration& configuration)
       : bench_(bench), configuration_(configuration), dt_(bench.dt(configuration)),
         method_(bench.method_of(configuration)),
-        executor_(
-            load_variant(configuration.variant)
-                .create({bench.problem_, method_, configuration.model, configuration.precision, dt_,
-                         configuration.threads, nullptr, nullptr, "", "", Rotation::quaternion})) {}
+        executor_(make_executor(load_variant(configuration.variant),
+                                {bench.problem_, method_, configuration.model,
+                                 configuration.precision, dt_, configuration.threads, nullptr,
+                                 nullptr, "", "", Rotation::quaternion})) {}
 
   /// Runs from the initial state through all saved times. @param observed  may be null
   void run(Observed* observed) {
@@ -98,25 +99,28 @@ private:
   std::unique_ptr<Executor> executor_;
 };
 
-int Workbench::stages(const Configuration& of) const {
-  if (of.rtol) return dopri5_adaptive().stages;
-  if (of.method->name != "rkc2") return of.method->stages;
-  const auto [place, is_new] = rkc2_stages_.try_emplace(of.steps_between, 0);
-  if (is_new && has_stages(problem_, dt(of)))
-    place->second = fitted(problem_, *of.method, dt(of)).stages;
+const Method& Workbench::fitted_method(const Configuration& of) const {
+  const auto [place, is_new] = fitted_.try_emplace({of.method->name, of.steps_between}, *of.method);
+  if (is_new)
+    place->second = fitted_or_none(problem_, *of.method, dt(of), of.steps_between * times_.count);
   return place->second;
 }
 
 Method Workbench::method_of(const Configuration& of) const {
   if (of.rtol) return dopri5_adaptive();
-  return of.method->name == "rkc2" ? rkc2(stages(of)) : *of.method;
+  return of.method->is_fitted() ? fitted_method(of) : *of.method;
+}
+
+int Workbench::stages(const Configuration& of) const {
+  if (of.rtol) return dopri5_adaptive().stages;
+  return of.method->is_fitted() ? fitted_method(of).stages : of.method->stages;
 }
 
 Observation Workbench::run(const Configuration& configuration) const {
   const FlushDenormals flush;
   Observation observation;
   if (stages(configuration) == 0) {
-    observation.failure = "no number of stages is stable with that step";
+    observation.failure = "no number of stages would do with that step";
     return observation;
   }
   Process process(*this, configuration);

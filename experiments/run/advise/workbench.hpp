@@ -46,8 +46,7 @@ public:
   Quantity quantity() const { return quantity_; }
   double dt(const Configuration& of) const { return times_.interval() / double(of.steps_between); }
   long steps(const Configuration& of) const { return of.steps_between * times_.count; }
-  /// Force evaluations per step. For rkc2 they depend on the step; 0 if no number of stages is
-  /// stable.
+  /// Force evaluations per step. For rkc2 and faber they depend on the step; 0: none would do.
   int stages(const Configuration& of) const;
 
   Observation run(const Configuration& configuration) const;
@@ -65,10 +64,12 @@ public:
 private:
   class Process;
   Method method_of(const Configuration& of) const;
+  const Method& fitted_method(const Configuration& of) const;
   const Problem& problem_;
   const SavedTimes times_;
   const Quantity quantity_;
-  mutable std::map<long, int> rkc2_stages_; ///< by steps between saved times
+  /// By name and steps between saved times.
+  mutable std::map<std::pair<std::string_view, long>, Method> fitted_;
 };
 
 } // namespace dss

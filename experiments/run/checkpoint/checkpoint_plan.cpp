@@ -36,6 +36,8 @@ void require_sound_checkpoints(const RunRequest& request, const RunPlan& plan) {
     refuse("a run that is repeated for its time has none; leave --samples and --repeat-for out");
   if (!request.reference.empty())
     refuse("errors against a solution are of the whole run; leave --reference out");
+  if (plan.method->has_leaps())
+    refuse("the bits of leaps depend on where they end; give another --integrator");
   if (plan.plugin->solves_equations()) refuse_saving(request, plan.plugin->name);
 }
 

@@ -2,6 +2,7 @@
 
 #include "experiments/base/child.hpp"
 #include "experiments/base/temporary_file.hpp"
+#include "experiments/run/plan/exponential.hpp"
 #include "solver/error.hpp"
 #include "solver/io/program_files.hpp"
 #include "variants/cost/trial.hpp"
@@ -75,7 +76,8 @@ std::pair<int, std::size_t> largest_part(const Problem& problem,
 } // namespace
 
 SimulatedProblem simulated_problem(const Scene& scene) {
-  return {scene.problem, *find_method(scene.problem.integrator), find_model(scene.model).value()};
+  return {scene.problem, require_stepwise(*find_method(scene.problem.integrator)),
+          find_model(scene.model).value()};
 }
 
 std::vector<std::string> simulated_halos() {

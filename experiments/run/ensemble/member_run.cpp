@@ -98,7 +98,7 @@ void MemberRun::end(std::span<const double> state) {
 
 void MemberRun::begin_steps() {
   balance_.emplace(plan_.scene.problem, equations(), initial_state(plan_.scene.problem), 0.0,
-                   !plan_.method->is_implicit());
+                   !plan_.method->is_unlimited());
 }
 
 void MemberRun::look_at_step(std::span<const double> state, long step) {

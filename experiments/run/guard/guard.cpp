@@ -79,6 +79,7 @@ void require_sound_guard(const RunRequest& request, const RunPlan& plan) {
     refuse(fmt::format("--guard-steps {}: give 1 to {}, the steps of --guard", request.guard_steps,
                        request.guard));
   if (plan.adaptive) refuse("--guard: steps must be equal; leave --rtol out");
+  if (plan.method->has_leaps()) refuse("--guard: leaps have no steps; give another --integrator");
   if (request.samples > 1 || request.repeat_for > 0)
     refuse("--guard: a run that is repeated for its time has none; leave --samples and "
            "--repeat-for out");

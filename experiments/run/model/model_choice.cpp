@@ -31,6 +31,7 @@ std::string why_not_bounded(const Problem& problem, Model model, double toleranc
 } // namespace
 
 std::string why_no_watch(const Method& method) {
+  if (method.is_exponential) return "its method is for linear models alone";
   return method.is_implicit() ? "its method is implicit" : "";
 }
 

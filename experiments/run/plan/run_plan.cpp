@@ -1,4 +1,5 @@
 #include "experiments/run/plan/run_plan.hpp"
+#include "experiments/run/plan/exponential.hpp"
 #include "experiments/run/plan/job.hpp"
 #include "experiments/run/plan/names.hpp"
 #include "solver/decomposition/decomposition_file.hpp"
@@ -8,6 +9,7 @@
 #include "solver/model/sufficiency/sufficiency.hpp"
 #include "solver/nearest_name.hpp"
 #include "solver/numerics/stability.hpp"
+#include "variants/leaps/leap_executor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -244,6 +246,17 @@ ModelChoice chosen_model(const RunRequest& request, const RunPlan& plan) {
   return {asked, *model, "asked for", {}, tolerance, false};
 }
 
+/// @throws InputError if the method is exponential, and something rules it out
+void require_exponential(const RunRequest& request, const RunPlan& plan) {
+  if (!plan.method->is_exponential) return;
+  const Problem& problem = plan.scene.problem;
+  std::string why =
+      why_not_exponential(*plan.method, problem, plan.model, plan.precision, plan.rotation);
+  if (request.is_member) why = "has no ensembles; give another --integrator";
+  if (why.empty()) why = why_not_polynomial(problem, plan.dt, plan.steps);
+  if (!why.empty()) throw InputError(fmt::format("--integrator {}: {}", plan.method->name, why));
+}
+
 } // namespace
 
 void require_outputs_writable(const RunRequest& request) {
@@ -365,6 +378,7 @@ RunPlan plan_run(const RunRequest& request) {
   plan.adaptive = chosen_tolerance(request, *plan.method, plan.precision);
   plan.model_choice = chosen_model(request, plan);
   plan.model = plan.model_choice.chosen;
+  require_exponential(request, plan);
   require_room(request, double(problem.lattice.element_count),
                int(descriptor(plan.model).fields.size()), plan.precision);
   plan.stability_limit = require_stable(

@@ -3,6 +3,7 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/step_growth.hpp"
 #include "solver/reference/dynamics.hpp"
+#include "variants/leaps/leap_executor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +38,8 @@ EnergyPoint energy_change(const Plugin& plugin, const Problem& problem, const Me
   // both eigenvalues are on the unit circle
   if (method.keeps_energy_bounded && std::abs(point.theory) < 1e-6) point.theory = 0;
   const long window = window_steps(method, 2 * std::log(radius));
-  const auto executor = plugin.create({problem, method, Model::spatial, Precision::f64, dt});
+  const auto executor =
+      make_executor(plugin, {problem, method, Model::spatial, Precision::f64, dt});
   write_initial_state(*executor, problem);
   const std::vector<double> no_signals((std::size_t(method.stages) + 1) * signal_count(problem),
                                        0.0);

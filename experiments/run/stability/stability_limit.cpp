@@ -2,6 +2,7 @@
 #include "experiments/run/state/random_state.hpp"
 #include "experiments/run/state/state_access.hpp"
 #include "solver/numerics/signal_rows.hpp"
+#include "variants/leaps/leap_executor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -135,7 +136,8 @@ private:
 
   bool is_bounded(double dt) {
     ++runs_;
-    const auto executor = plugin_.create({problem_, method_, Model::spatial, Precision::f64, dt});
+    const auto executor =
+        make_executor(plugin_, {problem_, method_, Model::spatial, Precision::f64, dt});
     executor->write(0, start_);
     std::array<double, 2> most = {0, 0}; // of each half
     for (long look = 0; look < looks; ++look) {
@@ -218,8 +220,8 @@ LimitComparison compare_limit(const Plugin& plugin, const Problem& problem, cons
                               const StabilityLimit& predicted, double element_steps) {
   if (!std::isfinite(predicted.dt))
     return predicted_alone(method, predicted,
-                           method.is_implicit() ? "implicit: no step is too large"
-                                                : "nothing vibrates or is damped");
+                           method.is_unlimited() ? "implicit or exact: no step is too large"
+                                                 : "nothing vibrates or is damped");
   LimitComparison row{
       &method, predicted, measure_limit(plugin, problem, method, predicted, element_steps), {}, {}};
   judge(row);

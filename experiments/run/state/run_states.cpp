@@ -4,6 +4,7 @@
 #include "experiments/run/timed/breakdown.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "variants/isa/denormals.hpp"
+#include "variants/leaps/leap_executor.hpp"
 
 namespace dss {
 
@@ -15,9 +16,9 @@ std::vector<std::vector<double>> run_states(RunRequest request, const SavedTimes
   const RunPlan plan = plan_run(request);
   const Problem& problem = plan.scene.problem;
   const FlushDenormals flush;
-  const auto executor = plan.plugin->create({problem, *plan.method, plan.model, plan.precision,
-                                             plan.dt, request.threads, nullptr, &plan.distribution,
-                                             request.device, request.hybrid, plan.rotation});
+  const auto executor = make_executor(
+      *plan.plugin, {problem, *plan.method, plan.model, plan.precision, plan.dt, request.threads,
+                     nullptr, &plan.distribution, request.device, request.hybrid, plan.rotation});
   write_initial_state(*executor, problem);
   std::vector<std::vector<double>> states;
   for (long step = 0; step < plan.steps; step += between) {

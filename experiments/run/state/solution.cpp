@@ -9,6 +9,7 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
+#include "variants/leaps/leap_executor.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -101,8 +102,8 @@ std::vector<std::vector<double>> variant_states(const Problem& problem, const Me
   constexpr long most_rows = 256; // of signals at once
   const double dt = times.interval() / double(steps_between);
   const Plugin& plugin = sufficient_variant(problem, method, rule);
-  const auto executor = plugin.create(
-      {problem, method, rule.model, Precision::f64, dt, plugin.is_threaded ? usable_cores() : 1});
+  const auto executor = make_executor(plugin, {problem, method, rule.model, Precision::f64, dt,
+                                               plugin.is_threaded ? usable_cores() : 1});
   write_initial_state(*executor, problem);
   std::vector<std::vector<double>> states;
   for (long k = 0, step = 0; k < times.count; ++k) {

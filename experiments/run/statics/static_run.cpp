@@ -116,10 +116,10 @@ void relax_to_rest(const RunRequest& run, Model model, const AnalysisRequest& re
   asked.steps = 1;
   asked.output.clear(), asked.state_csv.clear(), asked.picture.clear();
   const RunPlan plan = plan_run(asked);
-  if (plan.method->is_implicit() || plan.plugin->is_distributed)
+  if (plan.method->is_unlimited() || plan.plugin->is_distributed)
     throw InputError(fmt::format("--solver relaxation: runs an explicit method on one process; {}",
-                                 plan.method->is_implicit() ? "give --integrator velocity_verlet"
-                                                            : "leave --ranks out"));
+                                 plan.method->is_unlimited() ? "give --integrator velocity_verlet"
+                                                             : "leave --ranks out"));
   const Problem& problem = plan.scene.problem;
   if (const std::string why = why_not_held(problem, unknowns_of(model, problem)); !why.empty())
     throw InputError(fmt::format("{}: {}", problem.name, why));

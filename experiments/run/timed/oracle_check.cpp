@@ -9,7 +9,7 @@ namespace dss {
 
 bool OracleCheck::has_tail() const {
   return plan_.tail_steps > 0 && !plan_.adaptive && plan_.expected->steps < plan_.steps &&
-         plan_.method->family == Method::Family::runge_kutta;
+         plan_.method->family == Method::Family::runge_kutta && !plan_.method->is_exponential;
 }
 
 long OracleCheck::tail_start() const {

@@ -3,6 +3,7 @@
 #include "experiments/run/state/state_access.hpp"
 #include "experiments/run/timed/rank_sums.hpp"
 #include "solver/numerics/signal_rows.hpp"
+#include "variants/leaps/leap_executor.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -48,6 +49,7 @@ void TimedRun::run() {
   flip_ = flip;
   const Traffic before = traffic(*executor_);
   const DeviceUse used_before = device_use(*executor_);
+  const double evaluations_before = evaluations(*executor_);
   while (!pass_all_stops())
     if (result_.status != "ok") return;
   end_saving();
@@ -60,6 +62,7 @@ void TimedRun::run() {
   result_.usage = of_all_ranks(*executor_, result_.usage);
   result_.hybrid = hybrid_info(*executor_);
   result_.factors = factor_info(*executor_);
+  if (plan_.method->has_leaps()) result_.evaluations = evaluations(*executor_) - evaluations_before;
   result_.device_use = since(used_by_looks_, since(used_before, device_use(*executor_)));
   if (const std::string written = series_.finish(); !written.empty())
     result_.files.push_back(written);
@@ -97,6 +100,8 @@ RunResult TimedRun::sample(double least_s) {
     write_initial_state(*executor_, problem_);
     if (plan_.adaptive)
       again.wall_s += adapt_again(again.usage);
+    else if (plan_.method->has_leaps())
+      leap_again(again);
     else
       advance_to(0, plan_.steps, again);
     ++again.runs;
@@ -132,9 +137,10 @@ void TimedRun::take_samples(long samples, double least_s) {
 
 std::unique_ptr<Executor> TimedRun::created(Model model) {
   const auto start = Clock::now();
-  auto executor = plan_.plugin->create(
-      {problem_, *plan_.method, model, plan_.precision, plan_.dt, request_.threads, nullptr,
-       &plan_.distribution, request_.device, request_.hybrid, plan_.rotation, request_.tile});
+  auto executor =
+      make_executor(*plan_.plugin, {problem_, *plan_.method, model, plan_.precision, plan_.dt,
+                                    request_.threads, nullptr, &plan_.distribution, request_.device,
+                                    request_.hybrid, plan_.rotation, request_.tile});
   if (!has_begun_) result_.first_step_s = seconds_since(start);
   model_ = model;
   return executor;
@@ -190,7 +196,7 @@ bool TimedRun::advance_to(long step, long stop, RunResult& result) {
     if (!is_guarded()) return false;
     if (flip_) flip_->apply(*executor_, step, plan_.precision);
     if (saved_ && (!guard_ || guard_->has_checked(step))) step_ = step, save_or_end();
-    const bool is_very_first = !std::exchange(has_begun_, true);
+    const bool is_very_first = !std::exchange(has_begun_, true) && !plan_.method->has_leaps();
     const long count = is_very_first ? 1 : chunk(steps_to_pause(step, stop));
     const std::vector<double> signals = signal_rows(problem_, *plan_.method, plan_.dt, step, count);
     // Lets all ranks start together, so that work of rank 0 alone is not timed.
@@ -280,6 +286,12 @@ double TimedRun::adapt_again(Usage& usage) {
   for (const long stop : stops()) adaptive.advance_to(double(stop) * plan_.dt);
   usage += meter.read();
   return adaptive.counts().wall_s;
+}
+
+// Leaps of other lengths have other bits, so that pauses stay where they were.
+void TimedRun::leap_again(RunResult& result) {
+  long step = 0;
+  for (const long stop : stops()) advance_to(std::exchange(step, stop), stop, result);
 }
 
 void TimedRun::look(long step) {

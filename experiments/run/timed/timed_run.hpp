@@ -92,6 +92,8 @@ private:
   /// time [s]
   double adapt_again(Usage& usage);
 
+  void leap_again(RunResult& result); ///< the whole run with the same pauses
+
   void look(long step);
   void write_frame(long step);
   std::unique_ptr<Guard> made_guard(); ///< null if the request has none

@@ -113,6 +113,7 @@ bool TimedRun::is_passed(long stop) const {
 }
 
 long TimedRun::chunk(long most) const {
+  if (plan_.method->has_leaps()) return std::min(leap_steps, most);
   if (!saved_) return std::min(signal_steps, most);
   return saved_->steps_left(step_, std::min(chunk_steps(), most));
 }

@@ -11,7 +11,9 @@ namespace dss {
 bool TimedRun::is_balanced_by_steps() const {
   // With adaptive steps, the number of steps is known at the end.
   const long steps = plan_.adaptive ? result_.steps : plan_.steps;
-  return dss::is_balanced_by_steps(problem_.lattice.element_count, steps);
+  // Leaps of other lengths have other bits.
+  return !plan_.method->has_leaps() &&
+         dss::is_balanced_by_steps(problem_.lattice.element_count, steps);
 }
 
 long TimedRun::balance_interval() const {
@@ -54,9 +56,9 @@ bool TimedRun::repeat_by_steps(EnergyBalance& balance) {
 }
 
 EnergyShares TimedRun::balance_by_steps() {
-  // Steps of implicit methods may be too long for the rule of what dampers take.
+  // Steps without a limit may be too long for the rule of what dampers take.
   EnergyBalance balance(problem_, equations(), balance_start_->state,
-                        double(balance_start_->step) * plan_.dt, !plan_.method->is_implicit());
+                        double(balance_start_->step) * plan_.dt, !plan_.method->is_unlimited());
   const bool is_finite = repeat_by_steps(balance);
   if (!is_finite ||
       state_digest(*executor_, problem_.lattice.element_count, plan_.precision) != result_.digest) {

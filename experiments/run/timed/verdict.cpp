@@ -114,7 +114,7 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
   result.model = name(plan.model);
   result.precision = name(plan.precision);
   result.integrator = plan.method->name;
-  result.stages = plan.method->stages;
+  result.stages = plan.method->has_leaps() ? 0 : plan.method->stages;
   result.rotation = name(plan.rotation);
   result.model_choice = plan.model_choice;
   result.threads = request.threads;
@@ -126,7 +126,8 @@ RunResult described(const RunPlan& plan, const RunRequest& request) {
   result.stability_limit_s = plan.stability_limit;
   result.end_s = double(plan.steps) * plan.dt;
   result.adaptive = plan.adaptive;
-  if (!plan.method->is_implicit()) result.evaluations = double(plan.steps) * plan.method->stages;
+  if (!plan.method->is_implicit() && !plan.method->has_leaps())
+    result.evaluations = double(plan.steps) * plan.method->stages;
   return result;
 }
 
@@ -140,7 +141,7 @@ void describe_state(const RunPlan& plan, Rotation rotation, const std::vector<do
   if (result.model_report.promotions.empty())
     result.energy_drift = energy_drift(problem, rotation, result.energy_j);
   if (problem.lattice.element_count <= stability_state_elements && !plan.adaptive &&
-      !plan.method->is_implicit())
+      !plan.method->is_unlimited())
     result.stability_limit_end_s = limit_of_end(plan, rotation, state);
 }
 

@@ -15,6 +15,8 @@ constexpr std::size_t balanced_elements = 250'000;
 
 /// Signals are computed for this many steps at once, so steps are advanced in such chunks.
 constexpr long signal_steps = 256;
+/// Likewise of methods with leaps, which end with each call.
+constexpr long leap_steps = 4096;
 
 /// Steps between looks at the energy on the way: a whole number of chunks.
 long energy_look_interval(std::size_t elements, long steps);

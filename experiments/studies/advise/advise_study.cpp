@@ -7,6 +7,7 @@
 #include "experiments/run/advise/advise.hpp"
 #include "experiments/run/advise/first_steps.hpp"
 #include "experiments/run/advise/step_costs.hpp"
+#include "experiments/run/plan/exponential.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/studies/advise/brute_force.hpp"
 #include "solver/cores.hpp"
@@ -40,8 +41,8 @@ Solution kept_solution(const AdviseStudy& study, const AdviseStudy::Case& of,
       fmt::format("{}/{:016x}.solution", directory, std::hash<std::string>{}(key));
   if (std::filesystem::exists(path))
     if (Solution solution = read_solution(path); solution.key == key) return solution;
-  Solution solution =
-      find_solution(of.loaded.problem, require_method(rule.integrator), rule, of.times, note);
+  Solution solution = find_solution(
+      of.loaded.problem, require_stepwise(require_method(rule.integrator)), rule, of.times, note);
   solution.key = key;
   write_solution(path, solution);
   return solution;

@@ -65,7 +65,8 @@ private:
       if (!why_not(model, bench_.problem()).empty()) continue;
       for (const Precision precision : precisions) {
         for (const auto& [method, steps] : first)
-          begin({model, find_method(method), precision, steps, {}, "", 1});
+          if (is_linear(model) || !find_method(method)->is_exponential)
+            begin({model, find_method(method), precision, steps, {}, "", 1});
         begin({model, find_method("dopri5"), precision, first.at("dopri5"), 0.1, "", 1});
       }
     }

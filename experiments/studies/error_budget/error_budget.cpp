@@ -1,5 +1,6 @@
 #include "experiments/studies/error_budget/error_budget.hpp"
 #include "experiments/measure/cell_study.hpp"
+#include "experiments/run/plan/exponential.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/state/accuracy.hpp"
 #include "experiments/run/state/refinement.hpp"
@@ -23,7 +24,8 @@ public:
   SceneBudget(const ErrorBudgetStudy& study, const BudgetScene& budget, Solutions& solutions,
               const std::function<void(const std::string&)>& note)
       : study_(study), budget_(budget), solutions_(solutions), note_(note),
-        scene_(load_scene(budget.scene, budget.set)), method_(require_method(budget.integrator)) {}
+        scene_(load_scene(budget.scene, budget.set)),
+        method_(require_stepwise(require_method(budget.integrator))) {}
 
   std::vector<Record> rows() {
     const bool is_small = scene_.problem.lattice.element_count <= sharp_stability_elements;
@@ -112,7 +114,8 @@ private:
     const std::string key = fmt::format("{} {} {:.17g} {}", budget_.scene, set_text(budget_.set),
                                         budget_.times.end, budget_.times.count);
     if (!solutions_.contains(key))
-      solutions_[key] = find_solution(scene_.problem, require_method(study_.solution.integrator),
+      solutions_[key] = find_solution(scene_.problem,
+                                      require_stepwise(require_method(study_.solution.integrator)),
                                       study_.solution, budget_.times, note_);
     const Solution& solution = solutions_[key];
     row["reference_error"] = number_text(solution.error);

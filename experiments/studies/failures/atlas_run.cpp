@@ -3,6 +3,7 @@
 #include "experiments/run/timed/breakdown.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/dynamics.hpp"
+#include "variants/leaps/leap_executor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +18,14 @@ class AtlasRun {
 public:
   AtlasRun(const AtlasCell& cell, double dt)
       : problem_(cell.scene.problem), method_(cell.method), dt_(dt),
-        executor_(cell.plugin.create({
-            .problem = problem_,
-            .method = method_,
-            .model = cell.model,
-            .precision = cell.precision,
-            .dt = dt,
-            .rotation = cell.rotation,
-        })) {
+        executor_(make_executor(cell.plugin, {
+                                                 .problem = problem_,
+                                                 .method = method_,
+                                                 .model = cell.model,
+                                                 .precision = cell.precision,
+                                                 .dt = dt,
+                                                 .rotation = cell.rotation,
+                                             })) {
     write_initial_state(*executor_, problem_);
   }
 

@@ -20,6 +20,19 @@ std::vector<std::string> names_in(const Named& all) {
   return names;
 }
 
+/// Those of the atlas: exponential methods are of single runs.
+std::vector<std::string> table_methods() {
+  std::vector<std::string> names;
+  for (const Method* method : all_methods()) names.emplace_back(method->name);
+  return names;
+}
+
+std::string table_method_in(const Node& node) {
+  std::string name = method_name_in(node);
+  if (find_method(name)->is_exponential) node.fail("is of single runs; give another method");
+  return name;
+}
+
 /// Reads a list of names; `otherwise` if the key is missing. "explicit" and "all" stand for groups
 /// of methods.
 std::vector<std::string> chosen_list(ObjectNode& object, const std::string& key,
@@ -34,7 +47,7 @@ std::vector<std::string> chosen_list(ObjectNode& object, const std::string& key,
     else if (key == "methods" && item.json() == "all")
       list.insert(list.end(), known.begin(), known.end());
     else if (key == "methods")
-      list.push_back(method_name_in(item));
+      list.push_back(table_method_in(item));
     else
       list.push_back(item.known_name(key.substr(0, key.size() - 1).c_str(), known));
   }
@@ -64,7 +77,7 @@ AtlasReference read_reference(const Node& node, const std::string& path) {
 Expectation read_expectation(const Node& node) {
   ObjectNode object(node);
   Expectation expected;
-  expected.methods = chosen_list(object, "methods", method_names(), {});
+  expected.methods = chosen_list(object, "methods", table_methods(), {});
   expected.precisions = chosen_list(object, "precisions", names_of("PRECISION"), {});
   expected.rotations = chosen_list(object, "rotations", names_of("ROTATION"), {});
   expected.set = one_set(object, "set");
@@ -124,7 +137,7 @@ void read_run(ObjectNode& object, FailureCase& atlas) {
     mode.finish();
   }
   atlas.is_forced = object.flag_or("forced", atlas.is_forced);
-  atlas.methods = chosen_list(object, "methods", method_names(), names_in(methods()));
+  atlas.methods = chosen_list(object, "methods", table_methods(), names_in(methods()));
   atlas.precisions = chosen_list(object, "precisions", names_of("PRECISION"), {"f64"});
   atlas.rotations = chosen_list(object, "rotations", names_of("ROTATION"), {"quaternion"});
   if (const auto model = object.find("model"))

@@ -2,6 +2,7 @@
 #include "experiments/base/temporary_file.hpp"
 #include "experiments/base/text_table.hpp"
 #include "experiments/measure/cell_study.hpp"
+#include "experiments/run/plan/exponential.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 #include "experiments/run/state/oracle_state.hpp"
 #include "experiments/run/state/restricted_oracle.hpp"
@@ -49,7 +50,7 @@ class SceneLadder {
 public:
   SceneLadder(const LadderStudy& study, const LadderScene& place)
       : study_(study), place_(place), scene_(load_scene(place.scene, place.set)),
-        method_(require_method(scene_.problem.integrator)),
+        method_(require_stepwise(require_method(scene_.problem.integrator))),
         steps_(place.steps.value_or(scene_.problem.steps)), truth_("", ".oracle") {
     const double dt = scene_.problem.dt;
     const OracleState state = compute_oracle_state(scene_.problem, method_, Rotation::quaternion,

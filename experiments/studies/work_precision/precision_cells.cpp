@@ -85,10 +85,10 @@ std::vector<Cell> with_steps(const Node& node, const std::vector<Cell>& cells,
   };
   for (Cell cell : cells) {
     const Method& method = require_method(cell.integrator);
-    const CellAccuracy of{times, method.is_implicit() ? std::numeric_limits<double>::infinity()
-                                                      : step_limits(cell).at(method.name)};
-    // rkc2's stages are fitted to each step, and so is its limit.
-    const CellAccuracy of_step{times, cell.integrator == "rkc2" ? 0 : of.step_limit};
+    const CellAccuracy of{times, method.is_unlimited() ? std::numeric_limits<double>::infinity()
+                                                       : step_limits(cell).at(method.name)};
+    // The stages of fitted methods are those of each step, and so is their limit.
+    const CellAccuracy of_step{times, method.is_fitted() ? 0 : of.step_limit};
     for (const long count : step_counts(accuracy, of, study.precision_scale.halvings)) {
       cell.dt = times.interval() / double(count);
       cell.steps = cell.full_steps = count * times.count;

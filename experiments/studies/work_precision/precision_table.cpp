@@ -83,7 +83,8 @@ void put_point(const Cell& cell, const SavedTimes& times, const CellSample* samp
     row["rtol"] = fmt::format("{}", cell.rtol);
     row["steps"] = recorded("accepted_steps", "");
   }
-  if (method->is_implicit() || (cell.rtol > 0 && row["steps"].empty()))
+  if (method->is_implicit() || (cell.rtol > 0 && row["steps"].empty()) ||
+      (method->is_exponential && sample == nullptr))
     return; // nobody knows how many
   const double planned = number_in(row, "stages") * double(cell.steps);
   row["evaluations"] = number_text(std::stod(recorded("evaluations", number_text(planned))) *

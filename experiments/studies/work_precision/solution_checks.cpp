@@ -1,5 +1,6 @@
 #include "experiments/studies/work_precision/solution_checks.hpp"
 #include "experiments/measure/circumstances.hpp"
+#include "experiments/run/plan/exponential.hpp"
 #include "experiments/run/plan/run_plan.hpp"
 
 #include <fmt/format.h>
@@ -14,8 +15,8 @@ std::vector<std::string> SolutionChecks::options(const Cell& cell, long) {
       fmt::format("{} {} at {} times to {:.17g} s, {}", cell.scene, scene_key(cell, scene),
                   of.times.count, of.times.end, rule.key());
   const auto make = [&](const std::string& path) {
-    Solution solution =
-        find_solution(scene.problem, require_method(rule.integrator), rule, of.times, note_);
+    Solution solution = find_solution(
+        scene.problem, require_stepwise(require_method(rule.integrator)), rule, of.times, note_);
     solution.key = key;
     write_solution(path, solution);
   };
