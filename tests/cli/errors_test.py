@@ -6,7 +6,7 @@ import resource
 import time
 import unittest
 
-from program import ProgramTest, dssbench
+from program import ProgramTest, dssbench, why_no_variant
 
 SMALL = ("run", "plate_paper", "--set", "n=10", "--steps", "10")
 
@@ -157,6 +157,8 @@ class Errors(ProgramTest):
     def test_a_variant_that_the_cpu_lacks_is_refused_and_skipped_by_verify(self):
         hidden = {"env": {**os.environ, "DSSBENCH_HIDE_CPU_FEATURES": "fma,avx512f"}}
         for variant, feature in (("avx2", "fma"), ("avx512", "avx512f")):
+            if "left out" in (why_no_variant(variant) or ""):
+                continue
             self.assert_refused(2, [variant, f"lacks {feature}", "list variants"], *SMALL,
                                 "--variant", variant, **hidden)
         result = dssbench("verify", "two_elements", "--variant", "scalar,avx2", **hidden)

@@ -8,7 +8,7 @@ import subprocess
 
 PROGRAMS = {"make", "cmake", "ctest", "mpirun", "srun", "salloc", "sbatch", "eval", "cp", "cd",
             "git", "apt", "apt-get", "pip", "python3", "bash", "likwid-perfctr", "perf", ".ci/run",
-            ".ci/sanitize"}
+            ".ci/long"}
 DSSBENCH = re.compile(r"^((build/|.*/bin/).*)?dssbench$")
 SUBCOMMAND = re.compile(r"^(run|verify|list|experiment|explain|stability|advise|bench|compare"
                         r"|decompose|simulate|completion) ")
