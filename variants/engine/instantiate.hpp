@@ -84,8 +84,8 @@ struct RowKernels {
                                             kind == LaneKind::neighbours && terms.is_damped &&
                                             !terms.is_oblong && simd::lanes<double> == 4;
   static constexpr bool has_own_functions =
-      ((has_all_kernels && !has_plain_rows) || has_few_functions) &&
-      kind != LaneKind::filled && (!terms.has_pressure || has_pressed_functions) &&
+      ((has_all_kernels && !has_plain_rows) || has_few_functions) && kind != LaneKind::filled &&
+      (!terms.has_pressure || has_pressed_functions) &&
       (is_single || is_ensemble ? P::is_common && !terms.is_full() : P::is_common || has_packs);
   /// The rest of the actions: in line in common damped rows, else called for each pack.
   static constexpr int rest = P::is_common && terms.is_damped && !terms.is_oblong &&

@@ -6,7 +6,6 @@
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/numerics/stability.hpp"
 #include "solver/reference/oracle.hpp"
-#include "variants/leaps/leap_executor.hpp"
 #include "variants/loading/loader.hpp"
 
 #include <algorithm>
@@ -18,8 +17,9 @@ namespace dss {
 StageRun::StageRun(const ChainStudy& study, const Scene& scene, const ChainStage& stage)
     : scene_(scene), method_(method_of(stage)),
       dt_(study.end_time / double(study.saved_times) / double(stage.steps_an_interval)),
-      executor_(make_executor(load_variant(stage.variant), {scene.problem, method_, stage.model,
-                                                            stage.precision, dt_, stage.threads})),
+      executor_(
+          load_variant(stage.variant)
+              .create({scene.problem, method_, stage.model, stage.precision, dt_, stage.threads})),
       end_(stage.steps_an_interval * study.saved_times), start_(state()) {}
 
 void StageRun::advance(long steps) {

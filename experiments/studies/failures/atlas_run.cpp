@@ -3,7 +3,6 @@
 #include "experiments/run/timed/breakdown.hpp"
 #include "solver/numerics/signal_rows.hpp"
 #include "solver/reference/dynamics.hpp"
-#include "variants/leaps/leap_executor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +17,14 @@ class AtlasRun {
 public:
   AtlasRun(const AtlasCell& cell, double dt)
       : problem_(cell.scene.problem), method_(cell.method), dt_(dt),
-        executor_(make_executor(cell.plugin, {
-                                                 .problem = problem_,
-                                                 .method = method_,
-                                                 .model = cell.model,
-                                                 .precision = cell.precision,
-                                                 .dt = dt,
-                                                 .rotation = cell.rotation,
-                                             })) {
+        executor_(cell.plugin.create({
+            .problem = problem_,
+            .method = method_,
+            .model = cell.model,
+            .precision = cell.precision,
+            .dt = dt,
+            .rotation = cell.rotation,
+        })) {
     write_initial_state(*executor_, problem_);
   }
 
