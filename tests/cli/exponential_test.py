@@ -1,19 +1,17 @@
 """The methods `chebyshev` and `faber` by the command line."""
 import json
-import pathlib
 import re
 import unittest
 
-from program import ProgramTest, dssbench
+from program import ProgramTest, dssbench, shipped_scene
 
 PLATE = ("run", "plate_paper", "--set", "n=10", "--model", "membrane")
-SCENES = pathlib.Path(__file__).parents[2] / "experiments" / "scenes"
 
 
 class Exponential(ProgramTest):
     def chain(self):
         """A run of a bar without damping."""
-        scene = json.loads((SCENES / "chain.json").read_text(encoding="utf-8"))
+        scene = shipped_scene("chain")
         scene["bodies"][0]["constants"]["damping_ratio"] = 0
         return ("run", self.write("bar.json", json.dumps(scene)), "--set", "n=40", "--model",
                 "axial", "--dt", "2.5e-6")
@@ -53,7 +51,7 @@ class Exponential(ProgramTest):
             faber["max_displacement_m"] / whole["max_displacement_m"], 1, delta=1e-9)
 
     def test_ranks_have_them(self):
-        scene = json.loads((SCENES / "plate_paper.json").read_text(encoding="utf-8"))
+        scene = shipped_scene("plate_paper")
         scene["bodies"][0]["constants"] |= {"d": 0, "dt": 0}
         undamped = ("run", self.write("plate.json", json.dumps(scene)), *PLATE[2:])
         for method, plate in (("faber", PLATE), ("chebyshev", undamped)):
@@ -91,7 +89,7 @@ class Exponential(ProgramTest):
                             slow, *PLATE[2:], "--integrator", "faber")
 
     def scene_with_hum(self, frequency):
-        scene = json.loads((SCENES / "plate_paper.json").read_text(encoding="utf-8"))
+        scene = shipped_scene("plate_paper")
         scene["loads"][0]["signal"] = {"harmonic": {"amplitude": 1, "frequency": frequency}}
         return scene
 

@@ -1,6 +1,7 @@
 """Runs the program under test. Its path is in the environment variable DSSBENCH."""
 import json
 import os
+import pathlib
 import subprocess
 import tempfile
 import unittest
@@ -20,6 +21,12 @@ def record(*arguments, **options):
     if result.returncode != 0:
         raise AssertionError(result.stderr)
     return json.loads(result.stdout)
+
+
+def shipped_scene(name):
+    """The JSON of a shipped scene, to be changed and written elsewhere."""
+    path = pathlib.Path(__file__).parents[2] / "experiments" / "scenes" / f"{name}.json"
+    return json.loads(path.read_text(encoding="utf-8"))
 
 
 def why_no_variant(name):

@@ -1,9 +1,8 @@
 """The variant `sparse` by the command line."""
 import json
-import pathlib
 import unittest
 
-from program import ProgramTest, dssbench
+from program import ProgramTest, dssbench, shipped_scene
 
 PLATE = ("run", "plate_paper", "--set", "n=10", "--steps", "40", "--variant", "sparse")
 
@@ -43,8 +42,7 @@ class Sparse(ProgramTest):
 
     def scene_of(self, name, **run):
         """A copy of a shipped scene with other values of its "run"."""
-        path = pathlib.Path(__file__).parents[2] / "experiments" / "scenes" / f"{name}.json"
-        scene = json.loads(path.read_text(encoding="utf-8"))
+        scene = shipped_scene(name)
         scene["run"] |= run
         return self.write(f"{name}.json", json.dumps(scene))
 
