@@ -1,5 +1,6 @@
 #include "experiments/measure/cell_block.hpp"
 #include "experiments/measure/cell_devices.hpp"
+#include "experiments/measure/study_file.hpp"
 #include "experiments/measure/study_names.hpp"
 #include "experiments/run/plan/job.hpp"
 #include "experiments/run/plan/names.hpp"
@@ -82,6 +83,11 @@ struct Block {
   std::vector<int> threads, ranks;
   std::vector<long> members; ///< of ensembles
   std::optional<WeakScaling> weak;
+  std::vector<std::string> scales; ///< that measure the block; empty: all
+
+  bool is_of_scale(const std::string& name) const {
+    return scales.empty() || std::ranges::find(scales, name) != scales.end();
+  }
 };
 
 void read_ranks(ObjectNode& object, int cores, Block& block) {
@@ -131,9 +137,11 @@ void read_variants(ObjectNode& object, int cores, Block& block) {
     require_device_variant(name, block.device, variants);
 }
 
-Block read_block(ObjectNode& object, const Sets& scale_sets, const CellRules& rules) {
+Block read_block(ObjectNode& object, const Sets& scale_sets, const CellRules& rules,
+                 const std::string& study_path) {
   Block block;
   block.scene = object.require("scene").name();
+  block.scales = object.known_names_or("scales", "scale", scale_names(study_path), {});
   for (const auto& own : combinations(object, "set"))
     for (const auto& of_scale : scale_sets) {
       block.sets.push_back(own);
@@ -301,10 +309,11 @@ void require_loadable(const Node& place, const Block& block, const std::vector<C
 void add_block(const Node& place, const Sets& scale_sets, const CellRules& rules,
                CellStudy& study) {
   ObjectNode object(place);
-  const Block block = read_block(object, scale_sets, rules);
+  const Block block = read_block(object, scale_sets, rules, study.path);
   std::vector<Cell> cells = cells_of(object, block, study.scale, rules.cores);
   require_loadable(place, block, cells);
   if (rules.expand) cells = rules.expand(object, cells);
+  if (!block.is_of_scale(study.scale.name)) return;
   std::set<std::string> keys;
   for (const Cell& cell : cells) {
     if (!keys.insert(cell.key()).second)

@@ -20,8 +20,9 @@ struct CellRules {
   std::function<std::vector<Cell>(ObjectNode& block, const std::vector<Cell>& cells)> expand;
 };
 
-/// Adds the cells of a block to `study`. Reads `study.scale`, which must be set. A cell that an
-/// earlier block has added is not added again. Loads every scene with its overrides.
+/// Adds the cells of a block to `study`, unless the block is not for the study's scale. Reads
+/// `study.path` and `study.scale`, which must be set. A cell that an earlier block has added is not
+/// added again. Loads every scene with its overrides.
 /// @throws InputError with the place of the mistake
 void add_block(const Node& place, const Sets& scale_sets, const CellRules& rules, CellStudy& study);
 

@@ -108,6 +108,10 @@ void read_cells(const StudyFile& file, const CellRules& rules, CellStudy& study)
   study.scale = read_scale(file, rules);
   const Sets scale_sets = combinations(scale, "set");
   for (const Node& block : root.require("cells").list()) add_block(block, scale_sets, rules, study);
+  if (study.cells.empty())
+    root.require("cells").fail(fmt::format("no block has cells at the scale \"{}\"; one must be "
+                                           "without \"scales\", or name it there",
+                                           study.scale.name));
   if (const auto steps = scale.find("steps_by_set")) require_sets(*steps, study);
   add_whole_runs(rules.cores, study);
   study.bases = root.names_or("base", {});

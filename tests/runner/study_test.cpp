@@ -66,6 +66,13 @@ TEST_F(StudyOfRanks, WithoutTheKeysEveryCellIsOneProcess) {
   EXPECT_FALSE(contains(run_arguments(loaded, loaded.cells[0], {}), "--ranks"));
 }
 
+TEST_F(StudyOfRanks, BlocksAreMeasuredAtTheirScales) {
+  study["scales"]["large"] = {{"set", {{"n", 40}}}, {"steps", 10}};
+  EXPECT_EQ(load({block, with({{"threads", 2}, {"scales", "large"}})}).cells.size(), 1u);
+  EXPECT_EQ(load({with({{"scales", {"smoke", "large"}}})}).cells.size(), 1u);
+  expect_refused({{"scales", "large"}}, {"/cells:", "no block has cells at the scale \"smoke\""});
+}
+
 TEST_F(StudyOfRanks, HalosAndDecompositionsMultiplyCellsOnSeveralRanksAlone) {
   const SpeedupStudy loaded = load({with({{"ranks", {1, 2, "cores", 4}},
                                           {"halos", {"deep", "auto"}},
