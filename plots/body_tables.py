@@ -84,6 +84,16 @@ def geometry_rates(results):
     return bodies
 
 
+def shapes_table(results):
+    """What SIMD gains on bodies of many shapes, on one core: the front page's part of
+    geometry_table."""
+    lines = [[body.name, f"{body.elements}", f"{body.links_an_element:.2f}",
+              f"{1e-6 * body.on_core['avx512']['element_steps_per_s']:.3g}",
+              speedup_over(body.on_core["avx512"], "scalar")]
+             for body in geometry_rates(results) if "avx512" in body.on_core]
+    return ["body", "elements", "links an element", "`avx512`", "over `scalar`"], lines
+
+
 def geometry_table(results):
     """Rates of the bodies of many shapes; those of a link over those of the plate n = 100 and of
     the law's row kernel in the L1 cache."""

@@ -4,7 +4,7 @@ A function takes Results, and returns the heads and the lines of texts.
 """
 import json
 
-from body_tables import geometry_table, schedules_table
+from body_tables import geometry_table, schedules_table, shapes_table
 from goal_tables import goals_table
 from tables.results import NotMeasured, Results
 from tables.words import speedup_over, with_interval
@@ -307,4 +307,4 @@ TABLES = {"chain": chain_table, "continuum": continuum_table,
           "goals": goals_table, "gpu": gpu_table, "implicit": implicit_table,
           "machine": machine_table, "mix": mix_table, "models": models_table,
           "networks": network_table, "problem": problem_table, "schedules": schedules_table,
-          "sizes": sizes_table, "statics": statics_table, "verification": verification_table}
+          "shapes": shapes_table, "sizes": sizes_table, "statics": statics_table, "verification": verification_table}

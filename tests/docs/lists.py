@@ -3,7 +3,7 @@ from plan import Lists
 
 LEFT_OUT = (  # (pattern of the command as shown, why it is not run)
     (r"^srun |^salloc ", "needs a cluster with Slurm"),
-    (r"^\.ci/(run|sanitize)$", "builds for minutes"),
+    (r"^\.ci/(run|long)$", "builds for minutes"),
     (r"^cp -r PREFIX|^cmake -B build |^PREFIX/bin", "compiles a variant; the test `install` does"),
     (r"^likwid-perfctr ", "needs hardware counters"),
 )
@@ -52,7 +52,7 @@ SIZES = (
     (r"--ranks (1,2,3|2,3)", "--ranks 2", "every number of ranks takes a second"),
     (r"--tolerance 0.1 --vary n", "--tolerance 0.5 --vary n --budget 60", "takes seconds"),
     (r"(\bbench .*--variant avx512)", r"\1 --repetitions 1 --min-time 1e-4", "takes seconds"),
-    (r"(\bsweep plate_paper.*)", r"\1 --steps 5 --repetitions 1 --no-picture --budget 1",
+    (r"(\bsweep (plate_paper|my_plate.json).*)", r"\1 --steps 5 --repetitions 1 --no-picture --budget 1",
      "takes a minute"),
     (r"\bn=40,80(,160)?\b", "n=6,8", "takes seconds"),
     (r"\bn=300\b", "n=20", "takes seconds"),
@@ -72,6 +72,7 @@ TRANSCRIPTS = (  # transcripts that are run smaller; their lines are then not co
 
 OWN_LINES = (  # (pattern of a line in a transcript, why each machine prints its own)
     (r"^(mpi:|hybrid )", "names the instruction set and measured shares"),
+    (r"^(advised|the paper's) ", "measured times, and what was the fastest"),
 )
 
 PLACEHOLDERS = ("OLD", "NEW", "DT")  # without a value here: what has one is checked by the help

@@ -175,11 +175,11 @@ TEST(Variants, agree_with_the_oracle_after_a_run_from_a_moderate_state) {
               restricted(fixture::random_state(c.problem, 2, c.gap * 0.01, 0.02, 0.01), model),
               Precision::f32);
           const State end =
-              VariantRun{tested.plugin, c.problem, method, model, precision}.after(state, 15);
+              VariantRun{tested.plugin, c.problem, method, model, precision}.after(state, 8);
           const Rotation finite = tested.plugin.rotation;
           State& of_oracle = expected[{model, method.name, finite}];
           if (of_oracle.empty())
-            of_oracle = oracle_after(c.problem, method, state, 15, model, finite);
+            of_oracle = oracle_after(c.problem, method, state, 8, model, finite);
           const bool is_whole = tested.plugin.has_all && !is_common(model);
           EXPECT_LE(relative_error(is_whole ? restricted(end, model) : end, of_oracle),
                     precision == Precision::f64 ? 1e-10 : 2e-3)
