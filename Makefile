@@ -14,7 +14,7 @@ ifneq (,$(filter clang tsan,$(PRESET)))
 export DSS_EXTRA_PACKAGES += clang libomp-dev libclang-rt-dev
 endif
 
-.PHONY: all build test reproduce reproduce-gpu gpu-studies report bench clean dependencies
+.PHONY: all build test reproduce reproduce-gpu gpu-studies report site bench clean dependencies
 .PHONY: verify-cpu verify-devices pages test-aarch64 fuzz mutants faults restarts flips valgrind
 .PHONY: sanitize coverage
 
@@ -191,6 +191,11 @@ gpu-studies:
 # Makes the page from present results. Measures nothing.
 report: dependencies
 	@/usr/bin/python3 plots/make_report.py --results $(OUT)
+
+# All pages as a static site that opens from disk, build/site/index.html.
+site: export DSS_EXTRA_PACKAGES += mkdocs
+site: dependencies
+	@docs/make_site.py build/site
 
 bench: TARGETS := --target dssbench
 bench: build

@@ -307,4 +307,5 @@ TABLES = {"chain": chain_table, "continuum": continuum_table,
           "goals": goals_table, "gpu": gpu_table, "implicit": implicit_table,
           "machine": machine_table, "mix": mix_table, "models": models_table,
           "networks": network_table, "problem": problem_table, "schedules": schedules_table,
-          "shapes": shapes_table, "sizes": sizes_table, "statics": statics_table, "verification": verification_table}
+          "shapes": shapes_table, "sizes": sizes_table, "statics": statics_table,
+          "verification": verification_table}
