@@ -37,16 +37,20 @@ def number(page):
     return int(page.name.partition("_")[0])
 
 
+def title(page):
+    """How the list of pages names a page: its folder, or its path."""
+    return str(page.parent if page.name == "README.md" else page.with_suffix(""))
+
+
 def settings(all_pages, source, site):
-    """The settings of MkDocs. Pages keep their places in the tree, so that links stay as they are."""
+    """The settings of MkDocs. Pages keep their places in the tree, so links stay as they are."""
     numbered = sorted((page for page in all_pages
                        if page.parent.name == "docs" and page.name[0].isdigit()), key=number)
-    first = [pathlib.Path("README.md"), *numbered]
-    rest = sorted(page for page in all_pages if page not in first)
+    rest = sorted(page for page in all_pages if page not in numbered and str(page) != "README.md")
     return {"site_name": "dssbench", "docs_dir": str(source), "site_dir": str(site),
             "use_directory_urls": False, "theme": {"name": "mkdocs", "highlightjs": False},
-            "plugins": [], "nav": [*map(str, first),
-                                   {"Reference": [{str(page.parent): str(page)} for page in rest]}]}
+            "plugins": [], "nav": ["README.md", {"Guide": [*map(str, numbered)]},
+                                   {"Reference": [{title(page): str(page)} for page in rest]}]}
 
 
 def build(site):
