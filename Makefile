@@ -30,10 +30,10 @@ build: dependencies
 	@rm -f $(PRESET).configure.log
 	@cmake --build --preset $(PRESET) $(TARGETS)
 
-# The test of sizes needs ctags, random scenes need RapidCheck, the pages of the report a browser,
-# which the preset ci leaves out.
+# The test of sizes needs ctags, random scenes need RapidCheck. The preset ci leaves out what needs
+# a browser or MkDocs.
 test: export DSS_EXTRA_PACKAGES += universal-ctags librapidcheck-dev \
-  $(if $(filter ci,$(PRESET)),,chromium chromium-driver python3-selenium)
+  $(if $(filter ci,$(PRESET)),,chromium chromium-driver python3-selenium mkdocs)
 test: build
 	@ctest --preset $(PRESET)
 
@@ -195,7 +195,7 @@ report: dependencies
 # All pages as a static site that opens from disk, build/site/index.html.
 site: export DSS_EXTRA_PACKAGES += mkdocs
 site: dependencies
-	@docs/make_site.py build/site
+	@plots/make_site.py build/site
 
 bench: TARGETS := --target dssbench
 bench: build

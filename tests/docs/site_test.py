@@ -27,7 +27,7 @@ class Site(unittest.TestCase):
     def test_every_page_is_there_and_no_link_is_broken(self):
         with tempfile.TemporaryDirectory(prefix="dssbench-site-") as folder:
             site = pathlib.Path(folder)
-            script = pathlib.Path(workplace.SOURCE) / "docs" / "make_site.py"
+            script = pathlib.Path(workplace.SOURCE) / "plots" / "make_site.py"
             subprocess.run([script, site], check=True)
             for page in pages.tracked_pages(workplace.SOURCE):
                 html = self.made_from(site, page)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Builds all pages of the tree as a static site that opens from disk: SITE/index.html.
 
-Example: docs/make_site.py build/site
+Example: plots/make_site.py build/site
 """
 import argparse
 import json
@@ -12,16 +12,10 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+from fill_pages import pages_of
+from tables.results import ROOT
+
 LINK = re.compile(r"\]\(([^)#\s]+)[^)\s]*\)")
-
-
-def pages():
-    """Paths of all tracked pages, relative to the root."""
-    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others",
-                             "--exclude-standard", "*.md"],
-                            capture_output=True, text=True, check=True).stdout.split()
-    return [pathlib.Path(name) for name in listed]
 
 
 def linked_files(page):
@@ -55,7 +49,7 @@ def settings(all_pages, source, site):
 
 def build(site):
     """Copies pages with what they link to, and lets MkDocs build them. Returns its exit code."""
-    all_pages = pages()
+    all_pages = [page.relative_to(ROOT) for page in pages_of(ROOT)]
     with tempfile.TemporaryDirectory(prefix="dssbench-site-") as folder:
         source = pathlib.Path(folder) / "pages"
         for path in {*all_pages, *(file for page in all_pages for file in linked_files(page))}:
