@@ -126,7 +126,7 @@ PAPER_STUDIES := paper_table1 paper_table2 paper_table3
 STUDIES := kernels
 LATER_STUDIES := geometry work_precision implicit exponential advise stability model_ladder \
   statics balance cluster mixed_nodes
-# Some six minutes of measuring: the paper's tables alone, on at most two ranks.
+# Some five minutes of measuring: the paper's tables alone, on at most two ranks.
 ifeq (quick,$(SCALE))
 UNTIMED_STUDIES :=
 IN_THREE_PARTS := table1 table2 table3

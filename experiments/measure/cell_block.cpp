@@ -83,11 +83,7 @@ struct Block {
   std::vector<int> threads, ranks;
   std::vector<long> members; ///< of ensembles
   std::optional<WeakScaling> weak;
-  std::vector<std::string> scales; ///< that measure the block; empty: all
-
-  bool is_of_scale(const std::string& name) const {
-    return scales.empty() || std::ranges::find(scales, name) != scales.end();
-  }
+  std::vector<std::string> not_at; ///< scales that leave the block out
 };
 
 void read_ranks(ObjectNode& object, int cores, Block& block) {
@@ -137,13 +133,12 @@ void read_variants(ObjectNode& object, int cores, Block& block) {
     require_device_variant(name, block.device, variants);
 }
 
-Block read_block(ObjectNode& object, const Sets& scale_sets, const CellRules& rules,
-                 const std::string& study_path) {
+Block read_block(ObjectNode& object, const StudyScales& scales, const CellRules& rules) {
   Block block;
   block.scene = object.require("scene").name();
-  block.scales = object.known_names_or("scales", "scale", scale_names(study_path), {});
+  block.not_at = object.known_names_or("not_at", "scale", scales.names, {});
   for (const auto& own : combinations(object, "set"))
-    for (const auto& of_scale : scale_sets) {
+    for (const auto& of_scale : scales.sets) {
       block.sets.push_back(own);
       block.sets.back().insert(block.sets.back().end(), of_scale.begin(), of_scale.end());
     }
@@ -306,14 +301,14 @@ void require_loadable(const Node& place, const Block& block, const std::vector<C
 
 } // namespace
 
-void add_block(const Node& place, const Sets& scale_sets, const CellRules& rules,
+void add_block(const Node& place, const StudyScales& scales, const CellRules& rules,
                CellStudy& study) {
   ObjectNode object(place);
-  const Block block = read_block(object, scale_sets, rules, study.path);
+  const Block block = read_block(object, scales, rules);
   std::vector<Cell> cells = cells_of(object, block, study.scale, rules.cores);
   require_loadable(place, block, cells);
   if (rules.expand) cells = rules.expand(object, cells);
-  if (!block.is_of_scale(study.scale.name)) return;
+  if (std::ranges::find(block.not_at, study.scale.name) != block.not_at.end()) return;
   std::set<std::string> keys;
   for (const Cell& cell : cells) {
     if (!keys.insert(cell.key()).second)

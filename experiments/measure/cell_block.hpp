@@ -20,10 +20,17 @@ struct CellRules {
   std::function<std::vector<Cell>(ObjectNode& block, const std::vector<Cell>& cells)> expand;
 };
 
-/// Adds the cells of a block to `study`, unless the block is not for the study's scale. Reads
-/// `study.path` and `study.scale`, which must be set. A cell that an earlier block has added is not
-/// added again. Loads every scene with its overrides.
+/// What a block needs of a study's scales.
+struct StudyScales {
+  std::vector<std::string> names; ///< of all of them
+  Sets sets;                      ///< overrides of the one that is measured
+};
+
+/// Adds the cells of a block to `study`, unless the block leaves out the scale `study.scale`, which
+/// must be set. A cell that an earlier block has added is not added again. Loads every scene with
+/// its overrides.
 /// @throws InputError with the place of the mistake
-void add_block(const Node& place, const Sets& scale_sets, const CellRules& rules, CellStudy& study);
+void add_block(const Node& place, const StudyScales& scales, const CellRules& rules,
+               CellStudy& study);
 
 } // namespace dss

@@ -106,11 +106,13 @@ void read_cells(const StudyFile& file, const CellRules& rules, CellStudy& study)
   ObjectNode root(file.root), scale(file.scale);
   study.name = file.name, study.title = file.title, study.path = file.path;
   study.scale = read_scale(file, rules);
-  const Sets scale_sets = combinations(scale, "set");
-  for (const Node& block : root.require("cells").list()) add_block(block, scale_sets, rules, study);
+  StudyScales scales{{}, combinations(scale, "set")};
+  for (const auto& [name, of_name] : root.require("scales").json().items())
+    scales.names.push_back(name);
+  for (const Node& block : root.require("cells").list()) add_block(block, scales, rules, study);
   if (study.cells.empty())
-    root.require("cells").fail(fmt::format("no block has cells at the scale \"{}\"; one must be "
-                                           "without \"scales\", or name it there",
+    root.require("cells").fail(fmt::format("every block is \"not_at\" the scale \"{}\"; one must "
+                                           "have cells there",
                                            study.scale.name));
   if (const auto steps = scale.find("steps_by_set")) require_sets(*steps, study);
   add_whole_runs(rules.cores, study);

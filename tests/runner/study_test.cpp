@@ -66,11 +66,13 @@ TEST_F(StudyOfRanks, WithoutTheKeysEveryCellIsOneProcess) {
   EXPECT_FALSE(contains(run_arguments(loaded, loaded.cells[0], {}), "--ranks"));
 }
 
-TEST_F(StudyOfRanks, BlocksAreMeasuredAtTheirScales) {
+TEST_F(StudyOfRanks, BlocksAreLeftOutOfScales) {
   study["scales"]["large"] = {{"set", {{"n", 40}}}, {"steps", 10}};
-  EXPECT_EQ(load({block, with({{"threads", 2}, {"scales", "large"}})}).cells.size(), 1u);
-  EXPECT_EQ(load({with({{"scales", {"smoke", "large"}}})}).cells.size(), 1u);
-  expect_refused({{"scales", "large"}}, {"/cells:", "no block has cells at the scale \"smoke\""});
+  EXPECT_EQ(load({block, with({{"threads", 2}, {"not_at", "smoke"}})}).cells.size(), 1u);
+  EXPECT_EQ(load({with({{"not_at", "large"}})}).cells.size(), 1u);
+  expect_refused({{"not_at", {"large", "smoke"}}},
+                 {"/cells:", "every block is \"not_at\" the scale \"smoke\""});
+  expect_refused({{"not_at", "smke"}}, {"/cells/0/not_at", "smke", "\"smoke\""});
 }
 
 TEST_F(StudyOfRanks, HalosAndDecompositionsMultiplyCellsOnSeveralRanksAlone) {
