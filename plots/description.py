@@ -119,11 +119,13 @@ class Filter:
 
     is_single: one value is always chosen
     first: (name, values): these values are chosen when the page opens; a PNG shows them alone
+    opens_with: as `first`, but a PNG shows all values
     """
     key: str
     label: str
     is_single: bool = False
     first: tuple = ()
+    opens_with: tuple = ()
 
 
 @dataclasses.dataclass

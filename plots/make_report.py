@@ -10,9 +10,8 @@ import argparse
 import pathlib
 import sys
 
-from charts import CHARTS
 from render.pictures import revision
-from report import elements, library, markdown, page, paper_tables, sections, summary
+from report import elements, library, markdown, page, paper_tables, sections, story, summary
 from tables.age import Ages
 from tables.results import FAULTS, ROOT, Lack, NotMeasured, Results, study_of
 from tables.words import escaped
@@ -90,10 +89,9 @@ def by_study(missing):
     return [("; ".join(titles), reason, study) for (reason, study), titles in groups.items()]
 
 
-def charts_of(results, ages, missing, has_library):
-    """(charts by name, sections of all charts in order, their ids and titles)."""
+def chapter_of(results, ages, missing, entries, has_library):
+    """(charts by name, sections in order) of the charts of one chapter."""
     charts, found = {}, []
-    entries = [entry for entry in CHARTS if results.expects(entry.table)]
     for entry in entries:
         def make(entry=entry):
             chart = entry.make(results)
@@ -104,31 +102,56 @@ def charts_of(results, ages, missing, has_library):
         if made:
             charts[entry.name] = made[0]
         found.append(made[1] if made else sections.missing_section(missing[-1]))
-    return charts, found, [(entry.name, entry.title) for entry in entries]
+    return charts, found
+
+
+def own_chapter_of(results, ages, missing, entries, has_library):
+    """The same of studies of a user's own, of which one need not have every kind of chart."""
+    lacking = []
+    charts, found = chapter_of(results, ages, lacking, entries, has_library)
+    faults = [lack for lack in lacking if lack.is_fault]
+    missing += faults
+    names = [*charts, *(lack.name for lack in faults)]
+    parts = [part for entry, part in zip(entries, found) if entry.name in names]
+    return charts, parts or [elements.missing("No chart can be drawn of these tables.")]
+
+
+def story_of(results, ages, grids, missing, has_library):
+    """(charts by name, parts of the body, contents) of all chapters."""
+    charts, body, contents = {}, [], []
+    for chapter, entries in story.entries_of(results):
+        make = own_chapter_of if chapter is story.OWN else chapter_of
+        first, parts = [], []
+        if chapter.name == story.TABLES:
+            first = [(grid[0].name, grid[0].title) for grid in grids]
+            parts = [sections.grid_section(*grid) for grid in grids]
+            parts += map(sections.missing_section, missing)
+        drawn, more = make(results, ages, missing, entries, has_library)
+        charts.update(drawn)
+        body += [sections.chapter_head(chapter, story.answer_of(chapter, results, drawn)),
+                 *parts, *more]
+        shown = [entry for entry in entries if chapter is not story.OWN or entry.name in drawn]
+        contents.append((chapter.name, chapter.question,
+                         [*first, *((entry.name, entry.title) for entry in shown)]))
+    return charts, body, contents
 
 
 def build(results, plotly):
     """(text of the page, text of REPORT.md, what is missing)."""
     ages, missing = Ages(results.directory), []
-    grids = grids_of(results, ages, missing)
-    missing_grids = list(map(sections.missing_section, missing))
-    charts, chart_sections, chart_titles = charts_of(results, ages, missing, bool(plotly))
-    sentences, groups = summary.sentences(results, missing, ages), by_study(missing)
-    body = [sections.summary_section(results, sentences),
-            elements.element("h2", "Tables of the paper", id="tables"),
-            *[sections.grid_section(*grid) for grid in grids],
-            *missing_grids,
-            elements.element("h2", "Charts", id="charts-of-studies"),
-            *chart_sections,
+    has_story = any(chapter is not story.OWN for chapter, _ in story.entries_of(results))
+    grids = grids_of(results, ages, missing) if has_story else []
+    charts, chapters, contents = story_of(results, ages, grids, missing, bool(plotly))
+    cards, groups = summary.cards(results, missing, ages) if has_story else [], by_study(missing)
+    body = [sections.summary_section(results, cards), *chapters,
             sections.pictures_section(results),
             sections.old_and_missing_section(groups, ages),
             sections.environment_section(ages),
             sections.tables_section(results, ages)]
-    contents = [("summary", "Summary"), ("tables", "Tables 1-3"), *chart_titles,
-                ("pictures", "Pictures"), ("old-and-missing", "Old and missing"),
-                ("environment", "Environment"),
-                ("all-tables", "All tables")]
-    text = markdown.write(sentences, [grid[:3] for grid in grids], results.figures(), groups, ages)
+    contents += [("pictures", "Pictures", []), ("old-and-missing", "Old and missing", []),
+                 ("environment", "Environment", []), ("all-tables", "All tables", [])]
+    text = markdown.write([card.text for card in cards], [grid[:3] for grid in grids],
+                          results.figures(), groups, ages)
     return page.assemble(origin_text(results, ages), contents, body, charts, plotly), text, missing
 
 

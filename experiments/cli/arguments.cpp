@@ -18,6 +18,11 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& texts) {
   return overrides;
 }
 
+std::vector<std::string>& words_after_mark() {
+  static std::vector<std::string> words;
+  return words;
+}
+
 void write_json(const std::string& target, const nlohmann::ordered_json& json) {
   FileSet alone;
   write_json(alone, target, json);

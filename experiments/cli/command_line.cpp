@@ -1,5 +1,7 @@
 #include "experiments/cli/command_line.hpp"
 
+#include "experiments/base/build_info.hpp"
+#include "experiments/cli/arguments.hpp"
 #include "solver/error.hpp"
 #include "solver/nearest_name.hpp"
 
@@ -68,6 +70,18 @@ std::string unknown_option(const std::vector<std::string>& words, const CLI::App
   return "";
 }
 
+/// Version, commit and build, for reports of mistakes.
+std::string version_text() {
+  const BuildInfo& build = build_info();
+  std::vector<std::string> packages;
+  for (const auto& [name, version] : build.packages)
+    packages.push_back(fmt::format("{} {}", name, version));
+  return fmt::format("dssbench 0.1.0, commit {}{}\nbuilt by {}, {} {}\nwith {}",
+                     build.git_commit.empty() ? "unknown" : build.git_commit.substr(0, 12),
+                     build.git_dirty ? " with uncommitted changes" : "", build.compiler,
+                     build.build_type, build.flags, fmt::join(packages, ", "));
+}
+
 } // namespace
 
 CommandLine::CommandLine() : app_("", "dssbench") {
@@ -77,7 +91,7 @@ CommandLine::CommandLine() : app_("", "dssbench") {
   app_.description(
       "dssbench: dynamic stress-strain solvers, measured and checked\nExit codes: " + codes + ".");
   app_.require_subcommand(1);
-  app_.set_version_flag("--version", "dssbench 0.1.0");
+  app_.set_version_flag("--version", version_text);
   app_.add_option("--variant-path", variant_path_,
                   "A directory of variants built outside the source tree, as examples/variant is; "
                   "may be repeated")
@@ -93,8 +107,12 @@ CommandLine::CommandLine() : app_("", "dssbench") {
   for (CLI::App* command : app_.get_subcommands(nullptr)) command->fallthrough();
 }
 
-void CommandLine::parse(const std::vector<std::string>& words) {
-  command_ = require_known_command(words, app_);
+void CommandLine::parse(const std::vector<std::string>& all) {
+  command_ = require_known_command(all, app_);
+  // Their words may look like options, or like lists of CLI11: [a,b].
+  const auto mark = command_ == "compare" ? std::ranges::find(all, "--") : all.end();
+  const std::vector<std::string> words(all.begin(), mark);
+  words_after_mark().assign(mark == all.end() ? mark : mark + 1, all.end());
   try {
     app_.parse(std::vector<std::string>(words.rbegin(), words.rend())); // it wants the last first
   } catch (const CLI::Success&) {

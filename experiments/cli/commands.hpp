@@ -20,8 +20,8 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name);
 // in the order of the help.
 #define DSS_EACH_COMMAND(command)                                                                  \
   command(list) command(run) command(explain) command(advise) command(verify) command(experiment)  \
-      command(sweep) command(stability) command(compare) command(voxelize) command(decompose)      \
-          command(simulate) command(bench) command(completion) command(help)
+      command(sweep) command(stability) command(compare) command(diff) command(voxelize)           \
+          command(decompose) command(simulate) command(bench) command(completion) command(help)
 
 #define DSS_DECLARE(name) void add_##name##_command(CLI::App& app, Chosen& chosen);
 DSS_EACH_COMMAND(DSS_DECLARE)

@@ -1,5 +1,7 @@
 #include "experiments/base/text_table.hpp"
+#include "experiments/cli/command_files.hpp"
 #include "experiments/cli/commands.hpp"
+#include "experiments/cli/compare_programs.hpp"
 #include "experiments/cli/compare_speedups.hpp"
 #include "experiments/measure/cell_rows.hpp"
 #include "experiments/measure/compare.hpp"
@@ -13,8 +15,12 @@
 namespace dss {
 namespace {
 
+constexpr const char* of_commands = "Two commands"; ///< heading in the help
+
 struct CompareArguments {
   std::string before, after;
+  ProgramPair programs;
+  CLI::App* command = nullptr;
 };
 
 /// @throws InputError if a column of raw records is missing
@@ -108,7 +114,35 @@ int compare_results(const CompareArguments& arguments) {
   return conclude(arguments, whole);
 }
 
+int compare_commands(const CompareArguments& arguments) {
+  ProgramPair pair = arguments.programs;
+  split_commands(words_after_mark(), pair);
+  if (pair.csv == "-" || pair.markdown == "-")
+    throw InputError(fmt::format("{} -: takes a file; only --json writes to standard output",
+                                 pair.csv == "-" ? "--csv" : "--markdown"));
+  CommandFiles files;
+  files.write("--json", pair.json);
+  files.write("--csv", pair.csv);
+  files.write("--markdown", pair.markdown);
+  files.require_distinct();
+  return compare_programs(pair);
+}
+
 int compare(const CompareArguments& arguments) {
+  if (!words_after_mark().empty()) {
+    if (!arguments.before.empty())
+      throw InputError(fmt::format("{}: stands before \"--\", where only options stand if two "
+                                   "commands are compared",
+                                   arguments.before));
+    return compare_commands(arguments);
+  }
+  if (arguments.after.empty())
+    throw InputError("compare: takes two results, dssbench compare OLD NEW, or two commands, "
+                     "dssbench compare -- A... -- B...");
+  for (const CLI::Option* option : arguments.command->get_options())
+    if (option->count() > 0 && option->get_group() == of_commands)
+      throw InputError(
+          fmt::format("{}: is for commands, dssbench compare -- A -- B", option->get_name()));
   const bool is_old_whole = std::filesystem::is_directory(arguments.before),
              is_new_whole = std::filesystem::is_directory(arguments.after);
   if (is_old_whole && is_new_whole) return compare_results(arguments);
@@ -157,16 +191,40 @@ void add_compare_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command =
       app.add_subcommand("compare", "Compare two results: times of cells, or speed-ups");
   const auto arguments = std::make_shared<CompareArguments>();
+  command->add_option(
+      "OLD", arguments->before,
+      "Raw records, results/raw/NAME.csv, a table of speed-ups or of a chain, or the "
+      "directory of a whole result");
+  command->add_option("NEW", arguments->after, "The same of another result");
+  arguments->command = command;
+  ProgramPair& pair = arguments->programs;
+  command->add_option("--repetitions", pair.repetitions, "Runs of each command")
+      ->check(CLI::Range(long(interval_samples), 100000L))
+      ->group(of_commands);
+  command->add_option("--warmup", pair.warmup, "Runs before these, which do not count")
+      ->check(CLI::Range(0L, 1000L))
+      ->group(of_commands);
+  command->add_option("--time-limit", pair.time_limit_s, "Longest time of one run [s]")
+      ->check(CLI::PositiveNumber)
+      ->group(of_commands);
   command
-      ->add_option("OLD", arguments->before,
-                   "Raw records, results/raw/NAME.csv, a table of speed-ups or of a chain, or the "
-                   "directory of a whole result")
-      ->required();
-  command->add_option("NEW", arguments->after, "The same of another result")->required();
+      ->add_option("--patience", pair.patience_s,
+                   "Longest time [s] for waiting until the machine is quiet, and for repeating "
+                   "disturbed runs")
+      ->check(CLI::NonNegativeNumber)
+      ->group(of_commands);
+  command->add_option("--json", pair.json, "Times and verdict; \"-\" is standard output")
+      ->group(of_commands);
+  command->add_option("--csv", pair.csv, "All runs, one in a row")->group(of_commands);
+  command->add_option("--markdown", pair.markdown, "Times and verdict as a table")
+      ->group(of_commands);
   command->footer(
       "Example: dssbench compare before/raw/table1_host.csv results/raw/table1_host.csv\n"
       "         dssbench compare results_of_monday results\n"
-      "Of two directories, all tables with speed-ups are compared. Exit code 1 if a cell is slower "
+      "         dssbench compare --repetitions 30 -- ./before input -- OMP_NUM_THREADS=2 ./after\n"
+      "Two commands run in turn, in random order, A twice a round: what A differs from itself is "
+      "the resolution. Words NAME=VALUE before a command set variables. Of two directories, all "
+      "tables with speed-ups are compared. Exit code 1 if a cell is slower "
       "by more than the resolution, or if it is wrong, failed or missing in NEW, or if fewer than "
       "19 of 20 intervals of speed-ups overlap.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return compare(*arguments); }; });

@@ -73,9 +73,10 @@ std::string man_page(const CLI::App& app) {
   std::istringstream lines(app.get_description());
   std::string summary;
   std::getline(lines, summary);
-  std::string page =
-      fmt::format(".TH DSSBENCH 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n{}\n", app.version(),
-                  roff(summary.replace(summary.find(": "), 2, " - ")));
+  const std::string version = app.version();
+  std::string page = fmt::format(".TH DSSBENCH 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\n{}\n",
+                                 version.substr(0, version.find(',')), // without the commit
+                                 roff(summary.replace(summary.find(": "), 2, " - ")));
   page +=
       ".SH SYNOPSIS\n\\fBdssbench\\fR [\\fIOPTION\\fR...] \\fICOMMAND\\fR [\\fIARGUMENT\\fR...]\n";
   page += ".SH OPTIONS\nFor every command, before it or after.\n" + option_entries(app) +

@@ -39,10 +39,14 @@ CHARTS = [Entry(*words) for words in (
     ("speedups-3", "Speed-ups, Table 3", "table3", cells.speedups("table3"), "table3"),
     ("sizes-3", "Time over the size of the plate", "table3", cells.figure9("table3"),
      "table3_figure9"),
-    ("work-precision-time", "Error against time", "work_precision", work_precision.against_time,
-     "work_precision"),
+    ("work-precision-time", "Error against time", "work_precision",
+     work_precision.against_time("work_precision"), "work_precision"),
     ("work-precision-evaluations", "Error against force evaluations", "work_precision",
-     work_precision.against_evaluations, "work_precision"),
+     work_precision.against_evaluations("work_precision"), "work_precision"),
+    ("implicit-time", "Implicit methods: error against time", "implicit",
+     work_precision.against_time("implicit"), "implicit"),
+    ("exponential-time", "Exponential methods: error against time", "exponential",
+     work_precision.against_time("exponential"), "exponential"),
     ("pareto", "Pareto front", "work_precision", work_precision.pareto, "pareto"),
     ("chain", "Chain of factors", "chain", chain.chain("chain"), "chain"),
     ("chain-block", "The same chain on a thick body", "chain_block", chain.chain("chain_block"),
@@ -80,19 +84,29 @@ BESIDE = ["geometry", "bodies", "verification_grids", "table3_gpu", "stability_m
           "table1_simulated", "table2_simulated", "mixed_nodes_held", "work_precision_cheapest",
           "work_precision_comparisons"]
 # The charts of any other table, which is a study of cells that a user wrote.
-CELLS = {"": cells.speedups, "_rates": sweep.rates, "_scaling": cells.scaling,
-         "_figure9": cells.figure9}
+CELLS = {"": ("speed-ups", cells.speedups), "_rates": ("rates", sweep.rates),
+         "_scaling": ("scaling over ranks", cells.scaling),
+         "_figure9": ("time over the size", cells.figure9),
+         "_errors": ("error against time", work_precision.against_time)}
+
+
+DERIVED = "_simulated", "_cheapest", "_comparisons"  # tables beside that of a study
 
 
 def figures_of(results):
     """The entries of each figure, by its name, for the tables that are there."""
-    found, known = {}, {entry.table for entry in CHARTS} | set(BESIDE)
+    found = {}
     for entry in CHARTS:
         if results.has(entry.table):
             found.setdefault(entry.figure, []).append(entry)
-    for table in results.names():
-        if table not in known and not table.endswith("_simulated"):
-            for ending, make in CELLS.items():
-                name = f"{table}{ending}"
-                found[name] = [Entry(name, name, table, make(table), name)]
-    return found
+    return {**found, **{entry.figure: [entry] for entry in own_entries(results)}}
+
+
+def own_entries(results):
+    """The entries of tables of a user's own studies; "own-" keeps their ids apart from others."""
+    known = {entry.table for entry in CHARTS} | set(BESIDE)
+    return [Entry(f"own-{table}{ending}", f"{table}: {words}", table, make(table),
+                  f"{table}{ending}")
+            for table in results.names()
+            if table not in known and not table.endswith(DERIVED)
+            for ending, (words, make) in CELLS.items()]

@@ -2,7 +2,7 @@
 from description import (MARKS, Axis, Chart, Filter, Look, Panel, Series, by_order, colours_of,
                          guide, keys_of, marks_in_words)
 from tables.results import NotMeasured
-from tables.words import choice, problem, shown
+from tables.words import choice, plain, problem, shown
 
 KERNEL_COLUMNS = {
     "cell": "cell", "kernel": "kernel", "model": "model", "precision": "precision",
@@ -21,6 +21,7 @@ ROOFLINE_FILTERS = [
     Filter("model", "Model")]
 # The instruction set of a variant, if its name is another.
 ISA_OF = {"scalar-native": "scalar", "reference": "scalar", "opencl-rhs": "opencl"}
+CEILING = "ceiling of "
 LEVEL_LINES = ["solid", "dash", "dashdot", "dot"]
 
 
@@ -46,8 +47,8 @@ def roofs(results, variants, least, most):
                 x = sorted({least, min(max(top / slope, least), most), most})
                 keys = {"precision": choice(peak["precision"]), "variant": variant,
                         "threads": choice(peak["threads"]), "level": choice(level)}
-                yield guide(f"roof, {level}", [(at, min(top, slope * at)) for at in x],
-                            Look("soft", line=lines[level]), keys=keys)
+                yield guide(f"{CEILING}{level}", [(at, min(top, slope * at)) for at in x],
+                            Look("soft", line=lines[level]), entry="measured ceiling", keys=keys)
 
 
 def roofline(results):
@@ -68,14 +69,16 @@ def roofline(results):
     intensity = good["intensity_flop_per_byte"]
     series = list(roofs(results, looks, 0.5 * intensity.min(), 2 * intensity.max()))
     has_roof, keys = bool(series), [one.key for one in ROOFLINE_FILTERS]
+    levels = ", ".join(dict.fromkeys(f"{one.look.line} {one.name.removeprefix(CEILING)}"
+                                     for one in series))
     others = [key for key in keys if key not in ("kernel", "variant")]
     for (kernel, variant, *_), rows in good.groupby(["kernel", "variant", *others], sort=False,
                                                     dropna=False):
         series.append(Series(f"{kernel}, {variant}", rows, "intensity_flop_per_byte",
                              "flops_per_s", looks[variant].but(colour=colours[kernel]),
                              keys_of(rows, *keys), entry=kernel))
-    roof = ("Grey lines are measured ceilings: a slope is the bandwidth of a memory level, a "
-            "horizontal line the peak of one instruction set." if has_roof
+    roof = (f"Grey lines are measured ceilings: a slope is the bandwidth of a memory level "
+            f"({levels}), a horizontal line the peak of one instruction set." if has_roof
             else "The ceilings were not measured: run `dssbench experiment kernels`.")
     heading = ("Declared flops over the measured time, against declared flops over declared bytes. "
                "A colour is a kernel (some kernels share one), a mark a variant "
@@ -127,7 +130,7 @@ def attribution(results):
                           optional=["model", "precision", "n", "threads", "sum_over_step"])
     sums = frame["sum_over_step"].dropna()
     frame = frame[frame["measured_ns_per_element_step"].notna()].copy()
-    frame["problem"] = [problem(row["scene"], f"n={shown(row['n'])}" if shown(row["n"]) else "")
+    frame["problem"] = [problem(row["scene"], f"n={plain(row['n'])}" if plain(row["n"]) else "")
                         for _, row in frame.iterrows()]
     frame["bar"] = [" ".join(filter(None, (shown(row[name]) for name in (
         "variant", "model", "precision", "problem")))) + f", t{shown(row['threads'])}"

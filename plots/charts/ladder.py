@@ -92,7 +92,7 @@ def errors(results):
         times = rows["wall_s"].dropna()
         ends = [(times.min() / 3, rows["tolerance"].iloc[0]),
                 (times.max() * 1.5, rows["tolerance"].iloc[0])]
-        series.append(guide("tolerance", ends, Look("soft", line="dash", width=1),
+        series.append(guide("tolerance", ends, Look("soft", line="dash", width=1), entry="",
                             keys={"problem": name}))
         auto = rows[rows["model"] == "auto"]
         titles[name,] = name if auto.empty or is_missing(auto.iloc[0]["ends_with"]) else (
@@ -105,8 +105,9 @@ def errors(results):
                ("auto", RING.but(size=17)), ("tolerance", Look("soft", line="dash", width=1))]
     heading = ("Error against the spatial oracle, over the time of a run. The title has the last "
                "model of `--model auto`. Filled marks are within the tolerance of the scene, "
-               "hollow marks are not. Models that lack degrees of freedom were not timed and stand "
-               f"at the left edge. Errors beyond {LEAST:g} and {MOST:g} are drawn at these limits.")
+               "hollow marks are not; the dashed line is that tolerance. Models that lack degrees "
+               "of freedom were not timed and stand at the left edge. Errors beyond "
+               f"{LEAST:g} and {MOST:g} are drawn at these limits.")
     y = Axis("relative error", "log", limits=(LEAST / 3, 30 * MOST))
     panel = Panel(Axis("time of a run [s]", "log"), y, series)
     return Chart("model_ladder", frame, COLUMNS, [panel], heading,

@@ -99,5 +99,6 @@ def figure9(results):
     return Chart("paper_figure9", frame, columns,
                  [Panel(Axis("elements a side, n", "log", ticks=ticks),
                         Axis("time of 10,000 steps [s]", "log"), series)],
-                 heading, "", [Filter("curve", "Curve")],
+                 heading, "", [Filter("curve", "Curve", opens_with=(
+                     " and ".join(list(colours)[:2]), list(colours)[:2]))],
                  size=(7, 5), height=540)

@@ -16,18 +16,18 @@ COLUMNS = {
     "dt_s": "step [s]", "rtol": "tolerance of steps", "error_max": "largest error",
     "measured_wall_s": "median time [s]", "evaluations": "evaluations x elements",
     "pareto": "on the front", "status": "status", "reason": "reason"}
-FILTERS = [Filter("problem", "Scene", is_single=True), Filter("variant", "Variant"),
-           Filter("precision", "Precision"), Filter("integrator", "Method")]
-KEYS = [one.key for one in FILTERS]
+KEYS = ["problem", "variant", "precision", "integrator"]
+MOST_METHODS = 6  # that a chart opens with; the front and the failed points have entries too
 INTERVAL = "measured_wall_low_s", "measured_wall_high_s"
 TIME = Axis("median time of a run [s]", "log")
+EVALUATIONS = Axis("force evaluations x elements", "log")
 ERROR = Axis("largest error of displacements,\nrelative", "log")
 FRONT = Look("soft", line="solid", width=7, opacity=0.35, is_step=True)
 
 
-def rows_of(results):
+def rows_of(results, table):
     """Rows with the name of their problem; a method with adaptive steps has its own name."""
-    frame = results.table("work_precision", "scene", "variant", "precision", "integrator", "status",
+    frame = results.table(table, "scene", "variant", "precision", "integrator", "status",
                           optional=["set", "end_time_s", "dt_s", "rtol", "error_max",
                                     "measured_wall_s", *INTERVAL, "evaluations", "pareto",
                                     "reason", "below_reference"])
@@ -37,12 +37,22 @@ def rows_of(results):
     return frame
 
 
+def filters_of(frame):
+    """The filters; the page opens with the methods that have most points on the fronts."""
+    on_front = frame[frame["pareto"] == "yes"]["integrator"].value_counts()
+    methods = list(on_front.index[:MOST_METHODS])
+    opens_with = ()
+    if 0 < len(methods) < frame["integrator"].nunique():
+        opens_with = ("most on the fronts", methods)
+    return [Filter("problem", "Scene", is_single=True), Filter("variant", "Variant"),
+            Filter("precision", "Precision"), Filter("integrator", "Method", opens_with=opens_with)]
+
+
 def failed_at_edge(failed, colours):
     """Crosses at the upper edge, for points without an error."""
     for _, own in failed.groupby("problem", sort=False):
         for place, (names, rows) in enumerate(own.groupby(KEYS, sort=False)):
-            words = rows["status"].map(lambda status: EDGE.get(status, status))
-            rows = rows.assign(edge_x=0.02 + 0.03 * (place % 30), status=words)
+            rows = rows.assign(edge_x=0.02 + 0.03 * (place % 30))
             look = Look(colours[names[-1]], "x-thin", size=9)
             yield Series("failed: at the edge, " + names[-1], rows, "edge_x", "error_max", look,
                          keys_of(rows, *KEYS), entry="failed: at the edge", edge="top")
@@ -65,13 +75,14 @@ def legend_of(frame, colours, marks):
     return entries
 
 
-def against(work, axis):
+def against(table, work, axis):
     """The chart of error against `work`, a column. axis: of the work"""
     def make(results):
-        frame = rows_of(results)
+        frame = rows_of(results, table)
         good, failed = frame[frame["status"] == "ok"], frame[frame["status"].isin(EDGE)]
-        if good.empty:
-            raise NotMeasured("no point was measured")
+        has_work = good[work].notna() & good["error_max"].notna()
+        if not has_work.any():
+            raise NotMeasured("no point has an error")
         colours, series = colours_of(frame["integrator"].unique(), COLOURS), []
         marks = {name: Look("soft", mark) for name, mark in
                  by_order(good["variant"].unique(), MARKS).items()}
@@ -80,7 +91,6 @@ def against(work, axis):
             if has_interval:
                 series.append(Series("Pareto front", rows.sort_values(work), work, "error_max",
                                      FRONT, keys_of(rows, "problem")))
-        has_work = good[work].notna() & good["error_max"].notna()
         for (_, variant, precision, method), rows in good[has_work].groupby(KEYS, sort=False):
             look = marks[variant].but(colour=colours[method],
                                       line=PRECISION_LINES.get(precision, "dashdot"))
@@ -98,19 +108,26 @@ def against(work, axis):
                     "crosses at the upper edge.")
         titles = {(name,): f"{name}, to {rows['end_time_s'].iloc[0]:g} s"
                   for name, rows in frame.groupby("problem", sort=False)}
-        return Chart("work_precision", frame, COLUMNS, [Panel(axis, ERROR, series)], heading,
-                     findings, FILTERS, ("problem",), legend=legend_of(frame, colours, marks),
-                     titles=titles, height=520, size=(4.3, 2.9), is_side_by_side=True)
+        rows = frame.assign(status=frame["status"].replace(EDGE))
+        return Chart(table, rows, COLUMNS, [Panel(axis, ERROR, series)], heading, findings,
+                     filters_of(frame), ("problem",), titles=titles, height=520, size=(4.3, 2.9),
+                     legend=legend_of(frame, colours, marks), is_side_by_side=True)
     return make
 
 
-against_time = against("measured_wall_s", TIME)
-against_evaluations = against("evaluations", Axis("force evaluations x elements", "log"))
+def against_time(table):
+    """Error against the time of a run."""
+    return against(table, "measured_wall_s", TIME)
+
+
+def against_evaluations(table):
+    """Error against the number of force evaluations."""
+    return against(table, "evaluations", EVALUATIONS)
 
 
 def pareto(results):
     """The Pareto fronts of all scenes."""
-    frame = rows_of(results)
+    frame = rows_of(results, "work_precision")
     frame = frame[(frame["pareto"] == "yes") & frame["error_max"].notna()]
     frame = frame.sort_values("measured_wall_s")
     if frame.empty:

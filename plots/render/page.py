@@ -1,11 +1,12 @@
 """Turns a chart into traces and a layout of Plotly, as plain data.
 
-report/page.js applies the filters and the colours of the theme.
+report/page.js applies the filters and the colours of the theme. The text of a point is its row in
+the table of the section, which page.js reads.
 """
 import math
 import textwrap
 
-from tables.words import escaped, hover, is_missing
+from tables.words import escaped, is_missing
 
 EDGE = 20  # first number of the axes of fractions, which marks at an edge need
 GAP = 55  # pixels between panels
@@ -14,8 +15,8 @@ GROWTH = 0.75  # each further panel adds this part of the height of a chart
 
 
 def spec(chart):
-    """{traces, layout, height, hovers} of a chart, with its panels below each other."""
-    traces, layout, hovers = [], {}, {}
+    """{traces, layout, height} of a chart, with its panels below each other."""
+    traces, layout = [], {}
     height = round(chart.height * (1 + GROWTH * (len(chart.panels) - 1)))
     for number, (panel, domain) in enumerate(zip(chart.panels, domains(chart.panels, height)), 1):
         suffix = str(number) if number > 1 else ""
@@ -29,23 +30,14 @@ def spec(chart):
             layout[f"xaxis{suffix}"]["anchor"] = f"y{suffix}"
             layout[f"yaxis{suffix}"].update(anchor=f"x{suffix}", domain=domain)
         for series in panel.series:
-            trace = KINDS.get(series.kind, points)(chart, panel, series)
+            trace = KINDS.get(series.kind, points)(panel, series)
             trace.update(xaxis=f"x{suffix}", yaxis=f"y{suffix}")
             if series.edge:
                 to_edge(trace, series, layout, suffix, EDGE + number)
-            share_hovers(trace, hovers)
             traces.append(trace)
         if any(series.kind == "bars" for series in panel.series):
             layout["barmode"] = "relative"
-    return {"traces": traces, "layout": layout, "height": height, "hovers": hovers}
-
-
-def share_hovers(trace, hovers):
-    """Moves the texts of points to `hovers`, by line of the table, as panels show the same rows."""
-    name = "hovertext" if trace["type"] == "bar" else "text"
-    said = dict(zip(trace.get("customdata", []), trace.get(name) or []))
-    if all(hovers.setdefault(line, text) == text for line, text in said.items()):
-        trace.pop(name, None)
+    return {"traces": traces, "layout": layout, "height": height}
 
 
 def domains(panels, height):
@@ -132,13 +124,12 @@ def whiskers(series):
             "arrayminus": plain(down.clip(lower=0).fillna(0))}
 
 
-def common(chart, series):
-    """The part of a trace that all kinds have: data, keys of filters, and texts of points."""
+def common(series):
+    """The part of a trace that all kinds have: data, keys of filters, and lines of points."""
     rows = series.rows
     trace = {"x": plain(rows[series.x]), "y": plain(rows[series.y]), "meta": series.keys,
              "name": series.entry, "legendgroup": series.entry, "opacity": series.look.opacity}
     if "line" in rows:
-        trace["text"] = [hover(row, chart.table, chart.columns) for _, row in rows.iterrows()]
         trace["hovertemplate"], trace["customdata"] = "%{text}<extra></extra>", plain(rows["line"])
     else:
         trace["hoverinfo"] = "skip"
@@ -147,9 +138,9 @@ def common(chart, series):
     return trace
 
 
-def points(chart, panel, series):
+def points(panel, series):
     """Marks, lines, or both; tiles are marks too."""
-    look, trace = series.look, common(chart, series)
+    look, trace = series.look, common(series)
     modes = ["lines"] * bool(look.line) + ["markers"] * bool(look.mark)
     trace.update(type="scatter", mode="+".join(modes))
     if look.line:
@@ -160,11 +151,11 @@ def points(chart, panel, series):
     return trace
 
 
-def bars(chart, panel, series):
+def bars(panel, series):
     """Bars with their labels beside them."""
-    trace = common(chart, series)
+    trace = common(series)
     trace.update(type="bar", orientation="h" if panel.y.scale == "category" else "v",
-                 hovertext=trace.pop("text", None), hovertemplate="%{hovertext}<extra></extra>",
+                 hovertemplate="%{hovertext}<extra></extra>",
                  marker={"color": series.look.colour,
                          "pattern": {"shape": series.look.hatch, "fillmode": "overlay",
                                      "fgcolor": "ground", "size": 6, "solidity": 0.25}},
@@ -175,7 +166,7 @@ def bars(chart, panel, series):
     return trace
 
 
-def field(chart, panel, series):
+def field(panel, series):
     """A colour for each x and y."""
     grid = series.rows.pivot(index=series.y, columns=series.x, values=series.z)
     scale = series.scale

@@ -30,6 +30,11 @@ def link_table(table, line=None):
     return link(f"tables/{table}.csv", line)
 
 
+def link_line(table, line):
+    """A link to tables/TABLE.csv that shows the line alone."""
+    return element("a", f":{line}", href=f"tables/{table}.csv")
+
+
 def code(text):
     """Text of a program."""
     return element("code", escaped(text))
@@ -86,7 +91,7 @@ def plain_table(headings, rows):
 def select(choice, values):
     """The list of one filter."""
     options = [] if choice.is_single else ['<option value="">all</option>']
-    name, known = choice.first or ("", ())
+    name, known = choice.first or choice.opens_with or ("", ())
     several = [value for value in known if value in values]
     if several:
         options.insert(0, element("option", escaped(name), value=SEVERAL.join(several),

@@ -1,5 +1,5 @@
 "use strict";
-// Theme, filters and charts of the page. plots/render/page.py made what is drawn here.
+// Contents, theme, filters and charts of the page. plots/render/page.py made what is drawn here.
 (() => {
   const root = document.documentElement;
   const specs = JSON.parse(document.getElementById("charts").textContent);
@@ -70,13 +70,45 @@
     return rows.filter((row) => !row.hidden).length;
   }
 
+  // Lines of at most 70 characters; further lines of one text are indented.
+  function broken(words) {
+    const cut = words.length > 70 ? words.lastIndexOf(" ", 70) : -1;
+    return cut > 3 ? [words.slice(0, cut), ...broken("   " + words.slice(cut + 1))] : [words];
+  }
+
+  const escaped = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
+
+  // The texts of points are the rows of the section's table: {keys, text} of each line of the file.
+  // A line has several rows if it stands in several panels.
+  const texts = new Map();
+  function textsOf(section) {
+    if (texts.has(section)) return texts.get(section);
+    const [file, ...heads] = [...section.querySelectorAll("thead th")].map((th) => th.textContent);
+    const found = {};
+    for (const row of section.querySelectorAll("tr[data-line]")) {
+      const [line, ...cells] = [...row.cells].map((cell) => cell.textContent);
+      const words = heads.map((head, place) => cells[place] && head + ": " + cells[place]);
+      const lines = [...words.filter(Boolean).flatMap(broken), file + line].map(escaped);
+      (found[row.dataset.line] ||= []).push(
+        { keys: JSON.parse(row.dataset.keys), text: lines.join("<br>") });
+    }
+    texts.set(section, found);
+    return found;
+  }
+
+  function textOf(rows, trace) {
+    const row = rows && (rows.find(({ keys }) => fits(keys, trace.meta)) || rows[0]);
+    return row ? row.text : "";
+  }
+
   // The traces that fit the choices, with texts of points, and one entry of the legend a group.
-  function tracesOf(spec, chosen, groups) {
+  function tracesOf(section, spec, chosen, groups) {
     const traces = spec.traces.filter((trace) => fits(trace.meta, chosen));
+    const rows = textsOf(section);
     for (const trace of traces) {
-      const text = trace.type === "bar" ? "hovertext" : "text";
-      if (trace.customdata && !trace[text]) {
-        trace[text] = trace.customdata.map((line) => spec.hovers[line]);
+      if (trace.customdata) {
+        const ofPoints = trace.customdata.map((line) => textOf(rows[line], trace));
+        trace[trace.type === "bar" ? "hovertext" : "text"] = ofPoints;
       }
       const group = trace.legendgroup || trace.name;
       trace.showlegend = trace.showlegend !== false && Boolean(trace.name)
@@ -94,7 +126,7 @@
     const theme = { ink: colour("ink"), soft: colour("soft"), ground: colour("ground") };
     const spec = JSON.parse(JSON.stringify(specs[node.dataset.chart]),
       (key, value) => theme[value] || value);
-    const groups = new Set(), traces = tracesOf(spec, chosen, groups);
+    const groups = new Set(), traces = tracesOf(section, spec, chosen, groups);
     node.dataset.traces = traces.length;
     Plotly.react(node, traces, layoutOf(spec, node, groups.size),
       { responsive: true, displayModeBar: false });
@@ -116,11 +148,66 @@
 
   const sections = [...document.querySelectorAll("section.part")];
   const button = document.getElementById("theme");
+  const waiting = new Set(sections); // are drawn when they come near, or when nothing else happens
+
+  // Safari has no requestIdleCallback.
+  function whenIdle(call) {
+    if (window.requestIdleCallback) requestIdleCallback(call, { timeout: 100 });
+    else setTimeout(() => call({ timeRemaining: () => 0 }), 1);
+  }
+
+  function drawFirst(section) {
+    if (waiting.delete(section)) draw(section);
+  }
+
+  function drawRest(deadline) {
+    for (const section of waiting) {
+      drawFirst(section);
+      if (deadline.timeRemaining() < 10) break;
+    }
+    if (waiting.size) whenIdle(drawRest);
+    else root.dataset.ready = "yes";
+  }
 
   function redraw() {
     button.textContent = isDark() ? "Light theme" : "Dark theme";
-    sections.forEach(draw);
+    sections.filter((section) => !waiting.has(section)).forEach(draw);
   }
+
+  // The contents are open beside the page, and closed above a narrow one. They show the parts of
+  // the chapter that is read.
+  const contents = document.getElementById("contents");
+  const isWide = window.matchMedia("(min-width: 75rem)");
+  const targetOf = (link) => document.getElementById(decodeURIComponent(link.hash.slice(1)));
+  const links = [...contents.querySelectorAll("a")].filter(targetOf);
+  const targets = links.map(targetOf);
+
+  function fold() {
+    contents.open = isWide.matches;
+  }
+
+  function markHere() {
+    const tops = targets.map((target) => target.getBoundingClientRect().top);
+    const here = links[tops.findLastIndex((top) => top < 120)];
+    for (const link of links) link.removeAttribute("aria-current");
+    if (here) here.setAttribute("aria-current", "location");
+    for (const item of contents.querySelectorAll("li")) {
+      item.classList.toggle("here", Boolean(here) && item.contains(here));
+    }
+  }
+
+  let isMarking = false;
+  window.addEventListener("scroll", () => {
+    if (isMarking) return;
+    isMarking = true;
+    requestAnimationFrame(() => { isMarking = false; markHere(); });
+  }, { passive: true });
+  contents.addEventListener("click", (event) => {
+    if (event.target.closest("a")) fold();
+  });
+  isWide.addEventListener("change", fold);
+  fold();
+  markHere();
 
   button.addEventListener("click", () => {
     root.dataset.theme = isDark() ? "light" : "dark";
@@ -134,6 +221,13 @@
       select.addEventListener("change", () => draw(section));
     }
   }
+  for (const node of hasLibrary ? document.querySelectorAll(".chart") : []) {
+    node.style.minHeight = specs[node.dataset.chart].height + "px";
+  }
+  const near = new IntersectionObserver((entries) => {
+    for (const entry of entries) if (entry.isIntersecting) drawFirst(entry.target);
+  }, { rootMargin: "600px" });
+  sections.forEach((section) => near.observe(section));
   redraw();
-  root.dataset.ready = "yes";
+  whenIdle(drawRest);
 })();

@@ -21,14 +21,20 @@ def safe_json(data):
     return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
+def entry(name, title):
+    """A line of the contents."""
+    return element("a", escaped(title), href=f"#{name}")
+
+
 def assemble(origin, contents, body, charts, library):
     """The text of the page.
 
-    contents: (id, title) of each section; body: sections; charts: by the name of their section;
-    library: the text of plotly.min.js, or empty
+    contents: (id, title, the same of its parts) of each chapter; body: sections; charts: by the
+    name of their section; library: the text of plotly.min.js, or empty
     """
     specs = {name: spec(chart) for name, chart in charts.items()} if library else {}
-    links = [element("a", escaped(title), href=f"#{name}") for name, title in contents]
+    links = [entry(name, title) + (element("ul", elements("li", (entry(*part) for part in parts)))
+                                   if parts else "") for name, title, parts in contents]
     return string.Template(text_of("page.html")).substitute(
         style=text_of("page.css"), origin=origin, contents=element("ul", elements("li", links)),
         body="\n".join(body), charts=safe_json(specs), library=library, script=text_of("page.js"))

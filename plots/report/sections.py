@@ -3,12 +3,15 @@ import base64
 import json
 
 from description import Filter
+from pandas.api.types import is_numeric_dtype
 from render import pictures
 from tables.results import NotMeasured, study_of
-from tables.words import choice, escaped, is_missing, prose, shown
+from tables.words import (breakable, choice, escaped, is_missing, is_number, prose, shown,
+                          with_interval)
 
 from .elements import (OLD, age_text, code, command, details, element, elements, filters, link,
-                       link_table, missing, plain_table, scrolling, source_line, table)
+                       link_line, link_table, missing, plain_table, scrolling, source_line, table)
+from .first_screen import first_screen
 
 FIRST_PICTURE = {
     "arm.png": "The suspension arm of the scene arm/arm while its wheel runs over a bump"}
@@ -20,14 +23,22 @@ PICTURES_MADE_BY = (
     "Made by `dssbench run plate_paper --set n=60 --steps 2000 --output plate_paper.vtu`, "
     "`dssbench run l_bracket --output l_bracket.vtu --frames 6`, `dssbench run arm/arm --set "
     "duration=0.0035 --threads 2 --output arm.vtu` and `plots/body_picture.py`.")
+OLD_MEANS = (
+    "A record is called old if its commit, machine or compiler differs from that of the newest "
+    "record, or if it is of an earlier session.")
+ENDS = "_low", "_high"  # of the names of the columns of an interval
 TALL = 15  # a table with more rows has a limited height
 
 
-def summary_section(results, sentences):
-    """A picture beside the sentences of the summary."""
-    listed = element("ol", elements("li", map(prose, sentences)), class_="summary")
-    return element("section", element("h2", "Summary")
-                   + "".join(drawn(results, FIRST_PICTURE)) + listed, id="summary")
+def summary_section(results, cards):
+    """The first screen of the page."""
+    return first_screen(results, cards, drawn(results, FIRST_PICTURE))
+
+
+def chapter_head(chapter, answer):
+    """The question of a chapter, and its answer."""
+    return element("h2", escaped(chapter.question), id=chapter.name) + (
+        element("p", prose(answer), class_="answer") if answer else "")
 
 
 def old_and_missing_section(missing_sections, ages):
@@ -42,22 +53,46 @@ def old_and_missing_section(missing_sections, ages):
         names = ", ".join(link_table(name) for name in ages.unknown())
         lines.append(f"No record in raw/ says when these tables were made: {names}.")
     content = element("ul", elements("li", lines)) if lines else element("p", "Nothing.")
+    content += element("p", OLD_MEANS, class_="note")
     return element("section", element("h2", "Old and missing") + content, id="old-and-missing")
+
+
+def columns_of(chart):
+    """(columns that differ from row to row, columns with one value), each with its heading."""
+    differing, equal = {}, {}
+    for column, heading in chart.columns.items():
+        is_end = column.endswith(ENDS) and column.rsplit("_", 1)[0] in chart.columns
+        if not is_end and column in chart.rows and chart.rows[column].notna().any():
+            is_equal = len(chart.rows) > 1 and chart.rows[column].nunique(dropna=False) == 1
+            (equal if is_equal else differing)[column] = heading
+    return differing, equal
+
+
+def value_of(row, column):
+    """A value of a row, with its interval if the row has one."""
+    low, high = (row.get(f"{column}{end}") for end in ENDS)
+    return shown(row[column], 4) if is_missing(low) else with_interval(row[column], low, high)
 
 
 def chart_table(chart):
     """The rows of a chart as a table, for screen readers and for those who want the numbers."""
-    columns = {column: heading for column, heading in chart.columns.items()
-               if column in chart.rows and chart.rows[column].notna().any()}
+    columns, equal = columns_of(chart)
     keys = [one.key for one in chart.filters if one.key in chart.rows]
-    head = elements("th", map(escaped, ["row", *columns.values()]), scope="col")
+    right = {column: "number" * is_numeric_dtype(chart.rows[column]) for column in columns}
+    head = element("th", link_table(chart.table), scope="col") + "".join(
+        element("th", escaped(heading), scope="col", class_=right[column])
+        for column, heading in columns.items())
     lines = []
     for _, row in chart.rows.iterrows():
-        cells = element("td", link_table(chart.table, row["line"]))
-        cells += elements("td", (escaped(shown(row[column], 4)) for column in columns))
+        cells = element("td", link_line(chart.table, row["line"])) + "".join(
+            element("td", breakable(value_of(row, column)), class_=right[column])
+            for column in columns)
         chosen = json.dumps({key: choice(row[key]) for key in keys})
         lines.append(element("tr", cells, data_keys=chosen, data_line=row["line"]))
-    return table(element("tr", head), lines)
+    first = chart.rows.iloc[0]
+    words = "; ".join(f"{heading}: {shown(first[column], 4)}" for column, heading in equal.items())
+    note = element("p", f"In all rows: {escaped(words)}.", class_="note") if words else ""
+    return note + scrolling(table(element("tr", head), lines), f"Rows of {chart.table}.csv")
 
 
 def chart_section(entry, chart, age, made_by, has_library):
@@ -73,8 +108,7 @@ def chart_section(entry, chart, age, made_by, has_library):
             element("p", prose(chart.text)),
             filters(choices, entry.title),
             picture,
-            details(f"As a table, {len(chart.rows)} rows",
-                    scrolling(chart_table(chart), entry.title)),
+            details(f"As a table, {len(chart.rows)} rows", chart_table(chart)),
             source_line([f"tables/{chart.table}.csv"], made_by)]
     return element("section", "\n".join(body), class_="part", id=entry.name)
 
@@ -109,12 +143,14 @@ def grid_row(grid, number):
     """One row of a grid; its first cell is a heading."""
     cells = []
     for place, (cell, kind) in enumerate(zip(grid.rows[number], grid_classes(grid))):
-        text = escaped(cell.text)
+        text = breakable(cell.text)
         if cell.table:
-            text = element("a", text, href=f"{cell.table}.csv",
+            text = element("a", text[text.rfind(":"):], href=f"{cell.table}.csv",
                            title=f"{cell.table}.csv:{cell.line}")
         tag, scope = ("td", "") if place else ("th", "row")
-        cells.append(element(tag, text, class_=kind, scope=scope))
+        is_right = place > 0 and is_number(cell.text)
+        cells.append(element(tag, text, class_=f"{kind}{' number' * is_right}".strip(),
+                             scope=scope))
     keys = {label: values[number] for label, values in grid.filters.items()}
     return element("tr", "".join(cells), data_keys=json.dumps(keys))
 

@@ -5,7 +5,7 @@ import re
 
 import pandas
 
-HOVER = 70  # characters in a line of the text of a point
+PREFIXES = {"T": 1e12, "G": 1e9, "M": 1e6}
 
 
 def is_missing(value):
@@ -13,7 +13,7 @@ def is_missing(value):
     return value is None or (not isinstance(value, str) and pandas.isna(value))
 
 
-def shown(value, digits=3):
+def plain(value, digits=3):
     """A number with a few digits, a text as it is, and an empty text for a missing value."""
     if is_missing(value):
         return ""
@@ -28,11 +28,38 @@ def shown(value, digits=3):
     return f"{value:.{digits}g}"
 
 
+def shown(value, digits=3):
+    """A value as people read it: 1,751 or 68.7 M or 8.5e-5; texts as `plain` gives them."""
+    if is_missing(value) or isinstance(value, (str, bool)) or math.isinf(value):
+        return plain(value)
+    rounded = abs(float(f"{value:.{digits}g}"))
+    if rounded >= 1e15:
+        return f"{value:.{digits}g}".replace("e+", "e")
+    for prefix, unit in PREFIXES.items():
+        if rounded >= unit:
+            return f"{few_digits(value / unit, digits)} {prefix}"
+    if float(value).is_integer() or rounded >= 1000:
+        return f"{value:,.0f}"
+    return few_digits(value, digits)
+
+
+def few_digits(value, digits):
+    """A number with a few digits: 120, 1.5, 8.5e-5."""
+    text = f"{value:.{digits}g}"
+    return f"{float(text):,.0f}" if "e+" in text else text.replace("e-0", "e-")
+
+
+def is_number(text):
+    """The text is a number, with or without its interval."""
+    return re.fullmatch(r"[~ ]*[-\d][-\d.,e]*( [A-Z%]*)?( \[[^\]]*\])?", text) is not None
+
+
 def with_interval(value, low, high):
     """A median with its 95 % interval, if one is known."""
     if is_missing(value) or is_missing(low) or is_missing(high):
         return shown(value)
-    return f"{shown(value)} [{shown(low)}, {shown(high)}]"
+    between = "; " if "," in shown(low) + shown(high) else ", "
+    return f"{shown(value)} [{shown(low)}{between}{shown(high)}]"
 
 
 def speedup_over(row, base):
@@ -56,36 +83,16 @@ def escaped(text):
     return html.escape(str(text), quote=True)
 
 
+def breakable(text):
+    """Text in HTML whose long names may be broken after an underscore, comma or sign."""
+    return re.sub(r"([_,=@])(?=\S)", r"\1<wbr>", escaped(text))
+
+
 def prose(text):
     """A sentence as HTML: `code` between backticks."""
     return re.sub("`([^`]*)`", r"<code>\1</code>", escaped(text))
 
 
-def hover(row, table, columns):
-    """The text of a point: its columns by name, and its line in the table.
-
-    columns: heading by column. Lines end with <br>, as Plotly wants it; long ones are broken.
-    """
-    lines = []
-    for column, heading in columns.items():
-        text = shown(row[column], 4) if column in row.index else ""
-        if text:
-            lines += map(escaped, broken(f"{heading}: {text}"))
-    return "<br>".join([*lines, f"tables/{table}.csv:{row['line']}"])
-
-
-def broken(words):
-    """A text in lines of at most HOVER characters; further lines are indented."""
-    lines = []
-    while len(words) > HOVER:
-        cut = words.rfind(" ", 0, HOVER)
-        if cut <= 0:
-            break
-        lines.append(words[:cut])
-        words = "   " + words[cut + 1:]
-    return [*lines, words]
-
-
 def choice(value):
     """A value as one choice of a filter."""
-    return shown(value) or "none"
+    return plain(value) or "none"

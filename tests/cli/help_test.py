@@ -24,6 +24,13 @@ class Help(ProgramTest):
             self.assertEqual(result.stdout, dssbench("help", command).stdout)
         self.assertEqual(dssbench("--help").stdout, dssbench("help").stdout)
 
+    def test_the_version_names_commit_build_and_packages(self):
+        result = dssbench("--version")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertRegex(result.stdout, r"^dssbench \d+\.\d+\.\d+, commit (unknown|[0-9a-f]{12})")
+        self.assertRegex(result.stdout, r"(?m)^built by \S+ \d")
+        self.assertRegex(result.stdout, r"(?m)^with .*libxsimd-dev \d")
+
     def test_options_of_examples_are_options(self):
         for command in COMMANDS:
             text = dssbench(command, "--help").stdout
@@ -32,7 +39,7 @@ class Help(ProgramTest):
             for example in examples:
                 words = shlex.split(example.split("|")[0].split(">")[0], comments=True)
                 self.assertEqual(words[0], command)
-                for option in (word for word in words if word.startswith("--")):
+                for option in (word for word in words if re.match("--.", word)):
                     self.assertIn(option,
                                   dssbench("complete", command, option).stdout.split(), example)
 

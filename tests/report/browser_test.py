@@ -46,7 +46,8 @@ return {
 """
 SECTIONS = ["paper-1", "paper-2", "paper-3", "figure-9", "speedups-1",
             "speedups-2", "speedups-3", "sizes-3", "chain", "chain-block", "chain-bending",
-            "work-precision-time", "work-precision-evaluations", "pareto", "scaling-1",
+            "work-precision-time", "work-precision-evaluations", "pareto", "implicit-time",
+            "exponential-time", "scaling-1",
             "scaling-2", "cluster", "cluster-nodes", "mixed-nodes", "balance", "stability",
             "energy", "ladder", "ladder-errors", "atlas", "advice", "error-budget", "continuum",
             "verification", "statics"]
@@ -216,7 +217,7 @@ class BrowserTest(unittest.TestCase):
                 ("ladder", "verdict", "insufficient")):
             with self.subTest(section=section, key=key):
                 choice = self.select(section, key)
-                first = choice.first_selected_option.get_attribute("value")
+                first = choice.options.index(choice.first_selected_option)
                 before, rows = self.drawn(section), self.rows(section)
                 choice.select_by_value(value)
                 after = self.drawn(section)
@@ -225,7 +226,7 @@ class BrowserTest(unittest.TestCase):
                 self.assertNotEqual(before["look"], after["look"])
                 values = self.of_traces(section, f"trace.meta.{key} ?? []")
                 self.assertEqual(set(values), {value})
-                choice.select_by_value(first)
+                choice.select_by_index(first)
                 self.assertEqual(self.drawn(section)["marks"], before["marks"])
                 self.assertEqual(self.rows(section), rows)
 
@@ -277,6 +278,40 @@ class BrowserTest(unittest.TestCase):
         dark = self.value(BACKGROUND)
         self.command("Emulation.setEmulatedMedia", features=[])
         self.assertNotEqual(light, dark)
+
+    def test_charts_open_with_at_most_eight_series(self):
+        self.open("committed")
+        for section in SECTIONS:
+            names = self.of_traces(section, "trace.showlegend ? [trace.name] : []")
+            self.assertLessEqual(len(set(names)), 8, (section, names))
+
+    def test_the_contents_stay_in_view_and_name_the_chapter_that_is_read(self):
+        self.open("committed", 1400)
+        self.browser.execute_script("document.getElementById('pareto').scrollIntoView()")
+        here = "[...document.querySelectorAll('nav [aria-current]')].map((link) => link.hash)"
+        WebDriverWait(self.browser, 10).until(lambda _: self.value(here) == ["#pareto"])
+        box = self.value("arguments[0].getBoundingClientRect().toJSON()", self.find("nav"))
+        self.assertEqual((box["top"], box["left"] < 100), (0, True))
+        for hash, is_shown in (("#pareto", True), ("#accuracy", True), ("#atlas", False)):
+            self.assertEqual(self.find(f'nav a[href="{hash}"]').is_displayed(), is_shown, hash)
+        self.open("committed", 360)
+        self.assertFalse(self.find('nav a[href="#accuracy"]').is_displayed())
+        self.find("nav summary").click()
+        self.find('nav a[href="#accuracy"]').click()
+        self.assertFalse(self.find('nav a[href="#accuracy"]').is_displayed())
+
+    def test_no_table_is_wider_than_its_column(self):
+        self.open("committed", 1400)
+        wide = self.browser.execute_script("""
+            const all = [...document.querySelectorAll("main details")];
+            const closed = all.filter((one) => !one.open);
+            for (const one of closed) one.open = true;
+            const wide = [...document.querySelectorAll(".scroll")]
+              .filter((one) => one.scrollWidth > one.clientWidth)
+              .map((one) => one.getAttribute("aria-label") + " " + one.scrollWidth);
+            for (const one of closed) one.open = false;
+            return wide;""")
+        self.assertEqual(wide, [])
 
     def test_a_phone_does_not_scroll_sideways(self):
         for name, sections in (("committed", SECTIONS), ("sample", SAMPLE_SECTIONS)):
