@@ -6,6 +6,7 @@ LEFT_OUT = (  # (pattern of the command as shown, why it is not run)
     (r"^\.ci/(run|long)$", "builds for minutes"),
     (r"^cp -r PREFIX|^cmake -B build |^PREFIX/bin", "compiles a variant; the test `install` does"),
     (r"^likwid-perfctr ", "needs hardware counters"),
+    (r"^git worktree ", "would change the repository"),
 )
 
 # Replacements: (pattern, replacement, why), in this order. The variables $SOURCE, $BUILD (the build
@@ -20,6 +21,7 @@ VALUES = (
     (r"verify NAME\b", "verify two_elements", "a scene"),
     (r"experiment NAME\b", "experiment continuum", "a study"),
     (r"compare results build/mine", "compare results results", "one result"),
+    (r"build/before/results", "results", "one result"),
     (r"\S+/NAME.csv \S+/NAME.csv", "results/raw/table1.csv results/raw/table1.csv", "one table"),
 )
 

@@ -86,7 +86,7 @@ class ReportTest(unittest.TestCase):
         self.assertIn(">16 times<", summary)
         self.assertIn("1 of 3 cells of the failure atlas", summary)
         # The last stage is faster, but its error is too large.
-        self.assertIn(">1,024 times<", summary)
+        self.assertIn(">1,024 [", summary)
         self.assertIn("Model, method and precision chosen, up to the stage: f32.", summary)
         self.assertIn("8.9e-5 is allowed", summary)
         self.assertIn("The fastest stage within the allowed error is 1,024 times as_published "
@@ -139,7 +139,8 @@ class ReportTest(unittest.TestCase):
     def test_numbers_are_written_for_people(self):
         for value, text in ((1751, "1,751"), (0.5, "0.5"), (8.47e-5, "8.47e-5"), (1e6, "1 M"),
                             (69.94e9, "69.9 G"), (999.99e6, "1 G"), (12345.6, "12,346"),
-                            (-2e-12, "-2e-12"), (999.7, "1,000"), (1e15, "1e15"), (-2e300, "-2e300"),
+                            (-2e-12, "-2e-12"), (999.7, "1,000"), (1e15, "1e15"),
+                            (-2e300, "-2e300"),
                             (float("nan"), ""), ("as it is", "as it is")):
             self.assertEqual(words.shown(value), text)
         self.assertEqual((words.shown(123.4, 2), words.shown(999600, 4)), ("120", "999,600"))
