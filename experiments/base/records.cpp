@@ -121,10 +121,15 @@ Table without_empty_columns(Table table) {
   return table;
 }
 
+std::string csv_text(const Table& table) {
+  std::string text = head_line(table.columns);
+  for (const Record& row : table.rows) text += csv_line(table.columns, row);
+  return text;
+}
+
 void write_csv(const std::string& path, const Table& table) {
   AtomicFile file(path);
-  file.write(head_line(table.columns));
-  for (const Record& row : table.rows) file.write(csv_line(table.columns, row));
+  file.write(csv_text(table));
   file.commit();
 }
 

@@ -46,6 +46,8 @@ Table read_csv(const std::string& path, std::size_t* complete_bytes = nullptr);
 /// The table without columns that are empty in every row.
 Table without_empty_columns(Table table);
 
+/// A table as CSV, with its head.
+std::string csv_text(const Table& table);
 /// Writes a table to a temporary file and renames it. @throws InputError if it cannot be written
 void write_csv(const std::string& path, const Table& table);
 

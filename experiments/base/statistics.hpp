@@ -34,8 +34,11 @@ double median(std::vector<double> sample);
 /// @throws std::invalid_argument for an empty sample
 Estimate estimate(std::vector<double> sample);
 
+/// Smallest samples for which the normal approximation of the rank-sum test holds.
+constexpr std::size_t rank_sum_samples = 9;
+
 /// Two-sided p value of the Mann-Whitney U test, by the normal approximation with ties and
-/// continuity correction. Use it for at least 9 values in each sample.
+/// continuity correction. Use it for at least rank_sum_samples values in each sample.
 /// @throws std::invalid_argument if a sample is empty
 double rank_sum_p_value(std::span<const double> a, std::span<const double> b);
 

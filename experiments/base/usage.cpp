@@ -16,6 +16,7 @@ namespace {
 constexpr double others_resolution_s = 0.01;
 
 double seconds(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
+double cpu_s(const rusage& used) { return seconds(used.ru_utime) + seconds(used.ru_stime); }
 
 double queue_wait_s() {
   double sum = 0;
@@ -51,7 +52,7 @@ ProcessorTimes processor_times() {
 void read_processor(Usage& usage) {
   rusage self{};
   ::getrusage(RUSAGE_SELF, &self);
-  usage.cpu_s = seconds(self.ru_utime) + seconds(self.ru_stime);
+  usage.cpu_s = cpu_s(self);
   usage.involuntary_switches = self.ru_nivcsw;
 }
 
@@ -64,6 +65,12 @@ Usage& Usage::operator+=(const Usage& other) {
   others_s += other.others_s;
   involuntary_switches += other.involuntary_switches;
   return *this;
+}
+
+double children_cpu_s() {
+  rusage children{};
+  ::getrusage(RUSAGE_CHILDREN, &children);
+  return cpu_s(children);
 }
 
 UsageMeter::Reading UsageMeter::reading() {

@@ -21,6 +21,9 @@ struct Usage {
   Usage& operator+=(const Usage& other);
 };
 
+/// CPU time of all children of this process that have ended [s].
+double children_cpu_s();
+
 /// Measures the usage of this process since the meter was made (getrusage,
 /// /proc/self/task/*/schedstat, and steal and idle time of /proc/stat in ticks of 10 ms). Reading
 /// the queues is slow, so it is done outside the region of the CPU time at both ends.

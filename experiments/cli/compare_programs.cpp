@@ -19,7 +19,6 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <sys/resource.h>
 
 namespace dss {
 namespace {
@@ -52,13 +51,6 @@ struct TimedProgram {
   }
   long disturbed() const { return std::ranges::count_if(rounds, &ProgramTimes::is_disturbed); }
 };
-
-double children_cpu_s() {
-  rusage of_children{};
-  ::getrusage(RUSAGE_CHILDREN, &of_children);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(of_children.ru_utime) + seconds(of_children.ru_stime);
-}
 
 /// @throws InputError if the program fails
 ProgramTimes timed(const TimedProgram& program, double time_limit_s) {
@@ -179,7 +171,6 @@ PairVerdict judged(const ProgramRounds& rounds) {
   const Interval equal = *ratio_of(rounds.twin(), rounds.before()).interval;
   PairVerdict verdict{
       ratio_of(rounds.after(), rounds.before()), std::max(equal.high - 1, 1 - equal.low), {}};
-  constexpr std::size_t rank_sum_samples = 9;
   if (rounds.before().rounds.size() >= rank_sum_samples)
     verdict.p = rank_sum_p_value(rounds.before().walls(), rounds.after().walls());
   return verdict;
@@ -236,12 +227,6 @@ nlohmann::ordered_json json_of(const ProgramRounds& rounds, const PairVerdict& v
           {"context", measurement_context()}};
 }
 
-std::string csv_of(const Table& table) {
-  std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
-  for (const Record& row : table.rows) text += csv_line(table.columns, row);
-  return text;
-}
-
 } // namespace
 
 void split_commands(const std::vector<std::string>& words, ProgramPair& pair) {
@@ -263,7 +248,7 @@ int compare_programs(const ProgramPair& pair) {
   progress.reset(); // the table begins on a line of its own
   const PairVerdict verdict = judged(rounds);
   FileSet outputs;
-  if (!pair.csv.empty()) outputs.open(pair.csv).write(csv_of(rounds.records()));
+  if (!pair.csv.empty()) outputs.open(pair.csv).write(csv_text(rounds.records()));
   if (!pair.markdown.empty()) outputs.open(pair.markdown).write(markdown_of(rounds, verdict));
   write_json(outputs, pair.json, json_of(rounds, verdict));
   if (pair.json != "-") {

@@ -9,9 +9,6 @@
 namespace dss {
 namespace {
 
-/// from this size on, the normal approximation of U holds
-constexpr std::size_t rank_sum_samples = 9;
-
 std::vector<double> step_times(const CellSample& sample) {
   std::vector<double> times;
   for (const auto& [number, time] : sample.step_s()) times.push_back(time);
