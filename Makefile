@@ -16,7 +16,7 @@ endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report site bench clean dependencies
 .PHONY: verify-cpu verify-devices pages test-aarch64 fuzz mutants faults restarts flips valgrind
-.PHONY: sanitize coverage
+.PHONY: sanitize coverage wheel
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -26,14 +26,17 @@ dependencies:
 	@./cmake/install_packages.sh
 
 build: dependencies
-	@cmake --preset $(PRESET) >$(PRESET).configure.log 2>&1 || { cat $(PRESET).configure.log; exit 1; }
+	@cmake --preset $(PRESET) $(CONFIGURE) >$(PRESET).configure.log 2>&1 || { cat $(PRESET).configure.log; exit 1; }
 	@rm -f $(PRESET).configure.log
 	@cmake --build --preset $(PRESET) $(TARGETS)
 
 # The test of sizes needs ctags, random scenes need RapidCheck. The preset ci leaves out what needs
-# a browser or MkDocs.
+# a browser or MkDocs. The presets for users have the Python package.
+PYTHON_PACKAGES := pybind11-dev python3-dev
 test: export DSS_EXTRA_PACKAGES += universal-ctags librapidcheck-dev \
-  $(if $(filter ci,$(PRESET)),,chromium chromium-driver python3-selenium mkdocs)
+  $(if $(filter ci,$(PRESET)),,chromium chromium-driver python3-selenium mkdocs) \
+  $(if $(filter ci release,$(PRESET)),$(PYTHON_PACKAGES))
+test: CONFIGURE := $(if $(filter ci release,$(PRESET)),-DDSS_WITH_PYTHON=ON)
 test: build
 	@ctest --preset $(PRESET)
 
@@ -48,6 +51,14 @@ pages: build
 	@$(BUILD)/dssbench list columns --json | tests/docs/columns_page.py >$(BUILD)/columns.md
 	@mv $(BUILD)/columns.md results/columns.md
 	@/usr/bin/python3 plots/fill_pages.py
+
+# A wheel of the Python package, which a new environment then installs and tries.
+wheel: export DSS_EXTRA_PACKAGES += $(PYTHON_PACKAGES)
+wheel: dependencies
+	@mkdir -p build/wheel
+	@/usr/bin/python3 -m pip wheel . --quiet --no-deps --wheel-dir build/wheel \
+	  --config-settings=build-dir=build/wheel/tree
+	@/usr/bin/python3 tests/python/wheel_test.py build/wheel/dssbench-*.whl
 
 # The same bits on another processor: cross-built, and run under an emulator.
 test-aarch64: TARGETS := --target dssbench

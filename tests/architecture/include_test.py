@@ -11,7 +11,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = [
     "kernels", "solver", "variants", "experiments/base", "experiments/run", "experiments/measure",
-    "experiments/studies", "experiments/cli"
+    "experiments/studies", "experiments/cli", "python"
 ]
 SOURCES = (".h", ".hpp", ".cpp", ".cl")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)

@@ -8,7 +8,8 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ("cmake", "examples", "experiments", "kernels", "plots", "solver", "tests", "variants")
+FOLDERS = ("cmake", "examples", "experiments", "kernels", "plots", "python", "solver", "tests",
+           "variants")
 SOURCES = (".h", ".hpp", ".cpp", ".cl", ".py", ".cmake", ".sh", ".in", ".js", ".css")
 COLUMNS, LINES = 100, 60
 EXCEPTIONS = {
