@@ -116,10 +116,10 @@ def own_chapter_of(results, ages, missing, entries, has_library):
     return charts, parts or [elements.missing("No chart can be drawn of these tables.")]
 
 
-def story_of(results, ages, grids, missing, has_library):
+def story_of(results, ages, chapters, grids, missing, has_library):
     """(charts by name, parts of the body, contents) of all chapters."""
     charts, body, contents = {}, [], []
-    for chapter, entries in story.entries_of(results):
+    for chapter, entries in chapters:
         make = own_chapter_of if chapter is story.OWN else chapter_of
         first, parts = [], []
         if chapter.name == story.TABLES:
@@ -139,11 +139,12 @@ def story_of(results, ages, grids, missing, has_library):
 def build(results, plotly):
     """(text of the page, text of REPORT.md, what is missing)."""
     ages, missing = Ages(results.directory), []
-    has_story = any(chapter is not story.OWN for chapter, _ in story.entries_of(results))
+    chapters = story.entries_of(results)
+    has_story = any(chapter is not story.OWN for chapter, _ in chapters)
     grids = grids_of(results, ages, missing) if has_story else []
-    charts, chapters, contents = story_of(results, ages, grids, missing, bool(plotly))
+    charts, parts, contents = story_of(results, ages, chapters, grids, missing, bool(plotly))
     cards, groups = summary.cards(results, missing, ages) if has_story else [], by_study(missing)
-    body = [sections.summary_section(results, cards), *chapters,
+    body = [sections.summary_section(results, cards), *parts,
             sections.pictures_section(results),
             sections.old_and_missing_section(groups, ages),
             sections.environment_section(ages),

@@ -1,7 +1,6 @@
 """Tables 1 to 3 of the paper. Published, measured and simulated values have their own columns."""
 import dataclasses
 
-from tables.results import NotMeasured
 from tables.words import is_missing, shown, with_interval
 
 WAYS = ("as the paper did", "our best")
