@@ -36,7 +36,8 @@ PYTHON_PACKAGES := pybind11-dev python3-dev
 test: export DSS_EXTRA_PACKAGES += universal-ctags librapidcheck-dev \
   $(if $(filter ci,$(PRESET)),,chromium chromium-driver python3-selenium mkdocs) \
   $(if $(filter ci release,$(PRESET)),$(PYTHON_PACKAGES))
-test: CONFIGURE := $(if $(filter ci release,$(PRESET)),-DDSS_WITH_PYTHON=ON)
+test: CONFIGURE := $(if $(filter ci release,$(PRESET)),-DDSS_WITH_PYTHON=ON \
+  -DPython_EXECUTABLE=/usr/bin/python3)
 test: build
 	@ctest --preset $(PRESET)
 

@@ -12,6 +12,8 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -40,11 +42,14 @@ py::array state_of(py::object self) {
 }
 
 void set_state(Simulation& simulation, const Array& state) {
+  if (state.ndim() != 2 || state.shape(1) != field_count)
+    throw InputError(fmt::format("state: give an array of shape (elements, {})", int(field_count)));
   simulation.set_state({state.data(), std::size_t(state.size())});
 }
 
 /// Advances in chunks, so that Ctrl-C ends it. Other threads of Python run meanwhile.
 void advance(Simulation& simulation, long steps) {
+  simulation.require_possible(steps);
   while (true) {
     const long chunk = std::min(steps, simulation.chunk(steps));
     {
@@ -65,34 +70,9 @@ std::vector<Override> overrides_of(const Overrides& set) {
   return overrides;
 }
 
-template <class Value>
-std::optional<Value> optional_of(const py::kwargs& options, const char* name) {
-  if (!options.contains(name) || options[name].is_none()) return {};
-  return options[name].cast<Value>();
-}
-
-/// @param options  checked by the class in __init__.py
-RunRequest request_of(const std::string& scene, const Overrides& set, const py::kwargs& options) {
-  RunRequest request;
-  request.scene = scene;
-  request.overrides = overrides_of(set);
-  request.variant = optional_of<std::string>(options, "variant").value_or("auto");
-  request.threads = optional_of<int>(options, "threads").value_or(1);
-  request.device = optional_of<std::string>(options, "device").value_or("");
-  request.hybrid = optional_of<std::string>(options, "hybrid").value_or("");
-  request.tile = optional_of<int>(options, "tile").value_or(0);
-  request.model = optional_of<std::string>(options, "model");
-  request.precision = optional_of<std::string>(options, "precision");
-  request.integrator = optional_of<std::string>(options, "integrator");
-  request.rotation = optional_of<std::string>(options, "rotation");
-  request.dt = optional_of<double>(options, "dt");
-  request.is_forced = optional_of<bool>(options, "force").value_or(false);
-  return request;
-}
-
 py::list variant_list() {
   py::list list;
-  for (const VariantStatus& variant : asked_variants())
+  for (const VariantStatus& variant : listed_variants())
     list.append(
         py::dict("name"_a = variant.name, "isa"_a = variant.isa, "unusable"_a = variant.unusable));
   return list;
@@ -112,12 +92,36 @@ double predicted_stable_step(const std::string& scene, const Overrides& set,
   return stable_step(loaded.problem, require_method(integrator)).dt;
 }
 
+using Text = std::optional<std::string>;
+
+std::unique_ptr<Simulation> made(const std::string& scene, const Overrides& set,
+                                 const std::string& variant, int threads, const std::string& device,
+                                 const std::string& hybrid, int tile, const Text& model,
+                                 const Text& precision, const Text& integrator,
+                                 const Text& rotation, std::optional<double> dt, bool force) {
+  RunRequest request;
+  request.scene = scene;
+  request.overrides = overrides_of(set);
+  request.variant = variant;
+  request.threads = threads;
+  request.device = device;
+  request.hybrid = hybrid;
+  request.tile = tile;
+  request.model = model;
+  request.precision = precision;
+  request.integrator = integrator;
+  request.rotation = rotation;
+  request.dt = dt;
+  request.is_forced = force;
+  return std::make_unique<Simulation>(std::move(request));
+}
+
 void bind_simulation(py::module_& module) {
   py::class_<Simulation>(module, "Simulation")
-      .def(py::init([](const std::string& scene, const Overrides& set, const py::kwargs& options) {
-             return std::make_unique<Simulation>(request_of(scene, set, options));
-           }),
-           "scene"_a, "set"_a)
+      .def(py::init(&made), "scene"_a, "set"_a, py::kw_only(), "variant"_a = "auto",
+           "threads"_a = 1, "device"_a = "", "hybrid"_a = "", "tile"_a = 0, "model"_a = py::none(),
+           "precision"_a = py::none(), "integrator"_a = py::none(), "rotation"_a = py::none(),
+           "dt"_a = py::none(), "force"_a = false)
       .def("advance", &advance, "steps"_a)
       .def_property("state", &state_of, &set_state)
       .def("stress", [](Simulation& simulation) { return array_of(simulation.stress()); })
@@ -157,5 +161,4 @@ PYBIND11_MODULE(_core, module) {
   module.def("scenes", &scene_list);
   module.def("stable_step", &predicted_stable_step, "scene"_a, "set"_a, "integrator"_a);
   bind_simulation(module);
-  module.def("end_variants", [] { end_variants(0, true); });
 }

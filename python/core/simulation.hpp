@@ -4,6 +4,7 @@
 #include "variants/api/executor.hpp"
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <span>
 #include <string>
@@ -23,12 +24,16 @@ public:
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Advances by some steps. The step after the scene's last one is as good as any other.
+  /// Advances by some steps. The step after the scene's last one is as good as any other. If a step
+  /// fails, nothing but set_state() helps.
   /// @throws UnstableError if a step fails, and at every later call
-  /// @throws InputError for a negative number, and beyond the end of a series that drives the scene
+  /// @throws InputError as require_possible, and if another thread is in advance()
   void advance(long steps);
+  /// @throws InputError for a negative number, and beyond the end of a series that drives the scene
+  /// @throws UnstableError after a step that failed
+  void require_possible(long steps) const;
   /// Steps of one call of advance() after which the caller may want to look around: some 0.1 s of
-  /// work, and one for methods with leaps, whose bits depend on where they end.
+  /// work. Methods with leaps take more, because leaps end with each call.
   long chunk(long most) const;
 
   /// The present state, field_count numbers an element (kernels/fields.hpp). The place in memory is
@@ -54,6 +59,8 @@ public:
   std::string schedule() const { return executor_->schedule(); }
 
 private:
+  void advance_whole(long steps);
+  [[noreturn]] void refuse_busy() const;
   Rotation equations() const;
   std::vector<double> signals() const;
 
@@ -61,8 +68,10 @@ private:
   RunPlan plan_;
   std::unique_ptr<Executor> executor_;
   std::vector<double> state_;
-  bool is_current_ = false; ///< state_ is the executor's
+  bool is_current_ = false;           ///< state_ is the executor's
+  std::atomic<bool> is_busy_ = false; ///< a thread is in advance()
   long step_ = 0;
+  double step_s_ = 0;     ///< time of a step [s]; 0: unknown
   std::string breakdown_; ///< why a step failed; empty if none did
 };
 

@@ -10,7 +10,6 @@
 Units are SI. Errors of the input are InputError, a ValueError; a run that becomes unstable is
 UnstableError, an ArithmeticError.
 """
-import atexit
 import os
 import pathlib
 
@@ -25,14 +24,12 @@ from .results import Results, load, read_history, read_state  # noqa: E402
 from .scene import Scene, stable_step  # noqa: E402
 from .simulation import Simulation  # noqa: E402
 
-atexit.register(_core.end_variants)
-
 commit = _core.commit
 
 
 def variants() -> list[dict[str, str]]:
-    """Execution targets: a list of {"name", "isa", "unusable"}, the last an empty text if it runs
-    here."""
+    """Execution targets: a list of {"name", "isa", "unusable"}. `unusable` is empty if the variant
+    runs here, else the reason."""
     return _core.variants()
 
 

@@ -9,9 +9,9 @@ from typing import Any
 
 from . import _core
 from .results import Results
-from .scene import AnyScene, Changes, file_of, words_of_set
+from .scene import AnyScene, Changes, file_of, plain, words_of_set
 
-EXIT_CHECK_FAILED, EXIT_UNSTABLE = 1, 3
+EXIT_CHECK_FAILED, EXIT_BAD_INPUT, EXIT_UNSTABLE = 1, 2, 3
 
 
 class CheckFailed(RuntimeError):
@@ -52,10 +52,12 @@ def words_of(options: dict[str, Any]) -> list[str]:
 def failure(done: subprocess.CompletedProcess[str],
             record: dict[str, Any] | None = None) -> Exception:
     """The exception of a program that did not end with 0."""
-    what = done.stderr.strip().removeprefix("dssbench: ") or f"exit code {done.returncode}"
+    said = (done.stderr.strip() or done.stdout.strip() or f"exit code {done.returncode}")
+    what = said.splitlines()[-1].removeprefix("dssbench: ")
     if done.returncode == EXIT_CHECK_FAILED:
         return CheckFailed(what, record)
-    return (_core.UnstableError if done.returncode == EXIT_UNSTABLE else _core.InputError)(what)
+    kinds = {EXIT_BAD_INPUT: _core.InputError, EXIT_UNSTABLE: _core.UnstableError}
+    return kinds.get(done.returncode, RuntimeError)(what)
 
 
 def run(scene: AnyScene, *, set: Changes = None, **options: Any) -> dict[str, Any]:
@@ -68,6 +70,8 @@ def run(scene: AnyScene, *, set: Changes = None, **options: Any) -> dict[str, An
     returns  the record as a dict; `dssbench list columns` explains its keys
     raises   InputError, UnstableError, CheckFailed
     """
+    if options.get("json") == "-":
+        raise _core.InputError("json: run returns the record; give a file, or leave it out")
     with tempfile.TemporaryDirectory(prefix="dssbench-") as folder, file_of(scene) as path:
         file = pathlib.Path(options.pop("json", None) or pathlib.Path(folder) / "record.json")
         words = [program(), "run", path, *words_of_set(set), *words_of(options),
@@ -91,8 +95,8 @@ def experiment(study: str | os.PathLike[str] | dict[str, Any], out: str | os.Pat
     """
     with tempfile.TemporaryDirectory(prefix="dssbench-") as folder:
         if isinstance(study, dict):
-            path = pathlib.Path(folder) / f"{study['experiment']}.json"
-            path.write_text(json.dumps(study))
+            path = pathlib.Path(folder) / "study.json"
+            path.write_text(json.dumps(plain(study)))
             study = path
         words = [program(), "experiment", os.fspath(study), "--out", os.fspath(out),
                  *words_of(options)]

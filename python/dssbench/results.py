@@ -3,6 +3,7 @@ import functools
 import json
 import os
 import pathlib
+import re
 import subprocess
 from typing import Any, Callable
 
@@ -14,7 +15,10 @@ UNITS_OF_STATES = {"x": "m", "y": "m", "z": "m", "ux": "m", "uy": "m", "uz": "m"
                    "vy": "m/s", "vz": "m/s", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s",
                    "stress_vm": "Pa"}
 UNITS_OF_HISTORIES = {"t": "s", "kinetic_energy": "J", "energy": "J"}
-UNITS_BY_ENDING = {"_s": "s", "_j": "J", "_m": "m", "_bytes": "B", "_pa": "Pa", "_hz": "Hz"}
+# The first that fits counts.
+UNITS_BY_ENDING = {"rad_per_s": "rad/s", "bytes_per_s": "B/s", "mb_per_s": "MB/s",
+                   "gb_per_s": "GB/s", "_per_s": "1/s", "_ns": "ns", "_us": "us", "_s": "s",
+                   "_j": "J", "_m": "m", "_bytes": "B", "_pa": "Pa", "_hz": "Hz"}
 
 
 @functools.cache
@@ -24,14 +28,14 @@ def meanings() -> dict[str, tuple[str, str]]:
     words = [program(), "list", "columns", "--json"]
     listing = json.loads(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
     return {name: (row["meaning"], row["unit"])
-            for row in listing for name in (row["raw"], row["in tables"]) if name}
+            for row in listing for name in (row["run --json"], row["raw"]) if name}
 
 
 def frame_of(path: str | os.PathLike[str], units: Callable[[str], str]) -> pd.DataFrame:
     """A CSV file. `units` is a function of the column."""
     path = pathlib.Path(path)
     try:
-        frame = pd.read_csv(path)
+        frame = pd.read_csv(path, dtype={"state_digest": str}, float_precision="round_trip")
     except (OSError, ValueError) as error:
         raise _core.InputError(f"{path}: {error}") from None
     frame.attrs["source"] = str(path)
@@ -43,7 +47,8 @@ def unit_of_column(column: str) -> str:
     """Unit of a column of a table; empty if it has none."""
     if column in meanings():
         return meanings()[column][1]
-    return next((unit for end, unit in UNITS_BY_ENDING.items() if column.endswith(end)), "")
+    quantity = column.removesuffix("_low").removesuffix("_high")
+    return next((unit for end, unit in UNITS_BY_ENDING.items() if quantity.endswith(end)), "")
 
 
 def unit_in_history(column: str) -> str:
@@ -53,7 +58,8 @@ def unit_in_history(column: str) -> str:
     quantity = column.rpartition(".")[2]
     if quantity.startswith("reaction_"):
         return "N" if quantity[9] == "f" else "N m"
-    return "Pa" if quantity.startswith("s") else UNITS_OF_STATES.get(quantity, "")
+    is_stress = quantity == "von_mises" or re.fullmatch("s[xyz]{2}", quantity)
+    return "Pa" if is_stress else UNITS_OF_STATES.get(quantity, "")
 
 
 def read_state(path: str | os.PathLike[str]) -> pd.DataFrame:

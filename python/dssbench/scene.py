@@ -99,10 +99,14 @@ class Scene:
 
     def set_run(self, duration: float, integrator: str = "rk4", share: float = 0.5) -> None:
         """Steps of equal length for a duration [s]: a share of the largest stable step."""
-        self.keys["run"] = {"dt": 1e-9, "steps": 1, "integrator": integrator}
-        most = share * stable_step(self, integrator=integrator)
-        steps = max(1, int(np.ceil(duration / most)))
-        self.keys["run"].update(dt=duration / steps, steps=steps)
+        before = self.keys.get("run", {})
+        trial = Scene({**self.keys, "run": {**before, "dt": 1e-9, "steps": 1}})
+        limit = stable_step(trial, integrator=integrator)
+        if not limit > 0:
+            raise _core.InputError(f"set_run: {integrator} has no stable step for this scene")
+        steps = max(1, int(np.ceil(duration / (share * limit))))
+        self.keys["run"] = {**before, "dt": duration / steps, "steps": steps,
+                            "integrator": integrator}
 
     def save(self, path: str | os.PathLike[str]) -> pathlib.Path:
         """Writes the scene, and the voxels of its bodies as .npy beside it. Returns the path."""
@@ -130,7 +134,7 @@ def whole_numbers(voxels: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 def stable_step(scene: AnyScene, *, set: Changes = None, integrator: str = "rk4") -> float:
-    """Largest stable step [s] of a method about the state of rest; it may be up to 1.8 times longer
-    than this bound."""
+    """Safe step [s] of a method about the state of rest. The true limit may be up to 1.8 times as
+    long."""
     with file_of(scene) as path:
         return _core.stable_step(path, pairs_of_set(set), integrator)

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from . import _core
 from .scene import AnyScene, Changes, file_of, pairs_of_set
 
-OPTIONS = ("variant", "threads", "device", "hybrid", "tile", "model", "precision", "integrator",
-           "rotation", "dt", "force")
 VELOCITY, TURN, SPIN = slice(3, 6), slice(6, 10), slice(10, 13)
 
 
@@ -24,8 +22,8 @@ class Simulation(_core.Simulation):
     scene    name, path, dict or Scene
     set      parameters and scalars of the scene that change: {"n": 50}
     options  variant, threads, device, hybrid, tile, model, precision, integrator, rotation, dt [s],
-             force, as for `dssbench run`; the scene has the defaults, and `spatial` is that of the
-             model
+             force, as for `dssbench run`. The scene has the defaults. The default model is
+             `spatial` where the scene says `auto`.
 
     state is an array of shape (elements, 13): u [m], v [m/s], quaternion (q0 - 1, q1, q2, q3),
     w [rad/s], in the order of dssbench.field_names. It is the simulation's own memory, read-only:
@@ -34,10 +32,6 @@ class Simulation(_core.Simulation):
     """
 
     def __init__(self, scene: AnyScene, set: Changes = None, **options: Any):
-        for name in options:
-            if name not in OPTIONS:
-                raise TypeError(f"Simulation: unknown option {name!r}; known are "
-                                f"{', '.join(OPTIONS)}")
         with file_of(scene) as path:
             super().__init__(path, pairs_of_set(set), **options)
 
@@ -45,7 +39,7 @@ class Simulation(_core.Simulation):
                 callback: Callable[["Simulation"], Any] | None = None) -> None:
         """Advances by so many steps (default: those of the scene).
 
-        callback  called with this object after each `every` steps; if it returns False, it ends
+        callback  called with this object after each `every` steps; advance() ends if it returns False
         raises    UnstableError if a step fails; KeyboardInterrupt leaves a good state
         """
         left = self.steps if steps is None else steps

@@ -6,6 +6,7 @@ LEFT_OUT = (  # (pattern of the command as shown, why it is not run)
     (r"^\.ci/(run|long)$", "builds for minutes"),
     (r"^cp -r PREFIX|^cmake -B build |^PREFIX/bin", "compiles a variant; the test `install` does"),
     (r"^likwid-perfctr ", "needs hardware counters"),
+    (r"^pip install ", "changes the reader's Python; `make wheel` does it in a new environment"),
     (r"^git worktree ", "would change the repository"),
 )
 

@@ -2,6 +2,7 @@
 import math
 import pathlib
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -83,7 +84,8 @@ class Simulations(unittest.TestCase):
         self.assertEqual(simulation.step, 25)
 
     def test_energy_of_an_undamped_scene_stays(self):
-        simulation = dssbench.Simulation("tumbling_box", variant="scalar")
+        undamped = {"bodies/0/constants/damping_ratio": 0}
+        simulation = dssbench.Simulation("tumbling_box", set=undamped, variant="scalar")
         before = simulation.energy
         simulation.advance(20)
         self.assertLess(abs(simulation.energy / before - 1), 1e-6)
@@ -114,17 +116,38 @@ class Simulations(unittest.TestCase):
 
     def test_mistakes_are_refused(self):
         simulation = self.simulation()
-        for wrong in (np.zeros((3, 13)), np.full((144, 13), math.nan)):
+        for wrong in (np.zeros((3, 13)), np.full((144, 13), math.nan), np.zeros((13, 144)),
+                      np.zeros(144 * 13)):
             with self.assertRaises(dssbench.InputError):
                 simulation.state = wrong
         with self.assertRaises(dssbench.InputError):
             simulation.advance(-1)
         with self.assertRaises(dssbench.InputError):
             simulation.advance(10, callback=print)
-        with self.assertRaisesRegex(TypeError, "unknown option 'thread'"):
+        with self.assertRaises(TypeError):
             self.simulation(thread=2)
+        with self.assertRaisesRegex(dssbench.InputError, "ends in .svg"):
+            simulation.picture("plate.png")
         with self.assertRaisesRegex(dssbench.InputError, "use dssbench.run"):
             self.simulation(variant="mpi")
+
+
+class Threads(unittest.TestCase):
+    def test_a_simulation_that_advances_is_not_read(self):
+        simulation = dssbench.Simulation("plate_paper", set={"n": 60}, variant="scalar")
+        other = threading.Thread(target=simulation.advance, args=(400,))
+        other.start()
+        refused = 0
+        while other.is_alive():
+            try:
+                simulation.state  # pylint: disable=pointless-statement
+            except dssbench.InputError:
+                refused += 1
+        other.join()
+        self.assertGreater(refused, 0)
+        alone = dssbench.Simulation("plate_paper", set={"n": 60}, variant="scalar")
+        alone.advance(400)
+        self.assertEqual(simulation.digest, alone.digest)
 
 
 class Lists(unittest.TestCase):

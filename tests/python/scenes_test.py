@@ -75,7 +75,7 @@ class Scenes(unittest.TestCase):
         scene["clamp"] = []
         with self.assertRaisesRegex(dssbench.InputError, "clamp"):
             dssbench.Simulation(scene)
-        with self.assertRaisesRegex(dssbench.InputError, "/run"):
+        with self.assertRaisesRegex(dssbench.InputError, 'lacks the key "run"'):
             dssbench.Simulation(bar())
 
 

@@ -23,13 +23,15 @@ plots.body(simulation).figure.savefig("plate.png")
 def main():
     wheel = os.path.realpath(sys.argv[1])
     # without the variables and paths of this tree
-    environment = {"PATH": "/usr/bin:/bin", "HOME": os.environ.get("HOME", "/")}
+    kept = {name: value for name, value in os.environ.items()
+            if not name.startswith(("DSSBENCH", "PYTHON", "CMAKE"))}
     with tempfile.TemporaryDirectory(prefix="dssbench-wheel-") as folder:
         venv.create(f"{folder}/venv", with_pip=True)
 
         def must(*words):
+            # no compiler is on the path
             subprocess.run([f"{folder}/venv/bin/{words[0]}", *words[1:]], check=True, cwd=folder,
-                           env=environment)
+                           env={**kept, "PATH": f"{folder}/venv/bin"})
 
         start = time.monotonic()
         must("pip", "install", "--quiet", f"{wheel}[plots]")
