@@ -34,7 +34,7 @@ class Shipped(unittest.TestCase):
         records, table = (results.raw("table1").attrs["units"],
                           results.table("table1").attrs["units"])
         self.assertEqual(records["wall_s"], "s")
-        self.assertEqual(table["step_s"], "s")
+        self.assertEqual(table["measured_wall_s"], "s")
         for column, unit in {**records, **table}.items():
             self.assertEqual(column.endswith("_per_s"), unit.endswith("/s"), (column, unit))
 

@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -300,6 +301,32 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertEqual(result.stderr.count("\n"), 1)
         self.assertIn("no tables", result.stderr)
+
+
+class Continuous(unittest.TestCase):
+    """The export for services that follow benchmarks."""
+
+    def exported(self, *options):
+        script = report.ROOT / "plots" / "continuous.py"
+        return subprocess.run([sys.executable, script, *options], capture_output=True, text=True,
+                              check=False)
+
+    def test_times_have_unique_names_and_intervals(self):
+        result = self.exported("--results", report.ROOT / "results")
+        entries = json.loads(result.stdout)
+        self.assertGreater(len(entries), 20)
+        self.assertEqual(len({entry["name"] for entry in entries}), len(entries))
+        for entry in entries:
+            low, high = map(float, entry["range"].split(" to "))
+            self.assertLessEqual(low, entry["value"] * 1.00001)
+            self.assertGreaterEqual(high, entry["value"] * 0.99999)
+            self.assertNotIn("nan", entry["name"])
+
+    def test_a_table_of_something_else_is_an_error_in_one_line(self):
+        for table in ("continuum", "no_table"):
+            result = self.exported("--results", report.ROOT / "results", "--table", table)
+            self.assertEqual((result.returncode, result.stdout), (1, ""))
+            self.assertEqual(result.stderr.count("\n"), 1)
 
 
 class Documents(unittest.TestCase):
