@@ -13,7 +13,7 @@ import sys
 
 from tables.results import NotMeasured, Results
 
-COLUMNS = ("experiment", "scene", "variant", "model", "precision", "integrator", "threads", "ranks",
+COLUMNS = ("label", "experiment", "scene", "variant", "model", "precision", "integrator", "threads", "ranks",
            "steps", "measured_wall_s", "measured_wall_low_s", "measured_wall_high_s", "status")
 
 
@@ -39,7 +39,8 @@ def entries_of(results, table):
     frame = Results(results).table(table, *COLUMNS, optional=("set", "halo"))
     raw = json.loads((results / "raw" / f"{table}.json").read_text(encoding="utf-8"))["context"]
     extra = f"commit {raw['git_commit']}, {raw['cpu_model']}"
-    good = frame[(frame["status"] == "ok") & frame["measured_wall_low_s"].notna()]
+    is_twin = frame["label"].str.endswith("(A/A)")  # measured once more, for the resolution
+    good = frame[(frame["status"] == "ok") & frame["measured_wall_low_s"].notna() & ~is_twin]
     return [entry_of(row, extra) for _, row in good.iterrows()], len(frame) - len(good)
 
 
