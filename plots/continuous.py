@@ -13,8 +13,9 @@ import sys
 
 from tables.results import NotMeasured, Results
 
-COLUMNS = ("label", "experiment", "scene", "variant", "model", "precision", "integrator", "threads", "ranks",
-           "steps", "measured_wall_s", "measured_wall_low_s", "measured_wall_high_s", "status")
+COLUMNS = ("label", "experiment", "scene", "variant", "model", "precision", "integrator",
+           "threads", "ranks", "steps", "measured_wall_s", "measured_wall_low_s",
+           "measured_wall_high_s", "status")
 
 
 def name_of(row):
