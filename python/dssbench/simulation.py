@@ -39,7 +39,8 @@ class Simulation(_core.Simulation):
                 callback: Callable[["Simulation"], Any] | None = None) -> None:
         """Advances by so many steps (default: those of the scene).
 
-        callback  called with this object after each `every` steps; advance() ends if it returns False
+        callback  called with this object after each `every` steps; advance() ends if it returns
+                  False
         raises    UnstableError if a step fails; KeyboardInterrupt leaves a good state
         """
         left = self.steps if steps is None else steps
