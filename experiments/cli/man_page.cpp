@@ -27,6 +27,15 @@ std::string roff(const std::string& text) {
 
 std::string verbatim(const std::string& text) { return fmt::format(".nf\n{}\n.fi\n", roff(text)); }
 
+/// Set by processes that link the library, such as those of Python.
+constexpr EnvironmentVariable prefix_variable = {
+    "DSSBENCH_PREFIX", "Prefix under which scenes and variants are installed; default: that of the "
+                       "program, or the source and build trees."};
+
+std::string entry_of(const EnvironmentVariable& variable) {
+  return fmt::format(".TP\n\\fB{}\\fR\n{}\n", variable.name, roff(variable.meaning));
+}
+
 std::string option_entry(const CLI::Option& option) {
   const bool takes_value = !option.get_positional() && option.get_items_expected_max() > 0;
   std::string name = option.get_positional() ? option.get_name(true) : option.get_name(false, true);
@@ -86,8 +95,8 @@ std::string man_page(const CLI::App& app) {
   for (std::size_t code = 0; code < exit_code_meanings.size(); ++code)
     page += fmt::format(".TP\n{}\n{}\n", code, roff(exit_code_meanings[code]));
   page += ".SH ENVIRONMENT\n";
-  for (const EnvironmentVariable& variable : environment_variables)
-    page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", variable.name, roff(variable.meaning));
+  for (const EnvironmentVariable& variable : environment_variables) page += entry_of(variable);
+  page += entry_of(prefix_variable);
   return page + ".SH EXAMPLES\n" + verbatim(app.get_footer());
 }
 
