@@ -77,8 +77,9 @@ def run(scene: AnyScene, *, set: Changes = None, **options: Any) -> dict[str, An
         words = [program(), "run", path, *words_of_set(set), *words_of(options),
                  "--json", str(file)]
         done = subprocess.run(words, capture_output=True, text=True, check=False)
-        has_record = done.returncode in (0, EXIT_CHECK_FAILED) and file.exists()
-        record = json.loads(file.read_text()) if has_record else None
+        record: dict[str, Any] = {}
+        if done.returncode in (0, EXIT_CHECK_FAILED) and file.exists():
+            record = json.loads(file.read_text())
     if done.returncode != 0:
         raise failure(done, record)
     return record
