@@ -13,7 +13,7 @@
 namespace dss {
 
 /// One scene on one variant, in this process. The caller decides how far it goes, and may look at
-/// the state and set it in between. It is neither timed nor checked: `dssbench run` does that.
+/// the state and set it in between. It is neither timed nor judged: `dssbench run` does that.
 class Simulation {
 public:
   /// Starts at the initial state of the scene.

@@ -1,4 +1,4 @@
-"""The program `dssbench`, which times and checks runs in a process of its own."""
+"""The program `dssbench`, which times runs in a process of its own and judges them."""
 import json
 import os
 import pathlib
@@ -61,7 +61,7 @@ def failure(done: subprocess.CompletedProcess[str],
 
 
 def run(scene: AnyScene, *, set: Changes = None, **options: Any) -> dict[str, Any]:
-    """Runs a scene as `dssbench run` does: timed, and checked against the oracle.
+    """Runs a scene as `dssbench run` does: timed, and with its energy balance judged.
 
     scene    name, path, dict or Scene
     set      parameters and scalars of the scene that change: {"n": 50}

@@ -14,7 +14,7 @@ VELOCITY, TURN, SPIN = slice(3, 6), slice(6, 10), slice(10, 13)
 
 
 class Simulation(_core.Simulation):
-    """One scene on one variant, in this process: neither timed nor checked (`run` does that).
+    """One scene on one variant, in this process: neither timed nor judged (`run` does that).
 
         simulation = dssbench.Simulation("plate_paper", set={"n": 50}, variant="avx2")
         simulation.advance(1000, every=100, callback=lambda s: print(s.time, s.energy))
