@@ -41,6 +41,13 @@ py::array state_of(py::object self) {
   return array;
 }
 
+py::array_t<double> von_mises_of(Simulation& simulation) {
+  const std::vector<SymmetricTensor> stress = simulation.stress();
+  py::array_t<double> array(py::ssize_t(stress.size()));
+  std::ranges::transform(stress, array.mutable_data(), von_mises);
+  return array;
+}
+
 void set_state(Simulation& simulation, const Array& state) {
   if (state.ndim() != 2 || state.shape(1) != field_count)
     throw InputError(fmt::format("state: give an array of shape (elements, {})", int(field_count)));
@@ -125,6 +132,7 @@ void bind_simulation(py::module_& module) {
       .def("advance", &advance, "steps"_a)
       .def_property("state", &state_of, &set_state)
       .def("stress", [](Simulation& simulation) { return array_of(simulation.stress()); })
+      .def("von_mises", &von_mises_of, "(elements,) [Pa]")
       .def("places", [](const Simulation& simulation) { return array_of(simulation.places()); })
       .def("write_picture", &Simulation::write_picture, "path"_a)
       .def_property_readonly("energy", &Simulation::energy)

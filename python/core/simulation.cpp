@@ -126,9 +126,9 @@ void Simulation::set_state(std::span<const double> state) {
 Rotation Simulation::equations() const { return equations_of(plan_, plan_.model); }
 std::vector<double> Simulation::signals() const { return signals_at(problem(), time()); }
 
-std::vector<std::array<double, 6>> Simulation::stress() {
+std::vector<SymmetricTensor> Simulation::stress() {
   const StressField field(problem(), state(), equations(), signals());
-  std::vector<std::array<double, 6>> stress;
+  std::vector<SymmetricTensor> stress;
   for (const ElementStress& element : field.elements()) stress.push_back(element.stress);
   return stress;
 }

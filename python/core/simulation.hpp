@@ -1,6 +1,7 @@
 #pragma once
 /// A run that its caller advances step by step.
 #include "experiments/run/plan/run_plan.hpp"
+#include "solver/model/stress/tensor.hpp"
 #include "variants/api/executor.hpp"
 
 #include <array>
@@ -44,7 +45,7 @@ public:
   void set_state(std::span<const double> state);
 
   /// Stress in the middle of each element: xx, yy, zz, yz, xz, xy in global axes [Pa].
-  std::vector<std::array<double, 6>> stress();
+  std::vector<SymmetricTensor> stress();
   double energy();      ///< kinetic and elastic [J], see total_energy
   std::string digest(); ///< of the state's bits, as `dssbench run` prints it
   /// Centres of the elements at rest [m].

@@ -16,14 +16,6 @@ Changes = Mapping[str, Any] | None
 AnyScene = Union[str, "os.PathLike[str]", dict[str, Any], "Scene"]
 
 
-def words_of_set(changes: Changes) -> list[str]:
-    """{"n": 50} as the words --set n=50."""
-    words = []
-    for key, value in (changes or {}).items():
-        words += ["--set", f"{key}={text_of(value)}"]
-    return words
-
-
 def text_of(value: Any) -> str:
     """A value as --set takes it: the shortest number that reads back the same."""
     if isinstance(value, (bool, np.bool_)):
@@ -32,8 +24,13 @@ def text_of(value: Any) -> str:
 
 
 def pairs_of_set(changes: Changes) -> list[tuple[str, str]]:
-    """The same for the extension."""
+    """{"n": 50} as keys and values of --set."""
     return [(key, text_of(value)) for key, value in (changes or {}).items()]
+
+
+def words_of_set(changes: Changes) -> list[str]:
+    """The same as words of a command: --set n=50."""
+    return [word for key, value in pairs_of_set(changes) for word in ("--set", f"{key}={value}")]
 
 
 @contextlib.contextmanager

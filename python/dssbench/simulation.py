@@ -75,12 +75,6 @@ class Simulation(_core.Simulation):
         """(elements, 4), q0 first: a copy."""
         return self.state[:, TURN] + (1, 0, 0, 0)
 
-    def von_mises(self) -> NDArray[np.float64]:
-        """(elements,) [Pa]"""
-        xx, yy, zz, yz, xz, xy = self.stress().T
-        return np.sqrt(((xx - yy)**2 + (yy - zz)**2 + (zz - xx)**2) / 2
-                       + 3 * (yz**2 + xz**2 + xy**2))
-
     def picture(self, path: str | os.PathLike[str] | None = None) -> "Picture | None":
         """The stress on the deformed body as SVG, which a notebook shows; or into a file."""
         if path is not None:
