@@ -16,7 +16,7 @@ endif
 
 .PHONY: all build test reproduce reproduce-gpu gpu-studies report site bench clean dependencies
 .PHONY: verify-cpu verify-devices pages test-aarch64 fuzz mutants faults restarts flips valgrind
-.PHONY: sanitize coverage wheel
+.PHONY: sanitize coverage wheel archive
 
 # The program and its variants alone, without the tests.
 all: TARGETS := --target dssbench
@@ -208,6 +208,11 @@ report: dependencies
 site: export DSS_EXTRA_PACKAGES += mkdocs
 site: dependencies
 	@plots/make_site.py build/site
+
+# The committed tree with metadata for an archive such as Zenodo.
+archive: dependencies
+	@mkdir -p build
+	@/usr/bin/python3 plots/make_archive.py build/dssbench.zip
 
 bench: TARGETS := --target dssbench
 bench: build

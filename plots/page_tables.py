@@ -6,6 +6,7 @@ import json
 
 from body_tables import geometry_table, schedules_table, shapes_table
 from goal_tables import goals_table
+from tables import portability
 from tables.results import NotMeasured, Results
 from tables.words import speedup_over, with_interval
 
@@ -85,6 +86,14 @@ def gpu_table(results):
         lines.append([plate, f"{paper['two CPU processes']:.2f}", f"{paper['P100 alone']:.2f}",
                       *times])
     return ["plate", "paper: two CPU processes", "P100", "`avx512`, 16 threads", "H100"], lines
+
+
+def portability_table(results):
+    """Pennycook's metric over the machines whose results are here, for the largest plate."""
+    folders = [one.directory for one in (results, *results.others())]
+    frame = portability.efficiencies(folders)
+    heads, lines = portability.table_of(frame[frame["problem"].str.endswith(" n=200")])
+    return heads[1:], [line[1:] for line in lines]
 
 
 def network_table(results):
@@ -306,6 +315,6 @@ TABLES = {"chain": chain_table, "continuum": continuum_table,
           "exponential": exponential_table, "first": first_table, "geometry": geometry_table,
           "goals": goals_table, "gpu": gpu_table, "implicit": implicit_table,
           "machine": machine_table, "mix": mix_table, "models": models_table,
-          "networks": network_table, "problem": problem_table, "schedules": schedules_table,
-          "shapes": shapes_table, "sizes": sizes_table, "statics": statics_table,
-          "verification": verification_table}
+          "networks": network_table, "portability": portability_table, "problem": problem_table,
+          "schedules": schedules_table, "shapes": shapes_table, "sizes": sizes_table,
+          "statics": statics_table, "verification": verification_table}
