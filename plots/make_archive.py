@@ -21,8 +21,9 @@ from tables.results import ROOT, study_of
 
 METADATA = "ro-crate-metadata.json"
 CRATE, PROFILE = "https://w3id.org/ro/crate/1.1", "https://w3id.org/ro/wfrun/process/0.5"
-KINDS = {".csv": "text/csv", ".json": "application/json", ".md": "text/markdown",
-         ".cff": "application/yaml"}
+AUTHORS = "#authors"
+KINDS = {"": "text/plain", ".csv": "text/csv", ".json": "application/json",
+         ".md": "text/markdown", ".cff": "application/yaml"}
 PAGES = ("README.md", "ARTIFACT.md", "DESIGN.md", "HACKING.md", "CITATION.cff", "LICENSE")
 FOLDERS = {"kernels": "the equations of motion", "solver": "the solver core and the oracle",
            "variants": "the solver for each kind of machine", "experiments": "scenes and studies",
@@ -36,15 +37,15 @@ def git(*words):
                           env={**os.environ, "TZ": "UTC"}).stdout.strip()
 
 
-def reference(name):
-    """A reference to an entity, or references."""
-    return [{"@id": one} for one in name] if isinstance(name, list) else {"@id": name}
+def reference(*names):
+    """References to entities; one of them is no list."""
+    found = [{"@id": name} for name in names]
+    return found[0] if len(found) == 1 else found
 
 
 def file_entity(name):
     """A file of the tree."""
-    kind = KINDS.get(pathlib.Path(name).suffix)
-    return {"@id": name, "@type": "File", **({"encodingFormat": kind} if kind else {})}
+    return {"@id": name, "@type": "File", "encodingFormat": KINDS[pathlib.Path(name).suffix]}
 
 
 def citation():
@@ -54,7 +55,7 @@ def citation():
 
 
 def action_of(path, files):
-    """A study as measured: an action with its program, its input and its results.
+    """A study as measured: an action with its program, its input and its results; their files.
 
     A record knows when its repetitions ended, so the action has no time of its start.
     """
@@ -62,17 +63,18 @@ def action_of(path, files):
     study, place = study_of(record.name), folder.relative_to(ROOT)
     tables = sorted(table for table in (folder / "tables").glob("*.csv")
                     if study_of(table.stem) == study)
-    made = [str(name.relative_to(ROOT)) for name in (path, path.with_suffix(".csv"), *tables)]
+    made = [name for name in (str(one.relative_to(ROOT))
+                              for one in (path, path.with_suffix(".csv"), *tables))
+            if name in files]
     inputs = [name for name in files
               if re.fullmatch(rf"experiments/studies/\w+/{study}\.json", name)]
     context = record.context
     return {"@id": f"#{place}/{record.name}", "@type": "CreateAction",
             "name": f"the study {record.name} in {place}", "endTime": record.last.isoformat(),
             "instrument": reference(f"#dssbench-{record.commit}{'-changed' * record.is_dirty}"),
-            "object": reference(inputs),
-            "result": reference([name for name in made if name in files]),
+            "agent": reference(AUTHORS), "object": reference(*inputs), "result": reference(*made),
             "description": f"measured on {context['num_cpus']} cores of {context['cpu_model']}, "
-                           f"{context['compiler']}"}
+                           f"{context['compiler']}"}, [*inputs, *made]
 
 
 def is_study(path):
@@ -82,15 +84,15 @@ def is_study(path):
 
 def crate_of(files, commit, date):
     """The metadata of a commit. files: all names of the tree"""
-    about, parts = citation(), [name for name in PAGES if name in files]
-    actions = [action_of(path, files) for path in sorted((ROOT / "results").rglob("raw/*.json"))
-               if str(path.relative_to(ROOT)) in files and is_study(path)]
-    for action in actions:
-        parts += [one["@id"] for key in ("object", "result") for one in action[key]]
+    about, parts, actions = citation(), [name for name in PAGES if name in files], []
+    for path in sorted((ROOT / "results").rglob("raw/*.json")):
+        if str(path.relative_to(ROOT)) in files and is_study(path):
+            action, named = action_of(path, files)
+            actions.append(action)
+            parts += named
     parts = list(dict.fromkeys(parts))
     programs = list(dict.fromkeys(action["instrument"]["@id"] for action in actions))
     folders = [f"{name}/" for name in FOLDERS]
-    authors = "#authors"
     graph = [
         {"@id": METADATA, "@type": "CreativeWork", "conformsTo": reference(CRATE),
          "about": reference("./")},
@@ -98,13 +100,13 @@ def crate_of(files, commit, date):
          "description": f"Program, studies and results at commit {commit}.",
          "datePublished": date, "license": reference(f"https://spdx.org/licenses/"
                                                      f"{about['license']}"),
-         "conformsTo": reference([PROFILE]), "author": reference([authors]),
-         "hasPart": reference([*parts, *folders]),
-         "mentions": reference([action["@id"] for action in actions])},
+         "conformsTo": reference(PROFILE), "author": reference(AUTHORS),
+         "publisher": reference(AUTHORS), "hasPart": reference(*parts, *folders),
+         "mentions": reference(*(action["@id"] for action in actions))},
         {"@id": f"https://spdx.org/licenses/{about['license']}", "@type": "CreativeWork",
          "name": about["license"]},
         {"@id": PROFILE, "@type": "CreativeWork", "name": "Process Run Crate", "version": "0.5"},
-        {"@id": authors, "@type": "Organization", "name": "The dssbench authors"}]
+        {"@id": AUTHORS, "@type": "Organization", "name": "The dssbench authors"}]
     graph += [{"@id": f"{name}/", "@type": "Dataset", "name": name, "description": words}
               for name, words in FOLDERS.items()]
     graph += [{"@id": name, "@type": "SoftwareApplication", "name": "dssbench",

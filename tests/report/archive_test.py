@@ -88,8 +88,7 @@ class Archive(unittest.TestCase):
 
     def test_a_study_names_its_program_its_input_and_its_results(self):
         action = self.entities["#results/table1"]
-        self.assertEqual(action["object"],
-                         [{"@id": "experiments/studies/speedup/table1.json"}])
+        self.assertEqual(action["object"], {"@id": "experiments/studies/speedup/table1.json"})
         results = [one["@id"] for one in action["result"]]
         self.assertIn("results/raw/table1.csv", results)
         self.assertIn("results/tables/table1.csv", results)
