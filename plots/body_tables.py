@@ -2,7 +2,7 @@
 import json
 from dataclasses import dataclass
 
-from tables.results import ROOT
+from tables.results import ROOT, is_pair
 from tables.words import speedup_over
 
 
@@ -10,7 +10,7 @@ def bodies_of(results, *needed, optional=()):
     """Yields (name, scene, rows) of each body of `geometry` on one rank, in its order."""
     frame = results.table("geometry", "scene", "set", "variant", "threads", "ranks", "label",
                           *needed, optional=optional)
-    frame = frame[~frame["label"].str.contains("A/A") & (frame["ranks"] == 1)].copy()
+    frame = frame[~is_pair(frame) & (frame["ranks"] == 1)].copy()
     frame["set"] = frame["set"].fillna("")
     for (scene, values), rows in frame.groupby(["scene", "set"], sort=False):
         yield f"`{scene.split('/')[-1]}` {values}".strip(), scene, rows

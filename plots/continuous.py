@@ -11,7 +11,7 @@ import json
 import pathlib
 import sys
 
-from tables.results import NotMeasured, Results
+from tables.results import NotMeasured, Results, is_pair
 
 COLUMNS = ("label", "experiment", "scene", "variant", "model", "precision", "integrator",
            "threads", "ranks", "steps", "measured_wall_s", "measured_wall_low_s",
@@ -40,8 +40,7 @@ def entries_of(results, table):
     frame = Results(results).table(table, *COLUMNS, optional=("set", "halo"))
     raw = json.loads((results / "raw" / f"{table}.json").read_text(encoding="utf-8"))["context"]
     extra = f"commit {raw['git_commit']}, {raw['cpu_model']}"
-    is_twin = frame["label"].str.endswith("(A/A)")  # measured once more, for the resolution
-    good = frame[(frame["status"] == "ok") & frame["measured_wall_low_s"].notna() & ~is_twin]
+    good = frame[(frame["status"] == "ok") & frame["measured_wall_low_s"].notna() & ~is_pair(frame)]
     return [entry_of(row, extra) for _, row in good.iterrows()], len(frame) - len(good)
 
 

@@ -7,7 +7,7 @@ import json
 from body_tables import geometry_table, schedules_table, shapes_table
 from goal_tables import goals_table
 from tables import portability
-from tables.results import NotMeasured, Results
+from tables.results import NotMeasured, Results, is_pair
 from tables.words import speedup_over, with_interval
 
 
@@ -46,7 +46,7 @@ def first_table(results):
     frame = results.table("table1", "source", "label", "variant", "threads", "ranks", "status",
                           "contaminated", "repetitions", "measured_wall_s", "steps")
     frame = frame[(frame["source"] == "measured") & (frame["ranks"] == 1)
-                  & ~frame["label"].str.contains("A/A") & (frame["status"] == "ok")]
+                  & ~is_pair(frame) & (frame["status"] == "ok")]
     bases = ("as_published", "reference", "scalar")
 
     lines = [[row["label"], f"{1e3 * row['measured_wall_s'] / row['steps']:.3g}",

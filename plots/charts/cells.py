@@ -4,7 +4,7 @@ import re
 import pandas
 from description import (Axis, Chart, Filter, Look, Panel, Series, by_order, colours_of, guide,
                          keys_of, looks_of)
-from tables.results import NotMeasured
+from tables.results import NotMeasured, is_pair
 from tables.words import is_missing, shown
 
 VARIANT_COLOURS = {"reference": "#999999", "scalar": "#E69F00", "scalar-native": "#56B4E9",
@@ -24,11 +24,6 @@ STEPS = 10000  # in the paper's figure 9
 def ends_of(column):
     """The columns of the interval of a column."""
     return f"{column}_low", f"{column}_high"
-
-
-def is_pair(frame):
-    """Rows of an A/A pair: one cell measured as if it were two."""
-    return frame["label"].fillna("").str.contains("A/A", regex=False)
 
 
 def base_of(frame, table):

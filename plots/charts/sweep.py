@@ -1,7 +1,7 @@
 """The chart of a sweep: the rate of each cell over the override that has several values."""
 import pandas
 from description import Axis, Chart, Filter, Panel, Series, keys_of, looks_of
-from tables.results import NotMeasured
+from tables.results import NotMeasured, is_pair
 
 from . import cells
 
@@ -15,7 +15,7 @@ def measured_rates(results, table):
         *cells.PROBLEM, "check", "element_steps_per_s", "measured_wall_s", *ENDS, "repetitions"])
     frame = frame[(frame["source"] == "measured") & (frame["status"] == "ok")
                   & (frame["check"] != "failed") & frame["element_steps_per_s"].notna()
-                  & ~cells.is_pair(frame)].copy()
+                  & ~is_pair(frame)].copy()
     frame["rate"] = frame["element_steps_per_s"] / 1e6
     for end, of_time in zip(("low", "high"), reversed(ENDS)):
         frame[f"rate_{end}"] = frame["rate"] * frame["measured_wall_s"] / frame[of_time]

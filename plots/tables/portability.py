@@ -11,7 +11,7 @@ import re
 
 import pandas
 
-from .results import NotMeasured, Results
+from .results import NotMeasured, Results, is_pair
 from .words import is_missing, plain, problem, with_interval
 
 PROBLEM = ["scene", "set", "model", "precision", "integrator"]
@@ -55,7 +55,7 @@ def rates_of(results, table):
         context = json.loads(path.read_text(encoding="utf-8"))["context"]
         rows = frame[(frame["status"] == "ok") & frame["measured_wall_low_s"].notna()
                      & (frame["variant"] != "hybrid")
-                     & ~frame["label"].str.contains("A/A", regex=False)].copy()
+                     & ~is_pair(frame)].copy()
         rows["platform"] = [platform_of(row, context) for _, row in rows.iterrows()]
         rows["commit"] = context["git_commit"][:8]
     except (NotMeasured, OSError, ValueError) as fault:

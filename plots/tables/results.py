@@ -88,6 +88,11 @@ class Results:
         return sorted((self.directory / "figures").glob("*.png"))
 
 
+def is_pair(frame):
+    """Rows of an A/A pair: one cell measured as if it were two."""
+    return frame["label"].fillna("").str.contains("A/A", regex=False)
+
+
 def studies():
     """Names of the studies that `dssbench list experiments` shows."""
     return sorted(path.stem for path in (ROOT / "experiments" / "studies").glob("*/*.json"))
